@@ -1,0 +1,44 @@
+// Errors as values. A function that can fail on its input returns Result<T>; broken contracts assert.
+#pragma once
+#include <cassert>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace sdf {
+
+/// What kind of input was wrong. The programs turn it into their exit code.
+enum class ErrorKind { Usage = 2, Scene = 3, Limits = 4, Files = 5, Interrupted = 130 };
+
+/// One line for the user: what is wrong, where, and what to do.
+struct Error {
+  ErrorKind kind;
+  std::string message;
+};
+
+/// Either a T or the Error that stood in its way.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::move(value)) {}        // NOLINT: implicit by design
+  Result(Error error) : state_(std::move(error)) {}    // NOLINT
+  bool ok() const { return state_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+  T& value() & { assert(ok()); return std::get<0>(state_); }
+  const T& value() const& { assert(ok()); return std::get<0>(state_); }
+  T&& value() && { assert(ok()); return std::get<0>(std::move(state_)); }
+  T* operator->() { return &value(); }
+  const T* operator->() const { return &value(); }
+  T& operator*() & { return value(); }
+  const T& operator*() const& { return value(); }
+  const Error& error() const { assert(!ok()); return std::get<1>(state_); }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+/// Result of something that yields no value.
+using Status = Result<std::monostate>;
+inline Status okStatus() { return std::monostate{}; }
+
+}  // namespace sdf

@@ -1,0 +1,103 @@
+// The one dispatch from an operation code to its function, for any number type.
+//
+//   dispatch(op, [&](auto tag) { ... apply<tag.op>(a, b) ... });
+//
+// Re-included once per SIMD target by Highway's foreach_target; the number type's functions must be visible before.
+#if defined(SDF_EXPR_APPLY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_EXPR_APPLY_INL_H
+#undef SDF_EXPR_APPLY_INL_H
+#else
+#define SDF_EXPR_APPLY_INL_H
+#endif
+
+#include <cassert>
+
+#include "sdf/expr/op.h"
+#include "sdf/number/dual-inl.h"
+
+#ifdef HWY_NAMESPACE
+HWY_BEFORE_NAMESPACE();
+namespace sdf {
+namespace HWY_NAMESPACE {
+#else
+namespace sdf {
+#endif
+
+template <Op kOp>
+struct OpTag {
+  static constexpr Op op = kOp;
+  static constexpr int arity = sdf::arity(kOp);
+};
+
+/// apply<op>(a, …): the operation's function, found for the arguments' type. Takes exactly arity(op) arguments.
+template <Op op>
+struct Apply;
+#define SDF_UNARY(name, call)          \
+  template <>                          \
+  struct Apply<Op::name> {             \
+    template <class T>                 \
+    static T of(const T& a) { return call(a); } \
+  };
+#define SDF_BINARY(name, call)                                 \
+  template <>                                                  \
+  struct Apply<Op::name> {                                     \
+    template <class T>                                         \
+    static T of(const T& a, const T& b) { return call(a, b); } \
+  };
+#define SDF_TERNARY(name, call)                                               \
+  template <>                                                                 \
+  struct Apply<Op::name> {                                                    \
+    template <class T>                                                        \
+    static T of(const T& a, const T& b, const T& c) { return call(a, b, c); } \
+  };
+#define SDF_FUSED(name, arity, body)                                                                     \
+  template <>                                                                                            \
+  struct Apply<Op::name> {                                                                               \
+    template <class T>                                                                                   \
+    static T of(const T& a, const T& b, const T& c = T{}, const T& d = T{}, const T& e = T{}, const T& f = T{}) { \
+      (void)c, (void)d, (void)e, (void)f;                                                                \
+      return body;                                                                                       \
+    }                                                                                                    \
+  };
+#include "sdf/expr/ops.def"
+
+template <Op op, class... Ts>
+auto apply(const Ts&... args) {
+  return Apply<op>::of(args...);
+}
+
+/// Calls f with the tag of `op`, which must not be a leaf.
+template <class F>
+void dispatch(Op op, F&& f) {
+  switch (op) {
+#define SDF_UNARY(name, call) \
+  case Op::name: return f(OpTag<Op::name>{});
+#define SDF_BINARY SDF_UNARY
+#define SDF_TERNARY SDF_UNARY
+#define SDF_FUSED(name, arity, body) SDF_UNARY(name, body)
+#include "sdf/expr/ops.def"
+    default: assert(!"dispatch: not an operation");
+  }
+}
+
+/// The value of `op` where args(i) yields its i-th argument.
+template <class T, class Args>
+T evaluateOp(Op op, Args&& args) {
+  T result{};
+  dispatch(op, [&](auto tag) {
+    if constexpr (tag.arity == 1) result = apply<tag.op>(args(0));
+    if constexpr (tag.arity == 2) result = apply<tag.op>(args(0), args(1));
+    if constexpr (tag.arity == 3) result = apply<tag.op>(args(0), args(1), args(2));
+    if constexpr (tag.arity == 6) result = apply<tag.op>(args(0), args(1), args(2), args(3), args(4), args(5));
+  });
+  return result;
+}
+
+#ifdef HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace sdf
+HWY_AFTER_NAMESPACE();
+#else
+}  // namespace sdf
+#endif
+#endif  // per-target guard

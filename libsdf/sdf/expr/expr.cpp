@@ -1,0 +1,338 @@
+#include "sdf/expr/expr.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "sdf/expr/apply-inl.h"
+
+namespace sdf {
+
+inline constexpr int kMaxGraphArity = 3;
+
+class Node {
+ public:
+  Op op = Op::Constant;
+  Variable variable = Variable::X;
+  double value = 0.0;
+  std::unique_ptr<ParameterInfo> parameter;
+  std::array<const Node*, kMaxGraphArity> args{};
+  std::size_t hash = 0;
+  Interval range;
+  mutable std::atomic<double> lipschitz{0.0};
+  mutable std::atomic<int> references{1};
+};
+
+namespace {
+
+std::size_t combine(std::size_t h, std::size_t v) { return (h ^ v) * 0x9E3779B97F4A7C15ull + (h >> 29); }
+
+std::size_t hashOf(const Node& n) {
+  std::size_t h = combine(static_cast<std::size_t>(n.op) + 1, std::bit_cast<std::uint64_t>(n.value));
+  h = combine(h, static_cast<std::size_t>(n.variable));
+  if (n.parameter) h = combine(h, std::hash<std::string>()(n.parameter->name));
+  for (const Node* a : n.args) h = combine(h, reinterpret_cast<std::size_t>(a));
+  return h;
+}
+
+struct Hash {
+  std::size_t operator()(const Node* n) const { return n->hash; }
+};
+struct Same {
+  bool operator()(const Node* a, const Node* b) const {
+    return a->op == b->op && a->variable == b->variable &&
+           std::bit_cast<std::uint64_t>(a->value) == std::bit_cast<std::uint64_t>(b->value) && a->args == b->args &&
+           (a->parameter ? b->parameter && *a->parameter == *b->parameter : !b->parameter);
+  }
+};
+
+using Fact = Dual<Interval, 1>;  // range and slope, over all of space
+
+Fact factOf(const Node& n) {
+  const double l = n.lipschitz;
+  return {n.range, {Interval(-l, l)}};
+}
+
+void setFacts(Node& n) {
+  switch (n.op) {
+    case Op::Constant: n.range = Interval(n.value); return;
+    case Op::Parameter:
+      n.range = hull(Interval(std::min(n.parameter->min, n.parameter->max), std::max(n.parameter->min, n.parameter->max)),
+                     Interval(n.parameter->value));
+      return;
+    case Op::Variable: {
+      const bool coordinate = n.variable <= Variable::Z;
+      const double inf = Interval::everything().hi;
+      n.range = coordinate ? Interval(-inf, inf) : Interval(-1.0, 1.0);
+      n.lipschitz = coordinate ? 1.0 : inf;
+      return;
+    }
+    default: break;
+  }
+  const Fact fact = evaluateOp<Fact>(n.op, [&](int i) { return factOf(*n.args[i]); });
+  n.range = fact.v;
+  n.lipschitz = fact.d[0].magnitude();
+}
+
+}  // namespace
+
+// Every live node, so that equal nodes are found again. References from here are not counted: a node leaves as its last
+// handle goes. The last reference is dropped under the lock, so no look-up can revive a node that is being deleted.
+class NodeTable {
+ public:
+  static NodeTable& instance() {
+    static auto* table = new NodeTable;  // outlives every static Expr
+    return *table;
+  }
+
+  Expr intern(std::unique_ptr<Node> n) {
+    n->hash = hashOf(*n);
+    std::lock_guard lock(mutex_);
+    if (auto it = nodes_.find(n.get()); it != nodes_.end()) {
+      retain(*it);
+      return Expr(*it);
+    }
+    setFacts(*n);
+    for (const Node* a : n->args)
+      if (a) retain(a);
+    const Node* node = n.release();
+    nodes_.insert(node);
+    return Expr(node);
+  }
+
+  static void retain(const Node* n) { n->references.fetch_add(1, std::memory_order_relaxed); }
+
+  static void release(const Node* n) {
+    int count = n->references.load(std::memory_order_relaxed);
+    while (count > 1)
+      if (n->references.compare_exchange_weak(count, count - 1, std::memory_order_acq_rel)) return;
+    instance().releaseLast(n);
+  }
+
+ private:
+  // Deep graphs are taken down with an explicit stack.
+  void releaseLast(const Node* first) {
+    std::lock_guard lock(mutex_);
+    std::vector<const Node*> pending{first};
+    while (!pending.empty()) {
+      const Node* n = pending.back();
+      pending.pop_back();
+      if (n->references.fetch_sub(1, std::memory_order_acq_rel) > 1) continue;
+      nodes_.erase(n);
+      for (const Node* a : n->args)
+        if (a) pending.push_back(a);
+      delete n;
+    }
+  }
+
+  std::mutex mutex_;
+  std::unordered_set<const Node*, Hash, Same> nodes_;
+};
+
+Expr::Expr(double value) : node_(nullptr) {
+  auto n = std::make_unique<Node>();
+  n->value = value;
+  *this = NodeTable::instance().intern(std::move(n));
+}
+Expr::Expr(const Expr& other) noexcept : node_(other.node_) {
+  if (node_) NodeTable::retain(node_);
+}
+Expr::Expr(Expr&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
+Expr& Expr::operator=(Expr other) noexcept {
+  std::swap(node_, other.node_);
+  return *this;
+}
+Expr::~Expr() {
+  if (node_) NodeTable::release(node_);
+}
+
+Expr Expr::variable(Variable v) {
+  auto n = std::make_unique<Node>();
+  n->op = Op::Variable;
+  n->variable = v;
+  return NodeTable::instance().intern(std::move(n));
+}
+
+Expr Expr::parameter(const ParameterInfo& info) {
+  auto n = std::make_unique<Node>();
+  n->op = Op::Parameter;
+  n->parameter = std::make_unique<ParameterInfo>(info);
+  return NodeTable::instance().intern(std::move(n));
+}
+
+namespace {
+
+// A simpler expression of the same meaning, NaN and infinity included, or the null node's absence.
+const Expr* simplerBinary(Op op, const Expr& a, const Expr& b) {
+  switch (op) {
+    case Op::Add: return b.isConstant(0.0) ? &a : a.isConstant(0.0) ? &b : nullptr;
+    case Op::Sub: return b.isConstant(0.0) ? &a : nullptr;
+    case Op::Mul: return b.isConstant(1.0) ? &a : a.isConstant(1.0) ? &b : nullptr;
+    case Op::Div: return b.isConstant(1.0) ? &a : nullptr;
+    case Op::Min:
+    case Op::Max: return a == b ? &a : nullptr;
+    default: return nullptr;
+  }
+}
+
+bool simplifies(Op op, std::span<const Expr> args, Expr& simpler) {
+  const Expr& a = args[0];
+  if (args.size() == 2)
+    if (const Expr* same = simplerBinary(op, a, args[1])) return simpler = *same, true;
+  if (op == Op::Select && a.isConstant()) return simpler = a.constantValue() != 0.0 ? args[1] : args[2], true;
+  if (op == Op::Select && args[1] == args[2]) return simpler = args[1], true;
+  const bool signless = op == Op::Abs || op == Op::Square;
+  if (op == Op::Neg && a.op() == Op::Neg) return simpler = a.arg(0), true;
+  if (op == Op::Abs && a.op() == Op::Abs) return simpler = a, true;
+  if (signless && (a.op() == Op::Neg || (op == Op::Square && a.op() == Op::Abs))) {
+    const Expr inner = a.arg(0);
+    return simpler = Expr::make(op, {&inner, 1}), true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Expr Expr::make(Op op, std::span<const Expr> args) {
+  assert(static_cast<int>(args.size()) == arity(op) && arity(op) > 0 && !info(op).fused);
+  if (std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.isConstant(); }))
+    return evaluateOp<double>(op, [&](int i) { return args[i].constantValue(); });
+  Expr simpler;
+  if (simplifies(op, args, simpler)) return simpler;
+  auto n = std::make_unique<Node>();
+  n->op = op;
+  for (std::size_t i = 0; i < args.size(); ++i) n->args[i] = args[i].node_;
+  return NodeTable::instance().intern(std::move(n));
+}
+
+Op Expr::op() const { return node_->op; }
+Expr Expr::arg(int i) const {
+  NodeTable::retain(node_->args[i]);
+  return Expr(node_->args[i]);
+}
+double Expr::constantValue() const { return node_->value; }
+Variable Expr::variableIndex() const { return node_->variable; }
+const ParameterInfo& Expr::parameterInfo() const { return *node_->parameter; }
+const Interval& Expr::range() const { return node_->range; }
+double Expr::lipschitz() const { return node_->lipschitz; }
+const Expr& Expr::claimLipschitz(double bound) const {
+  double known = node_->lipschitz;
+  while (bound < known && !node_->lipschitz.compare_exchange_weak(known, bound)) {
+  }
+  return *this;
+}
+
+namespace {
+Expr make1(Op op, const Expr& a) { return Expr::make(op, {&a, 1}); }
+Expr make2(Op op, const Expr& a, const Expr& b) { return Expr::make(op, std::array{a, b}); }
+}  // namespace
+
+#define SDF_UNARY(name, call) \
+  Expr call(const Expr& a) { return make1(Op::name, a); }
+#define SDF_BINARY(name, call) \
+  Expr call(const Expr& a, const Expr& b) { return make2(Op::name, a, b); }
+#define SDF_TERNARY(name, call) \
+  Expr call(const Expr& a, const Expr& b, const Expr& c) { return Expr::make(Op::name, std::array{a, b, c}); }
+#include "sdf/expr/ops.def"
+
+Expr operator-(const Expr& a) { return neg(a); }
+Expr operator+(const Expr& a, const Expr& b) { return add(a, b); }
+Expr operator-(const Expr& a, const Expr& b) { return sub(a, b); }
+Expr operator*(const Expr& a, const Expr& b) { return a == b ? square(a) : mul(a, b); }
+Expr operator/(const Expr& a, const Expr& b) { return div(a, b); }
+
+Expr clamp(const Expr& a, const Expr& lo, const Expr& hi) { return min(max(a, lo), hi); }
+Expr mix(const Expr& a, const Expr& b, const Expr& t) { return a == b ? a : a + (b - a) * t; }
+
+std::vector<Expr> topologicalOrder(std::span<const Expr> roots) {
+  std::vector<Expr> order;
+  std::unordered_set<const Node*> seen;
+  std::vector<std::pair<Expr, int>> stack;
+  for (const Expr& root : roots) {
+    if (!seen.insert(root.node()).second) continue;
+    stack.emplace_back(root, 0);
+    while (!stack.empty()) {
+      auto& [e, next] = stack.back();
+      if (next == arity(e.op())) {
+        order.push_back(e);
+        stack.pop_back();
+        continue;
+      }
+      Expr child = e.arg(next++);
+      if (seen.insert(child.node()).second) stack.emplace_back(std::move(child), 0);
+    }
+  }
+  return order;
+}
+
+bool dependsOnSpace(const Expr& e) {
+  const auto order = topologicalOrder({&e, 1});
+  return std::any_of(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Variable; });
+}
+
+double uniformValue(const Expr& e) {
+  std::unordered_map<const Node*, double> values;
+  for (const Expr& n : topologicalOrder({&e, 1})) {
+    assert(n.op() != Op::Variable);
+    double& v = values[n.node()];
+    if (n.op() == Op::Constant) v = n.constantValue();
+    else if (n.op() == Op::Parameter) v = n.parameterInfo().value;
+    else v = evaluateOp<double>(n.op(), [&](int i) { return values.at(n.arg(i).node()); });
+  }
+  return values.at(e.node());
+}
+
+namespace {
+
+// Rebuilds graphs with their leaves replaced by leaf(e); facts carry over, multiplied by `stretch`.
+template <class Leaf>
+std::vector<Expr> rebuild(std::span<const Expr> roots, double stretch, Leaf leaf) {
+  std::unordered_map<const Node*, Expr> made;
+  for (const Expr& n : topologicalOrder(roots)) {
+    Expr e;
+    const int count = arity(n.op());
+    if (count == 0) {
+      e = leaf(n);
+    } else {
+      std::array<Expr, kMaxGraphArity> args;
+      for (int i = 0; i < count; ++i) args[i] = made.at(n.arg(i).node());
+      e = Expr::make(n.op(), {args.data(), static_cast<std::size_t>(count)});
+    }
+    const double bound = n.lipschitz() * stretch;
+    if (bound == bound) e.claimLipschitz(bound);
+    made.emplace(n.node(), std::move(e));
+  }
+  std::vector<Expr> result;
+  for (const Expr& r : roots) result.push_back(made.at(r.node()));
+  return result;
+}
+
+}  // namespace
+
+std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch) {
+  return rebuild(es, stretch, [&](const Expr& leaf) {
+    const bool coordinate = leaf.op() == Op::Variable && leaf.variableIndex() <= Variable::Z;
+    return coordinate ? position[static_cast<int>(leaf.variableIndex())] : leaf;
+  });
+}
+
+Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch) {
+  return remap({&e, 1}, position, stretch).front();
+}
+
+Expr bind(const Expr& e, const std::map<std::string, double>& values) {
+  return rebuild({&e, 1}, 1.0, [&](const Expr& leaf) {
+           if (leaf.op() != Op::Parameter) return leaf;
+           const auto it = values.find(leaf.parameterInfo().name);
+           return it == values.end() ? leaf : Expr(it->second);
+         })
+      .front();
+}
+
+}  // namespace sdf

@@ -1,0 +1,110 @@
+// The expression graph: one hash-consed DAG of scalar operations that every reading of a scene starts from.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sdf/expr/op.h"
+#include "sdf/number/interval.h"
+
+namespace sdf {
+
+/// What an expression may depend on besides parameters: the position, and (for surface attributes) the unit normal.
+enum class Variable : std::uint8_t { X, Y, Z, NX, NY, NZ };
+inline constexpr int kVariableCount = 6;
+
+/// A named number that the user may change: its present value and the range it is meant for.
+struct ParameterInfo {
+  std::string name;
+  double value = 0.0;
+  double min = 0.0;
+  double max = 1.0;
+  bool operator==(const ParameterInfo&) const = default;
+};
+
+class Node;
+
+/// Handle to a node. Copying is cheap, equal graphs are the same node, and handles may be made and dropped on any thread.
+/// Building a node folds constants; identities that would change the meaning for NaN or infinity are not applied.
+class Expr {
+ public:
+  Expr(double value = 0.0);  // NOLINT: a number is an expression
+  Expr(const Expr& other) noexcept;
+  Expr(Expr&& other) noexcept;
+  Expr& operator=(Expr other) noexcept;
+  ~Expr();
+
+  static Expr variable(Variable v);
+  static Expr parameter(const ParameterInfo& info);
+  /// Node of `op` (not a leaf, not fused) with arity(op) arguments.
+  static Expr make(Op op, std::span<const Expr> args);
+
+  Op op() const;
+  Expr arg(int i) const;
+  double constantValue() const;               ///< op() == Constant
+  Variable variableIndex() const;             ///< op() == Variable
+  const ParameterInfo& parameterInfo() const; ///< op() == Parameter
+  bool isConstant() const { return op() == Op::Constant; }
+  bool isConstant(double v) const { return isConstant() && constantValue() == v; }
+
+  /// Encloses the expression's value over all of space and over every value of its parameters.
+  const Interval& range() const;
+  /// Proven L with |f(p) - f(q)| <= L |p - q| for all p, q and every value of the parameters in their ranges; infinite
+  /// where none is known. Derived from the arguments as the node is built, and lowered by claimLipschitz.
+  double lipschitz() const;
+  /// States a proven global Lipschitz bound for this function. Returns *this. Nodes built on it later inherit the fact.
+  const Expr& claimLipschitz(double bound) const;
+
+  /// Same node, that is the same function written the same way.
+  friend bool operator==(const Expr& a, const Expr& b) { return a.node_ == b.node_; }
+  const Node* node() const { return node_; }
+
+ private:
+  explicit Expr(const Node* node) : node_(node) {}  // takes over one reference
+  friend class NodeTable;
+  const Node* node_;
+};
+
+Expr operator-(const Expr& a);
+Expr operator+(const Expr& a, const Expr& b);
+Expr operator-(const Expr& a, const Expr& b);
+Expr operator*(const Expr& a, const Expr& b);
+Expr operator/(const Expr& a, const Expr& b);
+
+#define SDF_UNARY(name, call) Expr call(const Expr& a);
+#define SDF_BINARY(name, call) Expr call(const Expr& a, const Expr& b);
+#define SDF_TERNARY(name, call) Expr call(const Expr& a, const Expr& b, const Expr& c);
+#include "sdf/expr/ops.def"
+
+Expr clamp(const Expr& a, const Expr& lo, const Expr& hi);
+/// a + (b - a) t.
+Expr mix(const Expr& a, const Expr& b, const Expr& t);
+
+/// Every node of the graphs, arguments before their users, each once.
+std::vector<Expr> topologicalOrder(std::span<const Expr> roots);
+
+/// Does the expression depend on the position or the normal?
+bool dependsOnSpace(const Expr& e);
+/// Value of an expression that does not depend on space, with parameters at their present values.
+double uniformValue(const Expr& e);
+
+/// The expression with x, y, z replaced. `stretch` bounds the operator norm of the replacement's Jacobian: facts about
+/// Lipschitz constants carry over, multiplied by it; pass infinity where it is not known. Cost: the size of the graph.
+Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch);
+/// Several at once, sharing the work.
+std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch);
+
+/// The expression with parameters of these names set to these values (they become constants).
+Expr bind(const Expr& e, const std::map<std::string, double>& values);
+
+}  // namespace sdf
+
+template <>
+struct std::hash<sdf::Expr> {
+  std::size_t operator()(const sdf::Expr& e) const noexcept { return std::hash<const void*>()(e.node()); }
+};

@@ -1,0 +1,47 @@
+// Operation codes and what is known about each, expanded from ops.def.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace sdf {
+
+enum class Op : std::uint8_t {
+  Constant,   ///< leaf: a number
+  Variable,   ///< leaf: a coordinate of the position or of the normal
+  Parameter,  ///< leaf: a named number that the user may change
+#define SDF_UNARY(name, call) name,
+#define SDF_BINARY(name, call) name,
+#define SDF_TERNARY(name, call) name,
+#define SDF_FUSED(name, arity, body) name,
+#include "sdf/expr/ops.def"
+  Count
+};
+
+inline constexpr int kOpCount = static_cast<int>(Op::Count);
+inline constexpr int kMaxArity = 6;
+
+struct OpInfo {
+  std::string_view name;
+  int arity;
+  bool fused;  ///< made by the tape compiler, never found in a graph
+};
+
+inline constexpr OpInfo kOps[kOpCount] = {
+    {"Constant", 0, false},
+    {"Variable", 0, false},
+    {"Parameter", 0, false},
+#define SDF_UNARY(name, call) {#name, 1, false},
+#define SDF_BINARY(name, call) {#name, 2, false},
+#define SDF_TERNARY(name, call) {#name, 3, false},
+#define SDF_FUSED(name, arity, body) {#name, arity, true},
+#include "sdf/expr/ops.def"
+};
+
+constexpr const OpInfo& info(Op op) { return kOps[static_cast<int>(op)]; }
+constexpr int arity(Op op) { return info(op).arity; }
+
+/// Operations where one argument may win over a whole region, and the other be dropped.
+constexpr bool isChoice(Op op) { return op == Op::Min || op == Op::Max || op == Op::Select; }
+constexpr bool isComparison(Op op) { return op == Op::Less || op == Op::LessEqual || op == Op::Equal; }
+
+}  // namespace sdf

@@ -1,0 +1,37 @@
+// From a shape to a coloured triangle mesh, with its error measured.
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sdf/base/box.h"
+#include "sdf/base/progress.h"
+#include "sdf/base/result.h"
+#include "sdf/mesh/mesh.h"
+#include "sdf/shape/shape.h"
+
+namespace sdf {
+
+struct MeshOptions {
+  double voxelSize = 0.0;           ///< scene units; 0 takes 1/200 of the longest side of the bounds
+  std::optional<Box> bounds;        ///< clips the shape, closed and watertight
+  double maxMemory = 16.0 * (1ull << 30);  ///< bytes; refused (ErrorKind::Limits) if the estimate is above
+};
+
+struct MeshedShape {
+  Mesh mesh;
+  MeshStats stats;
+  std::vector<std::pair<std::string, double>> stageSeconds;
+};
+
+/// Box that contains the shape's surface: its own bounds, tightened or (for fields) found by interval arithmetic.
+/// Infinite sides remain where the shape is unbounded.
+Box findBounds(const Shape& shape);
+
+/// Meshes one shape. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the calling thread's
+/// oneTBB arena; the result does not depend on the number of threads. Errors: Scene (failed shape, unbounded, no surface),
+/// Limits (memory), Interrupted.
+Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options, Progress& progress);
+
+}  // namespace sdf

@@ -1,0 +1,221 @@
+// Dual numbers: a value and N exact partial derivatives (forward-mode differentiation; Clifford 1873, Wengert 1964).
+//
+// T is double, Interval, or a SIMD vector of lanes. At a crease one side's derivative is taken (for min and max the side
+// that gives the value); the derivative of sqrt at 0 is defined as 0, so length(max(q, 0)) has a gradient everywhere.
+// Over intervals the derivative encloses every derivative and every difference quotient, jumps included.
+//
+// Re-included once per SIMD target by Highway's foreach_target.
+#if defined(SDF_NUMBER_DUAL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_NUMBER_DUAL_INL_H
+#undef SDF_NUMBER_DUAL_INL_H
+#else
+#define SDF_NUMBER_DUAL_INL_H
+#endif
+
+#include "sdf/number/interval.h"
+#include "sdf/number/scalar.h"
+
+#ifdef HWY_NAMESPACE
+HWY_BEFORE_NAMESPACE();
+namespace sdf {
+namespace HWY_NAMESPACE {
+#else
+namespace sdf {
+#endif
+
+template <class T, int N>
+struct Dual {
+  T v;
+  T d[N];
+};
+
+/// f(a) given the value and the derivative of f at a.v.
+template <class T, int N>
+Dual<T, N> chain(const Dual<T, N>& a, const T& value, const T& slope) {
+  Dual<T, N> r{value, {}};
+  for (int i = 0; i < N; ++i) r.d[i] = mul(slope, a.d[i]);
+  return r;
+}
+
+/// f(a, b) given the value and both partial derivatives.
+template <class T, int N>
+Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const T& value, const T& slopeA, const T& slopeB) {
+  Dual<T, N> r{value, {}};
+  for (int i = 0; i < N; ++i) r.d[i] = mulAdd(slopeA, a.d[i], mul(slopeB, b.d[i]));
+  return r;
+}
+
+/// A value without a slope, or of unbounded slope where it jumps.
+template <class T, int N>
+Dual<T, N> step(const T& value) {
+  Dual<T, N> r{value, {}};
+  for (int i = 0; i < N; ++i) r.d[i] = stepSlope(value);
+  return r;
+}
+
+template <class T, int N>
+Dual<T, N> constant(const T& value) {
+  Dual<T, N> r{value, {}};
+  for (int i = 0; i < N; ++i) r.d[i] = T(0.0);
+  return r;
+}
+
+template <class T, int N>
+Dual<T, N> neg(const Dual<T, N>& a) {
+  Dual<T, N> r{neg(a.v), {}};
+  for (int i = 0; i < N; ++i) r.d[i] = neg(a.d[i]);
+  return r;
+}
+template <class T, int N>
+Dual<T, N> abs(const Dual<T, N>& a) {
+  return chain(a, abs(a.v), select(less(a.v, T(0.0)), T(-1.0), T(1.0)));
+}
+template <class T, int N>
+Dual<T, N> sqrt(const Dual<T, N>& a) {
+  const T root = sqrt(a.v);
+  return chain(a, root, select(less(T(0.0), root), div(T(0.5), root), T(0.0)));
+}
+template <class T, int N>
+Dual<T, N> square(const Dual<T, N>& a) {
+  return chain(a, square(a.v), add(a.v, a.v));
+}
+template <class T, int N>
+Dual<T, N> sin(const Dual<T, N>& a) {
+  return chain(a, sin(a.v), cos(a.v));
+}
+template <class T, int N>
+Dual<T, N> cos(const Dual<T, N>& a) {
+  return chain(a, cos(a.v), neg(sin(a.v)));
+}
+template <class T, int N>
+Dual<T, N> tan(const Dual<T, N>& a) {
+  const T t = tan(a.v);
+  return chain(a, t, add(T(1.0), square(t)));
+}
+template <class T, int N>
+Dual<T, N> asin(const Dual<T, N>& a) {
+  return chain(a, asin(a.v), div(T(1.0), sqrt(sub(T(1.0), square(a.v)))));
+}
+template <class T, int N>
+Dual<T, N> acos(const Dual<T, N>& a) {
+  return chain(a, acos(a.v), div(T(-1.0), sqrt(sub(T(1.0), square(a.v)))));
+}
+template <class T, int N>
+Dual<T, N> atan(const Dual<T, N>& a) {
+  return chain(a, atan(a.v), div(T(1.0), add(T(1.0), square(a.v))));
+}
+template <class T, int N>
+Dual<T, N> exp(const Dual<T, N>& a) {
+  const T e = exp(a.v);
+  return chain(a, e, e);
+}
+template <class T, int N>
+Dual<T, N> log(const Dual<T, N>& a) {
+  return chain(a, log(a.v), div(T(1.0), a.v));
+}
+template <class T, int N>
+Dual<T, N> floor(const Dual<T, N>& a) {
+  return step<T, N>(floor(a.v));
+}
+template <class T, int N>
+Dual<T, N> ceil(const Dual<T, N>& a) {
+  return step<T, N>(ceil(a.v));
+}
+template <class T, int N>
+Dual<T, N> round(const Dual<T, N>& a) {
+  return step<T, N>(round(a.v));
+}
+template <class T, int N>
+Dual<T, N> add(const Dual<T, N>& a, const Dual<T, N>& b) {
+  Dual<T, N> r{add(a.v, b.v), {}};
+  for (int i = 0; i < N; ++i) r.d[i] = add(a.d[i], b.d[i]);
+  return r;
+}
+template <class T, int N>
+Dual<T, N> sub(const Dual<T, N>& a, const Dual<T, N>& b) {
+  Dual<T, N> r{sub(a.v, b.v), {}};
+  for (int i = 0; i < N; ++i) r.d[i] = sub(a.d[i], b.d[i]);
+  return r;
+}
+template <class T, int N>
+Dual<T, N> mul(const Dual<T, N>& a, const Dual<T, N>& b) {
+  return chain(a, b, mul(a.v, b.v), b.v, a.v);
+}
+template <class T, int N>
+Dual<T, N> div(const Dual<T, N>& a, const Dual<T, N>& b) {
+  const T q = div(a.v, b.v), inverse = div(T(1.0), b.v);
+  return chain(a, b, q, inverse, neg(mul(q, inverse)));
+}
+template <class T, int N>
+Dual<T, N> min(const Dual<T, N>& a, const Dual<T, N>& b) {
+  const T first = less(a.v, b.v);
+  Dual<T, N> r{min(a.v, b.v), {}};
+  for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
+  return r;
+}
+template <class T, int N>
+Dual<T, N> max(const Dual<T, N>& a, const Dual<T, N>& b) {
+  const T first = less(b.v, a.v);
+  Dual<T, N> r{max(a.v, b.v), {}};
+  for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
+  return r;
+}
+template <class T, int N>
+Dual<T, N> pow(const Dual<T, N>& a, const Dual<T, N>& b) {
+  const T p = pow(a.v, b.v);
+  const T slopeA = mul(b.v, pow(a.v, sub(b.v, T(1.0))));
+  // d/db = p ln a; where a <= 0 the exponent can only be a constant, and its slope does not count.
+  const T slopeB = select(less(T(0.0), a.v), mul(p, log(a.v)), T(0.0));
+  return chain(a, b, p, slopeA, slopeB);
+}
+template <class T, int N>
+Dual<T, N> atan2(const Dual<T, N>& y, const Dual<T, N>& x) {
+  const T square2 = squareAdd(x.v, square(y.v));
+  const T inverse = select(less(T(0.0), square2), div(T(1.0), square2), T(0.0));
+  return chain(y, x, atan2(y.v, x.v), mul(x.v, inverse), neg(mul(y.v, inverse)));
+}
+template <class T, int N>
+Dual<T, N> mod(const Dual<T, N>& a, const Dual<T, N>& b) {
+  const T turns = floor(div(a.v, b.v));
+  Dual<T, N> r = chain(a, b, mod(a.v, b.v), T(1.0), neg(turns));
+  const T jump = stepSlope(turns);
+  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump);
+  return r;
+}
+template <class T, int N>
+Dual<T, N> less(const Dual<T, N>& a, const Dual<T, N>& b) {
+  return step<T, N>(less(a.v, b.v));
+}
+template <class T, int N>
+Dual<T, N> lessEqual(const Dual<T, N>& a, const Dual<T, N>& b) {
+  return step<T, N>(lessEqual(a.v, b.v));
+}
+template <class T, int N>
+Dual<T, N> equal(const Dual<T, N>& a, const Dual<T, N>& b) {
+  return step<T, N>(equal(a.v, b.v));
+}
+template <class T, int N>
+Dual<T, N> select(const Dual<T, N>& c, const Dual<T, N>& a, const Dual<T, N>& b) {
+  Dual<T, N> r{select(c.v, a.v, b.v), {}};
+  for (int i = 0; i < N; ++i) r.d[i] = choiceSlope(c.v, a.d[i], b.d[i]);
+  return r;
+}
+template <class T, int N>
+Dual<T, N> mulAdd(const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c) {
+  return add(mul(a, b), c);
+}
+template <class T, int N>
+Dual<T, N> squareAdd(const Dual<T, N>& a, const Dual<T, N>& c) {
+  Dual<T, N> r = add(square(a), c);
+  r.v = squareAdd(a.v, c.v);
+  return r;
+}
+
+#ifdef HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace sdf
+HWY_AFTER_NAMESPACE();
+#else
+}  // namespace sdf
+#endif
+#endif  // per-target guard

@@ -1,0 +1,276 @@
+#include "sdf/number/interval.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace sdf {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kLibraryUlps = 2;
+
+// The next double towards +infinity (Steele & Vigna's bit trick: doubles order as their bits do).
+double up(double x) {
+  if (!(x < kInf)) return x;
+  if (x == 0.0) return std::numeric_limits<double>::denorm_min();
+  const auto bits = std::bit_cast<std::int64_t>(x);
+  return std::bit_cast<double>(bits + (bits >= 0 ? 1 : -1));
+}
+
+double upBy(double x, int ulps) {
+  for (int i = 0; i < ulps; ++i) x = up(x);
+  return x;
+}
+double downBy(double x, int ulps) { return -upBy(-x, ulps); }
+
+Interval outward(double lo, double hi, bool nan, int ulps = 1) {
+  if (lo != lo || hi != hi) return {-kInf, kInf, true};
+  return {downBy(lo, ulps), upBy(hi, ulps), nan};
+}
+
+bool containsZero(const Interval& a) { return a.lo <= 0.0 && a.hi >= 0.0; }
+bool touchesInfinity(const Interval& a) { return a.lo == -kInf || a.hi == kInf; }
+
+Interval clampTo(const Interval& a, double lo, double hi) {
+  return {std::clamp(a.lo, lo, hi), std::clamp(a.hi, lo, hi), a.nan};
+}
+
+// Endpoint products, where 0 · inf counts as 0 (the NaN it may be is flagged by the caller).
+double product(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
+
+// sin over [lo, hi] shifted by `phase`: does a crest (at pi/2 + 2 pi n - phase) lie inside? `slack` covers the rounding
+// of the division, so that a crest near an end is never missed.
+bool hasCrest(double lo, double hi, double crest) {
+  const double a = (lo - crest) / (2.0 * kPi), b = (hi - crest) / (2.0 * kPi);
+  const double slack = 1e-15 * (1.0 + std::max(std::abs(a), std::abs(b)));
+  return std::floor(b + slack) >= std::ceil(a - slack);
+}
+
+template <class F>
+Interval wave(const Interval& a, F f, double crest, double trough) {
+  // Beyond 1e9 the slack above outgrows its purpose; the range is all that is worth saying.
+  if (touchesInfinity(a)) return {-1.0, 1.0, true};
+  if (a.hi - a.lo >= 2.0 * kPi || std::abs(a.lo) > 1e9 || std::abs(a.hi) > 1e9) return {-1.0, 1.0, a.nan};
+  const double u = f(a.lo), v = f(a.hi);
+  Interval r = outward(std::min(u, v), std::max(u, v), a.nan, kLibraryUlps);
+  if (hasCrest(a.lo, a.hi, crest)) r.hi = 1.0;
+  if (hasCrest(a.lo, a.hi, trough)) r.lo = -1.0;
+  return clampTo(r, -1.0, 1.0);
+}
+
+template <class F>
+Interval increasing(const Interval& a, F f) {
+  return outward(f(a.lo), f(a.hi), a.nan, kLibraryUlps);
+}
+
+Interval truth(bool canBeFalse, bool canBeTrue) {
+  return {canBeFalse ? 0.0 : 1.0, canBeTrue ? 1.0 : 0.0};
+}
+
+bool isInteger(double x) { return std::floor(x) == x; }
+
+}  // namespace
+
+Interval Interval::everything() { return {-kInf, kInf, true}; }
+double Interval::magnitude() const { return std::max(std::abs(lo), std::abs(hi)); }
+
+Interval hull(const Interval& a, const Interval& b) {
+  return {std::min(a.lo, b.lo), std::max(a.hi, b.hi), a.nan || b.nan};
+}
+
+Interval neg(const Interval& a) { return {-a.hi, -a.lo, a.nan}; }
+
+Interval abs(const Interval& a) {
+  if (a.lo >= 0.0) return a;
+  if (a.hi <= 0.0) return neg(a);
+  return {0.0, std::max(-a.lo, a.hi), a.nan};
+}
+
+Interval sqrt(const Interval& a) {
+  if (a.hi < 0.0) return {0.0, 0.0, true};
+  Interval r = outward(std::sqrt(std::max(a.lo, 0.0)), std::sqrt(a.hi), a.nan || a.lo < 0.0);
+  r.lo = std::max(r.lo, 0.0);
+  return r;
+}
+
+Interval square(const Interval& a) {
+  const Interval m = abs(a);
+  Interval r = outward(m.lo * m.lo, m.hi * m.hi, a.nan);
+  r.lo = std::max(r.lo, 0.0);
+  return r;
+}
+
+Interval sin(const Interval& a) {
+  return wave(a, [](double x) { return std::sin(x); }, kPi / 2, -kPi / 2);
+}
+Interval cos(const Interval& a) {
+  return wave(a, [](double x) { return std::cos(x); }, 0.0, kPi);
+}
+
+Interval tan(const Interval& a) {
+  if (touchesInfinity(a)) return Interval::everything();
+  // Poles lie at pi/2 + n pi, which is a crest or a trough of the sine.
+  const bool pole = a.hi - a.lo >= kPi || a.magnitude() > 1e9 || hasCrest(a.lo, a.hi, kPi / 2) ||
+                    hasCrest(a.lo, a.hi, -kPi / 2);
+  if (pole) return {-kInf, kInf, a.nan};
+  return increasing(a, [](double x) { return std::tan(x); });
+}
+
+Interval asin(const Interval& a) {
+  if (a.hi < -1.0 || a.lo > 1.0) return {0.0, 0.0, true};
+  Interval r = increasing(clampTo(a, -1.0, 1.0), [](double x) { return std::asin(x); });
+  r.nan = a.nan || a.lo < -1.0 || a.hi > 1.0;
+  return r;
+}
+
+Interval acos(const Interval& a) {
+  if (a.hi < -1.0 || a.lo > 1.0) return {0.0, 0.0, true};
+  const Interval c = clampTo(a, -1.0, 1.0);
+  Interval r = outward(std::acos(c.hi), std::acos(c.lo), a.nan || a.lo < -1.0 || a.hi > 1.0, kLibraryUlps);
+  r.lo = std::max(r.lo, 0.0);
+  return r;
+}
+
+Interval atan(const Interval& a) {
+  return increasing(a, [](double x) { return std::atan(x); });
+}
+
+Interval exp(const Interval& a) {
+  Interval r = increasing(a, [](double x) { return std::exp(x); });
+  r.lo = std::max(r.lo, 0.0);
+  return r;
+}
+
+Interval log(const Interval& a) {
+  if (a.hi < 0.0) return {0.0, 0.0, true};
+  const Interval c{std::max(a.lo, 0.0), a.hi, a.nan || a.lo < 0.0};
+  return increasing(c, [](double x) { return std::log(x); });
+}
+
+Interval floor(const Interval& a) { return {std::floor(a.lo), std::floor(a.hi), a.nan}; }
+Interval ceil(const Interval& a) { return {std::ceil(a.lo), std::ceil(a.hi), a.nan}; }
+Interval round(const Interval& a) { return {std::nearbyint(a.lo), std::nearbyint(a.hi), a.nan}; }
+
+Interval add(const Interval& a, const Interval& b) {
+  const bool cancel = (a.lo == -kInf && b.hi == kInf) || (a.hi == kInf && b.lo == -kInf);
+  double lo = a.lo + b.lo, hi = a.hi + b.hi;
+  if (lo != lo) lo = -kInf;
+  if (hi != hi) hi = kInf;
+  return outward(lo, hi, a.nan || b.nan || cancel);
+}
+
+Interval sub(const Interval& a, const Interval& b) { return add(a, neg(b)); }
+
+Interval mul(const Interval& a, const Interval& b) {
+  const bool zeroTimesInf =
+      (containsZero(a) && touchesInfinity(b)) || (containsZero(b) && touchesInfinity(a));
+  const double p = product(a.lo, b.lo), q = product(a.lo, b.hi);
+  const double r = product(a.hi, b.lo), s = product(a.hi, b.hi);
+  return outward(std::min({p, q, r, s}), std::max({p, q, r, s}), a.nan || b.nan || zeroTimesInf);
+}
+
+Interval div(const Interval& a, const Interval& b) {
+  if (containsZero(b)) return {-kInf, kInf, a.nan || b.nan || containsZero(a) || touchesInfinity(a)};
+  const bool infOverInf = touchesInfinity(a) && touchesInfinity(b);
+  if (infOverInf) return Interval::everything();
+  const double p = a.lo / b.lo, q = a.lo / b.hi, r = a.hi / b.lo, s = a.hi / b.hi;
+  return outward(std::min({p, q, r, s}), std::max({p, q, r, s}), a.nan || b.nan);
+}
+
+// min(a, b) is b where a is NaN, and NaN where b is.
+Interval min(const Interval& a, const Interval& b) {
+  return {std::min(a.lo, b.lo), a.nan ? b.hi : std::min(a.hi, b.hi), b.nan};
+}
+Interval max(const Interval& a, const Interval& b) {
+  return {a.nan ? b.lo : std::max(a.lo, b.lo), std::max(a.hi, b.hi), b.nan};
+}
+
+Interval pow(const Interval& a, const Interval& b) {
+  // pow(1, NaN) and pow(NaN, 0) are 1; otherwise NaN passes through.
+  const bool nan = a.nan || b.nan;
+  if (b.isPoint() && isInteger(b.lo)) {
+    const double n = b.lo;
+    const bool even = std::fmod(n, 2.0) == 0.0;
+    auto f = [n](double x) { return std::pow(x, n); };
+    if (n == 0.0) return {1.0, 1.0};
+    if (n < 0.0 && containsZero(a)) return {even ? 0.0 : -kInf, kInf, nan};
+    const Interval base = even ? abs(a) : a;
+    Interval r = n > 0.0 ? outward(f(base.lo), f(base.hi), nan, kLibraryUlps)
+                         : outward(f(base.hi), f(base.lo), nan, kLibraryUlps);
+    if (even) r.lo = std::max(r.lo, 0.0);
+    return r;
+  }
+  if (a.lo < 0.0) return {-kInf, kInf, true};
+  // For a >= 0 the power is monotone in each argument, so its extremes are at the corners, or 1 where the exponent's or
+  // the base's monotony turns (exponent 0, base 1); pow(0, negative) is +inf.
+  double lo = kInf, hi = 0.0;
+  for (double x : {a.lo, a.hi, std::clamp(1.0, a.lo, a.hi)})
+    for (double y : {b.lo, b.hi, std::clamp(0.0, b.lo, b.hi)}) {
+      const double v = std::pow(x, y);
+      if (v != v) return Interval::everything();
+      lo = std::min(lo, v);
+      hi = std::max(hi, v);
+    }
+  if (a.nan || b.nan) lo = std::min(lo, 1.0), hi = std::max(hi, 1.0);
+  Interval r = outward(lo, hi, nan, kLibraryUlps);
+  r.lo = std::max(r.lo, 0.0);
+  return r;
+}
+
+Interval atan2(const Interval& y, const Interval& x) {
+  const bool nan = y.nan || x.nan;
+  const Interval full = outward(-kPi, kPi, nan, kLibraryUlps);
+  // The branch cut is the negative x axis; the origin is undefined enough to give up on.
+  if (x.lo <= 0.0 && containsZero(y)) return full;
+  if (touchesInfinity(x) || touchesInfinity(y)) return full;
+  double lo = kInf, hi = -kInf;
+  for (double v : {y.lo, y.hi})
+    for (double u : {x.lo, x.hi}) {
+      const double t = std::atan2(v, u);
+      lo = std::min(lo, t);
+      hi = std::max(hi, t);
+    }
+  return outward(lo, hi, nan, kLibraryUlps);
+}
+
+Interval mod(const Interval& a, const Interval& b) {
+  // Within one period of a fixed divisor the remainder is a - b * floor(a / b) with the floor known.
+  const Interval turns = floor(div(a, b));
+  const Interval plain = sub(a, mul(b, turns));
+  if (turns.isPoint() || !b.isPoint() || b.lo == 0.0 || touchesInfinity(a)) return plain;
+  // The computed remainder may leave [0, b) by the rounding of b * floor(a / b): an ulp of a.
+  const double slack = a.magnitude() * 0x1p-51;
+  const double far = b.lo;
+  return {std::max(plain.lo, std::min(0.0, far) - slack), std::min(plain.hi, std::max(0.0, far) + slack), plain.nan};
+}
+
+Interval less(const Interval& a, const Interval& b) {
+  return truth(a.hi >= b.lo || a.nan || b.nan, a.lo < b.hi);
+}
+Interval lessEqual(const Interval& a, const Interval& b) {
+  return truth(a.hi > b.lo || a.nan || b.nan, a.lo <= b.hi);
+}
+Interval equal(const Interval& a, const Interval& b) {
+  return truth(!(a.isPoint() && b.isPoint() && a.lo == b.lo), a.lo <= b.hi && b.lo <= a.hi);
+}
+
+Interval select(const Interval& c, const Interval& a, const Interval& b) {
+  if (!c.nan && !containsZero(c)) return a;
+  if (!c.nan && c.lo == 0.0 && c.hi == 0.0) return b;
+  return hull(a, b);
+}
+
+Interval mulAdd(const Interval& a, const Interval& b, const Interval& c) { return add(mul(a, b), c); }
+Interval squareAdd(const Interval& a, const Interval& c) { return add(square(a), c); }
+
+Interval stepSlope(const Interval& step) { return step.isPoint() ? Interval(0.0) : Interval::everything(); }
+Interval choiceSlope(const Interval& c, const Interval& a, const Interval& b) {
+  const bool decided = !c.nan && (!containsZero(c) || (c.lo == 0.0 && c.hi == 0.0));
+  return decided ? select(c, a, b) : Interval::everything();
+}
+
+}  // namespace sdf

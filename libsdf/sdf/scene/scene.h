@@ -1,0 +1,84 @@
+// Scene: shapes with names, and all that is needed to look at them.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sdf/base/box.h"
+#include "sdf/base/result.h"
+#include "sdf/expr/vec.h"
+#include "sdf/shape/shape.h"
+
+namespace sdf {
+
+/// Pinhole camera. Vectors may depend on parameters and time, not on position.
+struct Camera {
+  Vec3E from{Expr(0.0), Expr(1.5), Expr(6.0)};
+  Vec3E to{Expr(0.0)};
+  Vec3E up{Expr(0.0), Expr(1.0), Expr(0.0)};
+  Expr fov = 45.0;        ///< vertical field of view, degrees
+  bool mirrored = false;  ///< flips left and right, for scenes ported from shaders that build right = up x forward
+};
+
+struct Light {
+  enum class Kind { Directional, Point };
+  Kind kind = Kind::Directional;
+  Vec3E vector{Expr(1.0), Expr(1.0), Expr(1.0)};  ///< Directional: towards the light, any length. Point: its position
+  Vec3E color{Expr(1.0)};                         ///< linear RGB
+  Expr intensity = 1.0;                           ///< no fall-off with distance (the seeds' and Phong's convention)
+  bool castsShadow = true;
+};
+
+struct Shadow {
+  enum class Kind { None, Hard, Soft, Improved, Signed };
+  Kind kind = Kind::None;
+  Expr sharpness = 8.0;       ///< k of k d / t; larger is harder
+  double start = 0.02;        ///< where the shadow ray leaves the surface
+  double reach = 20.0;        ///< how far it goes
+  int steps = 50;             ///< at most
+};
+
+struct AmbientOcclusion {
+  enum class Kind { None, Taps, Steps };
+  Kind kind = Kind::None;
+  double spacing = 0.08;   ///< Taps: distance between samples along the normal
+  int count = 5;           ///< Taps: how many
+  Expr strength = 0.2;     ///< Taps: weight of each; Steps: darkening of each marching step
+};
+
+struct Fog {
+  Vec3E color{Expr(0.0)};
+  Expr density = 0.0;  ///< share kept is exp(-density * distance)
+};
+
+struct Part {
+  std::string name;
+  Shape shape;
+};
+
+/// The colour seen along a ray that hits nothing is an expression of the ray's unit direction, held in x, y and z.
+struct Scene {
+  std::vector<Part> parts;  ///< united; a later part wins a tie. Names are unique
+  std::vector<ParameterInfo> parameters;
+  std::optional<Box> bounds;  ///< what an unbounded scene is clipped to when meshed
+  Camera camera;
+  std::vector<Light> lights;
+  Vec3E ambient{Expr(0.1)};
+  Vec3E background{Expr(0.05), Expr(0.05), Expr(0.08)};
+  Fog fog;
+  Shadow shadow;
+  AmbientOcclusion ambientOcclusion;
+  int reflectionBounces = 1;
+  double maxDistance = 80.0;        ///< how far the camera sees
+  std::optional<double> gamma;      ///< none: sRGB output; 1: raw values
+
+  /// Adds a part under a name of its own ("" takes "part N").
+  void add(std::string name, Shape shape);
+  /// All parts united, for the viewer and for readings that want one distance.
+  Shape whole() const;
+};
+
+/// The scene if it can be used: at least one part, no failed shape, unique names. Otherwise what is wrong.
+Result<Scene> checked(Scene scene);
+
+}  // namespace sdf

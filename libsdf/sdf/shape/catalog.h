@@ -1,0 +1,71 @@
+// The one list of shapes and operators: the scene language, its reference page and the claim tests are made from it.
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "sdf/shape/shape.h"
+
+namespace sdf {
+
+enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Shape, Shapes, Flag };
+
+/// What an argument's numbers must be; checked on their present values before `build` is called.
+enum class Rule { Any, Positive, NotNegative, NotZero };
+
+struct Parameter {
+  std::string name;                  ///< snake_case, as in scene files
+  ArgumentKind kind = ArgumentKind::Number;
+  std::string doc;                   ///< unit and meaning, one line
+  Rule rule = Rule::Any;
+  std::string fallback;              ///< default as scene text ("1", "{1, 1, 1}", "quadratic"); "" with required == false: absent
+  bool required = true;
+  std::vector<std::string> choices;  ///< for Choice
+};
+
+/// A checked argument. monostate: optional and not given. Vector2 comes as Vec3E with z = 0, Choice as its index in `choices`,
+/// Integer and Flag as int. Angles are in degrees, as in scene files.
+using Argument = std::variant<std::monostate, Expr, Vec3E, int, std::vector<glm::dvec2>, Shape, std::vector<Shape>>;
+
+/// The arguments of one call, by position in CatalogEntry::parameters.
+class Arguments {
+ public:
+  explicit Arguments(std::vector<Argument> values) : values_(std::move(values)) {}
+  bool given(int i) const { return values_[i].index() != 0; }
+  const Expr& number(int i) const { return std::get<Expr>(values_[i]); }
+  const Vec3E& vector(int i) const { return std::get<Vec3E>(values_[i]); }
+  int integer(int i) const { return std::get<int>(values_[i]); }
+  const std::vector<glm::dvec2>& points(int i) const { return std::get<std::vector<glm::dvec2>>(values_[i]); }
+  const Shape& shape(int i) const { return std::get<Shape>(values_[i]); }
+  const std::vector<Shape>& shapes(int i) const { return std::get<std::vector<Shape>>(values_[i]); }
+
+ private:
+  std::vector<Argument> values_;
+};
+
+enum class Group { Solid, Flat, Boolean, Deform, Place, Pattern };
+
+struct CatalogEntry {
+  std::string name;  ///< the scene language's name; operators on a shape are also methods (first parameter kind Shape)
+  Group group;
+  std::string doc;   ///< what it is, its axis and its origin; one or two sentences
+  std::string claim; ///< the claim in words for the reference page, e.g. "exact", "bound, L = 1"
+  std::vector<Parameter> parameters;
+  std::function<Shape(const Arguments&)> build;
+};
+
+/// Every shape and operator, in the order of the reference page.
+const std::vector<CatalogEntry>& catalog();
+/// nullptr where there is none of that name.
+const CatalogEntry* findEntry(std::string_view name);
+
+/// Builds after checking each argument's rule and finiteness, and that numbers do not depend on position; a broken rule
+/// yields Shape::failed("sphere: radius must be positive, got -1").
+Shape build(const CatalogEntry& entry, std::vector<Argument> arguments);
+
+}  // namespace sdf
