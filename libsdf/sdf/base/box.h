@@ -1,7 +1,7 @@
 // Axis-aligned boxes in scene units.
 #pragma once
-#include <glm/vec3.hpp>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 
 namespace sdf {

@@ -5,8 +5,8 @@
 
 namespace sdf {
 
-/// Long-running functions take a Progress&, call it often, and return an Interrupted error once `stop` is set.
-/// Thread-safe: workers poll `stopped`, one thread at a time reports.
+/// Long-running functions take a Progress&, call it often, and return an Interrupted error once `stop` is
+/// set. Thread-safe: workers poll `stopped`, one thread at a time reports.
 class Progress {
  public:
   virtual ~Progress() = default;

@@ -2,7 +2,8 @@
 //
 //   dispatch(op, [&](auto tag) { ... apply<tag.op>(a, b) ... });
 //
-// Re-included once per SIMD target by Highway's foreach_target; the number type's functions must be visible before.
+// Re-included once per SIMD target by Highway's foreach_target; the number type's functions must be visible
+// before.
 #if defined(SDF_EXPR_APPLY_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SDF_EXPR_APPLY_INL_H
 #undef SDF_EXPR_APPLY_INL_H
@@ -29,35 +30,43 @@ struct OpTag {
   static constexpr int arity = sdf::arity(kOp);
 };
 
-/// apply<op>(a, …): the operation's function, found for the arguments' type. Takes exactly arity(op) arguments.
+/// apply<op>(a, …): the operation's function, found for the arguments' type. Takes exactly arity(op)
+/// arguments.
 template <Op op>
 struct Apply;
-#define SDF_UNARY(name, call)          \
-  template <>                          \
-  struct Apply<Op::name> {             \
-    template <class T>                 \
-    static T of(const T& a) { return call(a); } \
+#define SDF_UNARY(name, call) \
+  template <>                 \
+  struct Apply<Op::name> {    \
+    template <class T>        \
+    static T of(const T& a) { \
+      return call(a);         \
+    }                         \
   };
-#define SDF_BINARY(name, call)                                 \
-  template <>                                                  \
-  struct Apply<Op::name> {                                     \
-    template <class T>                                         \
-    static T of(const T& a, const T& b) { return call(a, b); } \
+#define SDF_BINARY(name, call)            \
+  template <>                             \
+  struct Apply<Op::name> {                \
+    template <class T>                    \
+    static T of(const T& a, const T& b) { \
+      return call(a, b);                  \
+    }                                     \
   };
-#define SDF_TERNARY(name, call)                                               \
-  template <>                                                                 \
-  struct Apply<Op::name> {                                                    \
-    template <class T>                                                        \
-    static T of(const T& a, const T& b, const T& c) { return call(a, b, c); } \
+#define SDF_TERNARY(name, call)                       \
+  template <>                                         \
+  struct Apply<Op::name> {                            \
+    template <class T>                                \
+    static T of(const T& a, const T& b, const T& c) { \
+      return call(a, b, c);                           \
+    }                                                 \
   };
-#define SDF_FUSED(name, arity, body)                                                                     \
-  template <>                                                                                            \
-  struct Apply<Op::name> {                                                                               \
-    template <class T>                                                                                   \
-    static T of(const T& a, const T& b, const T& c = T{}, const T& d = T{}, const T& e = T{}, const T& f = T{}) { \
-      (void)c, (void)d, (void)e, (void)f;                                                                \
-      return body;                                                                                       \
-    }                                                                                                    \
+#define SDF_FUSED(name, arity, body)                                                          \
+  template <>                                                                                 \
+  struct Apply<Op::name> {                                                                    \
+    template <class T>                                                                        \
+    static T of(const T& a, const T& b, const T& c = T{}, const T& d = T{}, const T& e = T{}, \
+                const T& f = T{}) {                                                           \
+      (void)c, (void)d, (void)e, (void)f;                                                     \
+      return body;                                                                            \
+    }                                                                                         \
   };
 #include "sdf/expr/ops.def"
 
@@ -71,12 +80,14 @@ template <class F>
 void dispatch(Op op, F&& f) {
   switch (op) {
 #define SDF_UNARY(name, call) \
-  case Op::name: return f(OpTag<Op::name>{});
+  case Op::name:              \
+    return f(OpTag<Op::name>{});
 #define SDF_BINARY SDF_UNARY
 #define SDF_TERNARY SDF_UNARY
 #define SDF_FUSED(name, arity, body) SDF_UNARY(name, body)
 #include "sdf/expr/ops.def"
-    default: assert(!"dispatch: not an operation");
+    default:
+      assert(!"dispatch: not an operation");
   }
 }
 
@@ -88,7 +99,8 @@ T evaluateOp(Op op, Args&& args) {
     if constexpr (tag.arity == 1) result = apply<tag.op>(args(0));
     if constexpr (tag.arity == 2) result = apply<tag.op>(args(0), args(1));
     if constexpr (tag.arity == 3) result = apply<tag.op>(args(0), args(1), args(2));
-    if constexpr (tag.arity == 6) result = apply<tag.op>(args(0), args(1), args(2), args(3), args(4), args(5));
+    if constexpr (tag.arity == 6)
+      result = apply<tag.op>(args(0), args(1), args(2), args(3), args(4), args(5));
   });
   return result;
 }

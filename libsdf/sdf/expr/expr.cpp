@@ -47,7 +47,8 @@ struct Hash {
 struct Same {
   bool operator()(const Node* a, const Node* b) const {
     return a->op == b->op && a->variable == b->variable &&
-           std::bit_cast<std::uint64_t>(a->value) == std::bit_cast<std::uint64_t>(b->value) && a->args == b->args &&
+           std::bit_cast<std::uint64_t>(a->value) == std::bit_cast<std::uint64_t>(b->value) &&
+           a->args == b->args &&
            (a->parameter ? b->parameter && *a->parameter == *b->parameter : !b->parameter);
   }
 };
@@ -61,9 +62,12 @@ Fact factOf(const Node& n) {
 
 void setFacts(Node& n) {
   switch (n.op) {
-    case Op::Constant: n.range = Interval(n.value); return;
+    case Op::Constant:
+      n.range = Interval(n.value);
+      return;
     case Op::Parameter:
-      n.range = hull(Interval(std::min(n.parameter->min, n.parameter->max), std::max(n.parameter->min, n.parameter->max)),
+      n.range = hull(Interval(std::min(n.parameter->min, n.parameter->max),
+                              std::max(n.parameter->min, n.parameter->max)),
                      Interval(n.parameter->value));
       return;
     case Op::Variable: {
@@ -73,7 +77,8 @@ void setFacts(Node& n) {
       n.lipschitz = coordinate ? 1.0 : inf;
       return;
     }
-    default: break;
+    default:
+      break;
   }
   const Fact fact = evaluateOp<Fact>(n.op, [&](int i) { return factOf(*n.args[i]); });
   n.range = fact.v;
@@ -82,8 +87,9 @@ void setFacts(Node& n) {
 
 }  // namespace
 
-// Every live node, so that equal nodes are found again. References from here are not counted: a node leaves as its last
-// handle goes. The last reference is dropped under the lock, so no look-up can revive a node that is being deleted.
+// Every live node, so that equal nodes are found again. References from here are not counted: a node leaves
+// as its last handle goes. The last reference is dropped under the lock, so no look-up can revive a node that
+// is being deleted.
 class NodeTable {
  public:
   static NodeTable& instance() {
@@ -171,13 +177,19 @@ namespace {
 // A simpler expression of the same meaning, NaN and infinity included, or the null node's absence.
 const Expr* simplerBinary(Op op, const Expr& a, const Expr& b) {
   switch (op) {
-    case Op::Add: return b.isConstant(0.0) ? &a : a.isConstant(0.0) ? &b : nullptr;
-    case Op::Sub: return b.isConstant(0.0) ? &a : nullptr;
-    case Op::Mul: return b.isConstant(1.0) ? &a : a.isConstant(1.0) ? &b : nullptr;
-    case Op::Div: return b.isConstant(1.0) ? &a : nullptr;
+    case Op::Add:
+      return b.isConstant(0.0) ? &a : a.isConstant(0.0) ? &b : nullptr;
+    case Op::Sub:
+      return b.isConstant(0.0) ? &a : nullptr;
+    case Op::Mul:
+      return b.isConstant(1.0) ? &a : a.isConstant(1.0) ? &b : nullptr;
+    case Op::Div:
+      return b.isConstant(1.0) ? &a : nullptr;
     case Op::Min:
-    case Op::Max: return a == b ? &a : nullptr;
-    default: return nullptr;
+    case Op::Max:
+      return a == b ? &a : nullptr;
+    default:
+      return nullptr;
   }
 }
 
@@ -281,9 +293,12 @@ double uniformValue(const Expr& e) {
   for (const Expr& n : topologicalOrder({&e, 1})) {
     assert(n.op() != Op::Variable);
     double& v = values[n.node()];
-    if (n.op() == Op::Constant) v = n.constantValue();
-    else if (n.op() == Op::Parameter) v = n.parameterInfo().value;
-    else v = evaluateOp<double>(n.op(), [&](int i) { return values.at(n.arg(i).node()); });
+    if (n.op() == Op::Constant)
+      v = n.constantValue();
+    else if (n.op() == Op::Parameter)
+      v = n.parameterInfo().value;
+    else
+      v = evaluateOp<double>(n.op(), [&](int i) { return values.at(n.arg(i).node()); });
   }
   return values.at(e.node());
 }
@@ -327,11 +342,12 @@ Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch) {
 }
 
 Expr bind(const Expr& e, const std::map<std::string, double>& values) {
-  return rebuild({&e, 1}, 1.0, [&](const Expr& leaf) {
-           if (leaf.op() != Op::Parameter) return leaf;
-           const auto it = values.find(leaf.parameterInfo().name);
-           return it == values.end() ? leaf : Expr(it->second);
-         })
+  return rebuild({&e, 1}, 1.0,
+                 [&](const Expr& leaf) {
+                   if (leaf.op() != Op::Parameter) return leaf;
+                   const auto it = values.find(leaf.parameterInfo().name);
+                   return it == values.end() ? leaf : Expr(it->second);
+                 })
       .front();
 }
 

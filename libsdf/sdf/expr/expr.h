@@ -14,7 +14,8 @@
 
 namespace sdf {
 
-/// What an expression may depend on besides parameters: the position, and (for surface attributes) the unit normal.
+/// What an expression may depend on besides parameters: the position, and (for surface attributes) the unit
+/// normal.
 enum class Variable : std::uint8_t { X, Y, Z, NX, NY, NZ };
 inline constexpr int kVariableCount = 6;
 
@@ -29,8 +30,9 @@ struct ParameterInfo {
 
 class Node;
 
-/// Handle to a node. Copying is cheap, equal graphs are the same node, and handles may be made and dropped on any thread.
-/// Building a node folds constants; identities that would change the meaning for NaN or infinity are not applied.
+/// Handle to a node. Copying is cheap, equal graphs are the same node, and handles may be made and dropped on
+/// any thread. Building a node folds constants; identities that would change the meaning for NaN or infinity
+/// are not applied.
 class Expr {
  public:
   Expr(double value = 0.0);  // NOLINT: a number is an expression
@@ -46,18 +48,20 @@ class Expr {
 
   Op op() const;
   Expr arg(int i) const;
-  double constantValue() const;               ///< op() == Constant
-  Variable variableIndex() const;             ///< op() == Variable
-  const ParameterInfo& parameterInfo() const; ///< op() == Parameter
+  double constantValue() const;                ///< op() == Constant
+  Variable variableIndex() const;              ///< op() == Variable
+  const ParameterInfo& parameterInfo() const;  ///< op() == Parameter
   bool isConstant() const { return op() == Op::Constant; }
   bool isConstant(double v) const { return isConstant() && constantValue() == v; }
 
   /// Encloses the expression's value over all of space and over every value of its parameters.
   const Interval& range() const;
-  /// Proven L with |f(p) - f(q)| <= L |p - q| for all p, q and every value of the parameters in their ranges; infinite
-  /// where none is known. Derived from the arguments as the node is built, and lowered by claimLipschitz.
+  /// Proven L with |f(p) - f(q)| <= L |p - q| for all p, q and every value of the parameters in their ranges;
+  /// infinite where none is known. Derived from the arguments as the node is built, and lowered by
+  /// claimLipschitz.
   double lipschitz() const;
-  /// States a proven global Lipschitz bound for this function. Returns *this. Nodes built on it later inherit the fact.
+  /// States a proven global Lipschitz bound for this function. Returns *this. Nodes built on it later inherit
+  /// the fact.
   const Expr& claimLipschitz(double bound) const;
 
   /// Same node, that is the same function written the same way.
@@ -93,8 +97,9 @@ bool dependsOnSpace(const Expr& e);
 /// Value of an expression that does not depend on space, with parameters at their present values.
 double uniformValue(const Expr& e);
 
-/// The expression with x, y, z replaced. `stretch` bounds the operator norm of the replacement's Jacobian: facts about
-/// Lipschitz constants carry over, multiplied by it; pass infinity where it is not known. Cost: the size of the graph.
+/// The expression with x, y, z replaced. `stretch` bounds the operator norm of the replacement's Jacobian:
+/// facts about Lipschitz constants carry over, multiplied by it; pass infinity where it is not known. Cost:
+/// the size of the graph.
 Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch);
 /// Several at once, sharing the work.
 std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch);

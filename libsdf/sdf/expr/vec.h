@@ -37,10 +37,10 @@ inline Vec3E mix(const Vec3E& a, const Vec3E& b, const Expr& t) {
 }
 
 /// Euclidean lengths. The gradient at 0 is defined as 0. Lipschitz facts follow from the arguments' own
-/// (|length(u) - length(v)| <= |u - v|), so a length of coordinates that form a basis should be claimed tighter.
+/// (|length(u) - length(v)| <= |u - v|), so a length of coordinates that form a basis should be claimed
+/// tighter.
 inline Expr length(const Expr& a, const Expr& b) {
-  return sqrt(square(a) + square(b))
-      .claimLipschitz(std::hypot(a.lipschitz(), b.lipschitz()));
+  return sqrt(square(a) + square(b)).claimLipschitz(std::hypot(a.lipschitz(), b.lipschitz()));
 }
 inline Expr length(const Expr& a, const Expr& b, const Expr& c) {
   return sqrt(square(a) + square(b) + square(c))

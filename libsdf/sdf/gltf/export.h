@@ -19,8 +19,9 @@ struct ExportPart {
 /// Is the extension one that writeMeshes takes? The error lists those it takes (ErrorKind::Usage).
 Status checkExtension(const std::filesystem::path& target);
 
-/// Writes all parts to `target`, whose extension picks the format. The file appears under its name only when complete.
-/// Errors: Usage (unknown extension), Files (cannot be written).
-Status writeMeshes(const std::filesystem::path& target, const Scene& scene, const std::vector<ExportPart>& parts);
+/// Writes all parts to `target`, whose extension picks the format. The file appears under its name only when
+/// complete. Errors: Usage (unknown extension), Files (cannot be written).
+Status writeMeshes(const std::filesystem::path& target, const Scene& scene,
+                   const std::vector<ExportPart>& parts);
 
 }  // namespace sdf

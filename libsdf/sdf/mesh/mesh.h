@@ -7,7 +7,8 @@
 
 namespace sdf {
 
-/// Phong numbers of one material, resolved for export: attribute values averaged over the triangles that wear it.
+/// Phong numbers of one material, resolved for export: attribute values averaged over the triangles that wear
+/// it.
 struct MeshMaterial {
   std::string name;
   glm::vec3 color{0.8f};
@@ -17,13 +18,13 @@ struct MeshMaterial {
   glm::vec3 emission{0.0f};
 };
 
-/// Counter-clockwise triangles seen from outside, indices into the vertex arrays. Vertices [0, welded) are distinct
-/// points; later ones repeat an earlier one (copyOf[i - welded]) with another material's colour.
+/// Counter-clockwise triangles seen from outside, indices into the vertex arrays. Vertices [0, welded) are
+/// distinct points; later ones repeat an earlier one (copyOf[i - welded]) with another material's colour.
 struct Mesh {
-  std::vector<glm::vec3> positions;  ///< scene units
-  std::vector<glm::vec3> normals;    ///< unit
-  std::vector<glm::vec3> colors;     ///< linear RGB in [0, 1]
-  std::vector<glm::uvec3> triangles; ///< ordered by material
+  std::vector<glm::vec3> positions;             ///< scene units
+  std::vector<glm::vec3> normals;               ///< unit
+  std::vector<glm::vec3> colors;                ///< linear RGB in [0, 1]
+  std::vector<glm::uvec3> triangles;            ///< ordered by material
   std::vector<std::uint32_t> triangleMaterial;  ///< index into materials
   std::vector<MeshMaterial> materials;
   std::uint32_t welded = 0;
@@ -32,14 +33,14 @@ struct Mesh {
 
 /// What was measured of one mesh.
 struct MeshStats {
-  std::uint64_t voxels = 0;           ///< distance samples taken
-  std::uint64_t vertices = 0;         ///< distinct points
+  std::uint64_t voxels = 0;    ///< distance samples taken
+  std::uint64_t vertices = 0;  ///< distinct points
   std::uint64_t triangles = 0;
   double voxelSize = 0.0;
-  double rmsDistance = 0.0;           ///< of samples on the mesh to the scene's surface, scene units
+  double rmsDistance = 0.0;  ///< of samples on the mesh to the scene's surface, scene units
   double maxDistance = 0.0;
-  bool watertight = false;            ///< every edge has as many triangles one way as the other
-  bool manifold = false;              ///< every edge has two triangles and every vertex one fan
+  bool watertight = false;  ///< every edge has as many triangles one way as the other
+  bool manifold = false;    ///< every edge has two triangles and every vertex one fan
   int components = 0;
   int eulerCharacteristic = 0;
 };

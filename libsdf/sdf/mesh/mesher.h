@@ -14,8 +14,8 @@
 namespace sdf {
 
 struct MeshOptions {
-  double voxelSize = 0.0;           ///< scene units; 0 takes 1/200 of the longest side of the bounds
-  std::optional<Box> bounds;        ///< clips the shape, closed and watertight
+  double voxelSize = 0.0;                  ///< scene units; 0 takes 1/200 of the longest side of the bounds
+  std::optional<Box> bounds;               ///< clips the shape, closed and watertight
   double maxMemory = 16.0 * (1ull << 30);  ///< bytes; refused (ErrorKind::Limits) if the estimate is above
 };
 
@@ -25,13 +25,14 @@ struct MeshedShape {
   std::vector<std::pair<std::string, double>> stageSeconds;
 };
 
-/// Box that contains the shape's surface: its own bounds, tightened or (for fields) found by interval arithmetic.
-/// Infinite sides remain where the shape is unbounded.
+/// Box that contains the shape's surface: its own bounds, tightened or (for fields) found by interval
+/// arithmetic. Infinite sides remain where the shape is unbounded.
 Box findBounds(const Shape& shape);
 
-/// Meshes one shape. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the calling thread's
-/// oneTBB arena; the result does not depend on the number of threads. Errors: Scene (failed shape, unbounded, no surface),
-/// Limits (memory), Interrupted.
-Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options, Progress& progress);
+/// Meshes one shape. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the
+/// calling thread's oneTBB arena; the result does not depend on the number of threads. Errors: Scene (failed
+/// shape, unbounded, no surface), Limits (memory), Interrupted.
+Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
+                              Progress& progress);
 
 }  // namespace sdf

@@ -1,8 +1,10 @@
-// Dual numbers: a value and N exact partial derivatives (forward-mode differentiation; Clifford 1873, Wengert 1964).
+// Dual numbers: a value and N exact partial derivatives (forward-mode differentiation; Clifford 1873, Wengert
+// 1964).
 //
-// T is double, Interval, or a SIMD vector of lanes. At a crease one side's derivative is taken (for min and max the side
-// that gives the value); the derivative of sqrt at 0 is defined as 0, so length(max(q, 0)) has a gradient everywhere.
-// Over intervals the derivative encloses every derivative and every difference quotient, jumps included.
+// T is double, Interval, or a SIMD vector of lanes. At a crease one side's derivative is taken (for min and
+// max the side that gives the value); the derivative of sqrt at 0 is defined as 0, so length(max(q, 0)) has a
+// gradient everywhere. Over intervals the derivative encloses every derivative and every difference quotient,
+// jumps included.
 //
 // Re-included once per SIMD target by Highway's foreach_target.
 #if defined(SDF_NUMBER_DUAL_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -42,8 +42,8 @@ Interval clampTo(const Interval& a, double lo, double hi) {
 // Endpoint products, where 0 · inf counts as 0 (the NaN it may be is flagged by the caller).
 double product(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
 
-// sin over [lo, hi] shifted by `phase`: does a crest (at pi/2 + 2 pi n - phase) lie inside? `slack` covers the rounding
-// of the division, so that a crest near an end is never missed.
+// sin over [lo, hi] shifted by `phase`: does a crest (at pi/2 + 2 pi n - phase) lie inside? `slack` covers
+// the rounding of the division, so that a crest near an end is never missed.
 bool hasCrest(double lo, double hi, double crest) {
   const double a = (lo - crest) / (2.0 * kPi), b = (hi - crest) / (2.0 * kPi);
   const double slack = 1e-15 * (1.0 + std::max(std::abs(a), std::abs(b)));
@@ -67,9 +67,7 @@ Interval increasing(const Interval& a, F f) {
   return outward(f(a.lo), f(a.hi), a.nan, kLibraryUlps);
 }
 
-Interval truth(bool canBeFalse, bool canBeTrue) {
-  return {canBeFalse ? 0.0 : 1.0, canBeTrue ? 1.0 : 0.0};
-}
+Interval truth(bool canBeFalse, bool canBeTrue) { return {canBeFalse ? 0.0 : 1.0, canBeTrue ? 1.0 : 0.0}; }
 
 bool isInteger(double x) { return std::floor(x) == x; }
 
@@ -105,10 +103,12 @@ Interval square(const Interval& a) {
 }
 
 Interval sin(const Interval& a) {
-  return wave(a, [](double x) { return std::sin(x); }, kPi / 2, -kPi / 2);
+  return wave(
+      a, [](double x) { return std::sin(x); }, kPi / 2, -kPi / 2);
 }
 Interval cos(const Interval& a) {
-  return wave(a, [](double x) { return std::cos(x); }, 0.0, kPi);
+  return wave(
+      a, [](double x) { return std::cos(x); }, 0.0, kPi);
 }
 
 Interval tan(const Interval& a) {
@@ -205,8 +205,8 @@ Interval pow(const Interval& a, const Interval& b) {
     return r;
   }
   if (a.lo < 0.0) return {-kInf, kInf, true};
-  // For a >= 0 the power is monotone in each argument, so its extremes are at the corners, or 1 where the exponent's or
-  // the base's monotony turns (exponent 0, base 1); pow(0, negative) is +inf.
+  // For a >= 0 the power is monotone in each argument, so its extremes are at the corners, or 1 where the
+  // exponent's or the base's monotony turns (exponent 0, base 1); pow(0, negative) is +inf.
   double lo = kInf, hi = 0.0;
   for (double x : {a.lo, a.hi, std::clamp(1.0, a.lo, a.hi)})
     for (double y : {b.lo, b.hi, std::clamp(0.0, b.lo, b.hi)}) {
@@ -245,7 +245,8 @@ Interval mod(const Interval& a, const Interval& b) {
   // The computed remainder may leave [0, b) by the rounding of b * floor(a / b): an ulp of a.
   const double slack = a.magnitude() * 0x1p-51;
   const double far = b.lo;
-  return {std::max(plain.lo, std::min(0.0, far) - slack), std::min(plain.hi, std::max(0.0, far) + slack), plain.nan};
+  return {std::max(plain.lo, std::min(0.0, far) - slack), std::min(plain.hi, std::max(0.0, far) + slack),
+          plain.nan};
 }
 
 Interval less(const Interval& a, const Interval& b) {

@@ -1,9 +1,10 @@
 // Intervals of double, rounded outward, that carry "may be NaN" (the idea is libfive's).
 //
-// Contract of every operation: if each argument lies in its interval (or is NaN and the interval says so), the result lies
-// in the returned interval, or is NaN and the returned interval says so. Rounding is done by stepping the ends outward
-// after round-to-nearest arithmetic, so the rounding mode is never touched. Ends of library functions are stepped by
-// kLibraryUlps, glibc's documented error for double being under one ulp for each function used here.
+// Contract of every operation: if each argument lies in its interval (or is NaN and the interval says so),
+// the result lies in the returned interval, or is NaN and the returned interval says so. Rounding is done by
+// stepping the ends outward after round-to-nearest arithmetic, so the rounding mode is never touched. Ends of
+// library functions are stepped by kLibraryUlps, glibc's documented error for double being under one ulp for
+// each function used here.
 #pragma once
 
 namespace sdf {
@@ -60,7 +61,8 @@ Interval select(const Interval& c, const Interval& a, const Interval& b);
 Interval mulAdd(const Interval& a, const Interval& b, const Interval& c);
 Interval squareAdd(const Interval& a, const Interval& c);
 
-/// Derivative of a step function whose value over the box is `step`: 0 where it does not jump, unbounded where it may.
+/// Derivative of a step function whose value over the box is `step`: 0 where it does not jump, unbounded
+/// where it may.
 Interval stepSlope(const Interval& step);
 /// Derivative of select(c, ., .): unbounded unless c is decided, for the branches may not meet.
 Interval choiceSlope(const Interval& c, const Interval& a, const Interval& b);

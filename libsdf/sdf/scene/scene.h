@@ -16,34 +16,36 @@ struct Camera {
   Vec3E from{Expr(0.0), Expr(1.5), Expr(6.0)};
   Vec3E to{Expr(0.0)};
   Vec3E up{Expr(0.0), Expr(1.0), Expr(0.0)};
-  Expr fov = 45.0;        ///< vertical field of view, degrees
-  bool mirrored = false;  ///< flips left and right, for scenes ported from shaders that build right = up x forward
+  Expr fov = 45.0;  ///< vertical field of view, degrees
+  bool mirrored =
+      false;  ///< flips left and right, for scenes ported from shaders that build right = up x forward
 };
 
 struct Light {
   enum class Kind { Directional, Point };
   Kind kind = Kind::Directional;
-  Vec3E vector{Expr(1.0), Expr(1.0), Expr(1.0)};  ///< Directional: towards the light, any length. Point: its position
-  Vec3E color{Expr(1.0)};                         ///< linear RGB
-  Expr intensity = 1.0;                           ///< no fall-off with distance (the seeds' and Phong's convention)
+  Vec3E vector{Expr(1.0), Expr(1.0),
+               Expr(1.0)};  ///< Directional: towards the light, any length. Point: its position
+  Vec3E color{Expr(1.0)};   ///< linear RGB
+  Expr intensity = 1.0;     ///< no fall-off with distance (the seeds' and Phong's convention)
   bool castsShadow = true;
 };
 
 struct Shadow {
   enum class Kind { None, Hard, Soft, Improved, Signed };
   Kind kind = Kind::None;
-  Expr sharpness = 8.0;       ///< k of k d / t; larger is harder
-  double start = 0.02;        ///< where the shadow ray leaves the surface
-  double reach = 20.0;        ///< how far it goes
-  int steps = 50;             ///< at most
+  Expr sharpness = 8.0;  ///< k of k d / t; larger is harder
+  double start = 0.02;   ///< where the shadow ray leaves the surface
+  double reach = 20.0;   ///< how far it goes
+  int steps = 50;        ///< at most
 };
 
 struct AmbientOcclusion {
   enum class Kind { None, Taps, Steps };
   Kind kind = Kind::None;
-  double spacing = 0.08;   ///< Taps: distance between samples along the normal
-  int count = 5;           ///< Taps: how many
-  Expr strength = 0.2;     ///< Taps: weight of each; Steps: darkening of each marching step
+  double spacing = 0.08;  ///< Taps: distance between samples along the normal
+  int count = 5;          ///< Taps: how many
+  Expr strength = 0.2;    ///< Taps: weight of each; Steps: darkening of each marching step
 };
 
 struct Fog {
@@ -56,7 +58,8 @@ struct Part {
   Shape shape;
 };
 
-/// The colour seen along a ray that hits nothing is an expression of the ray's unit direction, held in x, y and z.
+/// The colour seen along a ray that hits nothing is an expression of the ray's unit direction, held in x, y
+/// and z.
 struct Scene {
   std::vector<Part> parts;  ///< united; a later part wins a tie. Names are unique
   std::vector<ParameterInfo> parameters;
@@ -69,8 +72,8 @@ struct Scene {
   Shadow shadow;
   AmbientOcclusion ambientOcclusion;
   int reflectionBounces = 1;
-  double maxDistance = 80.0;        ///< how far the camera sees
-  std::optional<double> gamma;      ///< none: sRGB output; 1: raw values
+  double maxDistance = 80.0;    ///< how far the camera sees
+  std::optional<double> gamma;  ///< none: sRGB output; 1: raw values
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);

@@ -11,13 +11,14 @@
 namespace sdf {
 
 struct ScriptOptions {
-  std::map<std::string, double> values;            ///< overrides of param(name, …); a name the scene lacks is an error
-  double time = 0.0;                               ///< seconds; the value of `time`
+  std::map<std::string, double> values;  ///< overrides of param(name, …); a name the scene lacks is an error
+  double time = 0.0;                     ///< seconds; the value of `time`
   std::uint64_t instructionLimit = 50'000'000;
-  std::size_t memoryLimit = 256u << 20;            ///< bytes
+  std::size_t memoryLimit = 256u << 20;  ///< bytes
 };
 
-/// Runs a scene file. Errors (ErrorKind::Scene; Files if it cannot be read) name file and line and what was expected.
+/// Runs a scene file. Errors (ErrorKind::Scene; Files if it cannot be read) name file and line and what was
+/// expected.
 Result<Scene> loadScene(const std::filesystem::path& file, const ScriptOptions& options = {});
 /// The same for text; `name` stands for the file in messages.
 Result<Scene> runScene(const std::string& text, const std::string& name, const ScriptOptions& options = {});

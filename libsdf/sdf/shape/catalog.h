@@ -1,4 +1,5 @@
-// The one list of shapes and operators: the scene language, its reference page and the claim tests are made from it.
+// The one list of shapes and operators: the scene language, its reference page and the claim tests are made
+// from it.
 #pragma once
 #include <functional>
 #include <span>
@@ -19,18 +20,20 @@ enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Sha
 enum class Rule { Any, Positive, NotNegative, NotZero };
 
 struct Parameter {
-  std::string name;                  ///< snake_case, as in scene files
+  std::string name;  ///< snake_case, as in scene files
   ArgumentKind kind = ArgumentKind::Number;
-  std::string doc;                   ///< unit and meaning, one line
+  std::string doc;  ///< unit and meaning, one line
   Rule rule = Rule::Any;
-  std::string fallback;              ///< default as scene text ("1", "{1, 1, 1}", "quadratic"); "" with required == false: absent
+  std::string
+      fallback;  ///< default as scene text ("1", "{1, 1, 1}", "quadratic"); "" with required == false: absent
   bool required = true;
   std::vector<std::string> choices;  ///< for Choice
 };
 
-/// A checked argument. monostate: optional and not given. Vector2 comes as Vec3E with z = 0, Choice as its index in `choices`,
-/// Integer and Flag as int. Angles are in degrees, as in scene files.
-using Argument = std::variant<std::monostate, Expr, Vec3E, int, std::vector<glm::dvec2>, Shape, std::vector<Shape>>;
+/// A checked argument. monostate: optional and not given. Vector2 comes as Vec3E with z = 0, Choice as its
+/// index in `choices`, Integer and Flag as int. Angles are in degrees, as in scene files.
+using Argument =
+    std::variant<std::monostate, Expr, Vec3E, int, std::vector<glm::dvec2>, Shape, std::vector<Shape>>;
 
 /// The arguments of one call, by position in CatalogEntry::parameters.
 class Arguments {
@@ -51,10 +54,11 @@ class Arguments {
 enum class Group { Solid, Flat, Boolean, Deform, Place, Pattern };
 
 struct CatalogEntry {
-  std::string name;  ///< the scene language's name; operators on a shape are also methods (first parameter kind Shape)
+  std::string name;  ///< the scene language's name; operators on a shape are also methods (first parameter
+                     ///< kind Shape)
   Group group;
-  std::string doc;   ///< what it is, its axis and its origin; one or two sentences
-  std::string claim; ///< the claim in words for the reference page, e.g. "exact", "bound, L = 1"
+  std::string doc;    ///< what it is, its axis and its origin; one or two sentences
+  std::string claim;  ///< the claim in words for the reference page, e.g. "exact", "bound, L = 1"
   std::vector<Parameter> parameters;
   std::function<Shape(const Arguments&)> build;
 };
@@ -64,8 +68,8 @@ const std::vector<CatalogEntry>& catalog();
 /// nullptr where there is none of that name.
 const CatalogEntry* findEntry(std::string_view name);
 
-/// Builds after checking each argument's rule and finiteness, and that numbers do not depend on position; a broken rule
-/// yields Shape::failed("sphere: radius must be positive, got -1").
+/// Builds after checking each argument's rule and finiteness, and that numbers do not depend on position; a
+/// broken rule yields Shape::failed("sphere: radius must be positive, got -1").
 Shape build(const CatalogEntry& entry, std::vector<Argument> arguments);
 
 }  // namespace sdf

@@ -24,58 +24,64 @@ enum class ClaimKind {
 /// Proven facts about a shape's distance. Every operator derives its result's claim from its operands'.
 struct Claim {
   ClaimKind kind = ClaimKind::Exact;
-  double lipschitz = 1.0;            ///< |f(p) - f(q)| <= lipschitz |p - q| within `region`; infinite where unknown
-  Box region = Box::everything();    ///< convex region over which `lipschitz` holds
+  double lipschitz = 1.0;  ///< |f(p) - f(q)| <= lipschitz |p - q| within `region`; infinite where unknown
+  Box region = Box::everything();  ///< convex region over which `lipschitz` holds
 };
 
 /// The weaker kind, for results that hold what both operands hold.
 inline ClaimKind weaker(ClaimKind a, ClaimKind b) { return a > b ? a : b; }
 
 /// Surface attributes: scalars that may depend on position, normal and parameters. Colours are linear RGB.
+// clang-format off
 enum class Attribute : std::uint8_t {
-  Red, Green, Blue,                             // diffuse colour
-  AmbientRed, AmbientGreen, AmbientBlue,        // answers the scene's ambient light
-  SpecularRed, SpecularGreen, SpecularBlue,     // colour of the highlight
-  Shininess,                                    // Phong exponent
-  Reflectivity, FresnelPower, FresnelBias,      // mirror weight: reflectivity * (bias + (1 - cos)^power), at most 1
+  Red, Green, Blue,                         // diffuse colour
+  AmbientRed, AmbientGreen, AmbientBlue,    // answers the scene's ambient light
+  SpecularRed, SpecularGreen, SpecularBlue, // colour of the highlight
+  Shininess,                                // Phong exponent
+  Reflectivity, FresnelPower, FresnelBias,  // mirror weight: reflectivity * (bias + (1 - cos)^power), at most 1
   EmissionRed, EmissionGreen, EmissionBlue,
-  MaterialId,                                   // Material::id of the material that dominates here
+  MaterialId,                               // Material::id of the material that dominates here
   Count
 };
+// clang-format on
 inline constexpr int kAttributeCount = static_cast<int>(Attribute::Count);
 using Attributes = std::array<Expr, kAttributeCount>;
 
 /// How a surface looks (Phong 1975). Each field may be an expression of position() and normal().
 struct Material {
-  std::string name;                  ///< "" takes "material N"
+  std::string name;  ///< "" takes "material N"
   Vec3E color{Expr(0.8)};
-  std::optional<Vec3E> ambient;      ///< default: color
+  std::optional<Vec3E> ambient;  ///< default: color
   Vec3E specular{Expr(0.0)};
   Expr shininess = 32.0;
   Expr reflectivity = 0.0;
   Expr fresnelPower = 0.0;
   Expr fresnelBias = 0.0;
   Vec3E emission{Expr(0.0)};
-  int id = 0;                        ///< set by makeMaterial; 0 is the default material
+  int id = 0;  ///< set by makeMaterial; 0 is the default material
 };
 using MaterialPtr = std::shared_ptr<const Material>;
 
-/// Gives the material its identity: triangles of one id form one primitive of an exported mesh. Ids grow with each call.
+/// Gives the material its identity: triangles of one id form one primitive of an exported mesh. Ids grow with
+/// each call.
 MaterialPtr makeMaterial(Material material);
 /// The grey that shapes have until they are painted.
 const MaterialPtr& defaultMaterial();
 /// The material's fields as attribute expressions.
 Attributes attributesOf(const Material& material);
 
-/// A shape is a value: operators return new shapes and share the graph. A shape made from bad arguments carries the first
-/// error on through every operator; whoever uses it (Scene, the mesher, the scene language) reports it.
+/// A shape is a value: operators return new shapes and share the graph. A shape made from bad arguments
+/// carries the first error on through every operator; whoever uses it (Scene, the mesher, the scene language)
+/// reports it.
 struct Shape {
-  Expr distance;                        ///< negative inside, scene units
+  Expr distance;  ///< negative inside, scene units
   Attributes surface = attributesOf(*defaultMaterial());
-  std::vector<MaterialPtr> materials{defaultMaterial()};  ///< every material that can appear, by first appearance
-  Box bounds = Box::everything();       ///< contains the solid (f <= 0); infinite sides where it is unbounded or unknown
+  std::vector<MaterialPtr> materials{
+      defaultMaterial()};  ///< every material that can appear, by first appearance
+  Box bounds =
+      Box::everything();  ///< contains the solid (f <= 0); infinite sides where it is unbounded or unknown
   Claim claim;
-  int dimension = 3;                    ///< 2: a flat shape in x and y (its distance ignores z), to be extruded or revolved
+  int dimension = 3;  ///< 2: a flat shape in x and y (its distance ignores z), to be extruded or revolved
   std::optional<std::string> error;
 
   bool ok() const { return !error; }
