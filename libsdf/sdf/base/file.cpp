@@ -1,0 +1,229 @@
+#include "sdf/base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <mutex>
+#include <set>
+#include <streambuf>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace sdf {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<bool> abandoned{false};
+
+/// The files that are being written. Renaming and removing happen under its lock, so that none slips through.
+struct Unfinished {
+  std::mutex mutex;
+  std::set<std::string> paths;
+};
+
+Unfinished& unfinished() {
+  static Unfinished files;
+  return files;
+}
+
+const char* adviceFor(int reason) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose another folder";
+    case EFBIG:
+      return "raise the limit on file sizes (ulimit -f) or write less, e.g. with larger voxels";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a folder that you may write to";
+    case ENOENT:
+    case ENOTDIR:
+      return "make the folder first or choose another";
+    case ENAMETOOLONG:
+      return "choose a shorter name";
+    default:
+      return "choose another folder";
+  }
+}
+
+Error cannotWrite(const fs::path& target, int reason) {
+  return {ErrorKind::Files, "cannot write '" + target.string() +
+                                "': " + std::generic_category().message(reason) + "; " + adviceFor(reason)};
+}
+
+Error interrupted(const fs::path& target) {
+  return {ErrorKind::Interrupted, "interrupted; '" + target.string() + "' was not written"};
+}
+
+fs::path folderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// Where the bytes of `target` belong: at the end of the symbolic links that start there. (Canonical paths of
+/// the standard library do not follow a link to a file yet to be made.)
+fs::path resolved(fs::path target) {
+  constexpr int kMostLinks = 40;  // Linux follows no more either (path_resolution(7))
+  std::error_code ignored;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(target, ignored); ++i) {
+    target = folderOf(target) / fs::read_symlink(target, ignored);
+  }
+  return target;
+}
+
+/// Buffered writing to a file descriptor that keeps the first error's reason, which std::filebuf loses.
+class DescriptorBuffer : public std::streambuf {
+ public:
+  explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) {
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+  }
+  int reason() const { return reason_; }
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (sync() != 0) return traits_type::eof();
+    if (!traits_type::eq_int_type(c, traits_type::eof())) {
+      *pptr() = traits_type::to_char_type(c);
+      pbump(1);
+    }
+    return traits_type::not_eof(c);
+  }
+
+  std::streamsize xsputn(const char* data, std::streamsize count) override {
+    if (count < epptr() - pptr()) {
+      traits_type::copy(pptr(), data, count);
+      pbump(static_cast<int>(count));
+      return count;
+    }
+    return sync() == 0 && put(data, count) ? count : 0;
+  }
+
+  int sync() override {
+    const bool done = put(pbase(), pptr() - pbase());
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+    return done ? 0 : -1;
+  }
+
+ private:
+  // Large blocks go out in pieces, so that an interruption is noticed between them.
+  static constexpr std::streamsize kPiece = 1 << 20;
+
+  bool put(const char* data, std::streamsize count) {
+    while (count > 0 && reason_ == 0) {
+      if (abandoned) reason_ = EINTR;
+      const ssize_t written = reason_ == 0 ? ::write(descriptor_, data, std::min(count, kPiece)) : 0;
+      if (written < 0 && errno != EINTR) reason_ = errno;
+      if (written > 0) {
+        data += written;
+        count -= written;
+      }
+    }
+    return reason_ == 0;
+  }
+
+  int descriptor_;
+  int reason_ = 0;
+  std::array<char, 1 << 16> buffer_;
+};
+
+/// A new file in the folder of `target`, with a name that nothing there has; removed unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target) {
+    static std::atomic<unsigned> counter{0};
+    std::lock_guard lock(unfinished().mutex);
+    if (abandoned) {
+      reason_ = EINTR;
+      return;
+    }
+    do {
+      path_ = (folderOf(target) /
+               (".sdf-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part"))
+                  .string();
+      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    reason_ = descriptor_ < 0 ? errno : 0;
+    if (reason_ == 0) unfinished().paths.insert(path_);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    std::lock_guard lock(unfinished().mutex);
+    if (unfinished().paths.erase(path_) > 0) ::unlink(path_.c_str());
+  }
+
+  int descriptor() const { return descriptor_; }
+  /// errno of what failed, or 0.
+  int reason() const { return reason_; }
+
+  /// Gives the file its name. Some file systems report a failed write only when the file is closed.
+  int renameTo(const fs::path& target) {
+    if (::close(std::exchange(descriptor_, -1)) != 0) return errno;
+    std::lock_guard lock(unfinished().mutex);
+    if (abandoned) return EINTR;
+    if (::rename(path_.c_str(), target.c_str()) != 0) return errno;
+    unfinished().paths.erase(path_);
+    return 0;
+  }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  int reason_ = 0;
+};
+
+}  // namespace
+
+Status checkWritable(const fs::path& target) {
+  if (!target.has_filename()) return cannotWrite(target, EISDIR);
+  const fs::path real = resolved(target);
+  struct stat about;
+  if (::stat(real.c_str(), &about) == 0) {
+    if (S_ISDIR(about.st_mode)) return cannotWrite(target, EISDIR);
+    if (::access(real.c_str(), W_OK) != 0) return cannotWrite(target, errno);
+  }
+  if (::stat(folderOf(real).c_str(), &about) != 0) return cannotWrite(target, errno);
+  if (!S_ISDIR(about.st_mode)) return cannotWrite(target, ENOTDIR);
+  if (::access(folderOf(real).c_str(), W_OK | X_OK) != 0) return cannotWrite(target, errno);
+  return okStatus();
+}
+
+Status writeFile(const fs::path& target, const std::function<Status(std::ostream&)>& write) {
+  if (abandoned) return interrupted(target);
+  if (Status possible = checkWritable(target); !possible) return possible;
+  const fs::path real = resolved(target);
+  TemporaryFile file(real);
+  if (abandoned) return interrupted(target);
+  if (file.reason() != 0) return cannotWrite(target, file.reason());
+
+  DescriptorBuffer buffer(file.descriptor());
+  std::ostream stream(&buffer);
+  Status written = write(stream);
+  stream.flush();
+  if (abandoned) return interrupted(target);
+  if (buffer.reason() != 0) return cannotWrite(target, buffer.reason());
+  if (!written) return written;
+  if (!stream) return cannotWrite(target, EIO);
+
+  const int reason = file.renameTo(real);
+  if (abandoned && reason == EINTR) return interrupted(target);
+  if (reason != 0) return cannotWrite(target, reason);
+  return okStatus();
+}
+
+void abandonWrites() {
+  std::lock_guard lock(unfinished().mutex);
+  abandoned = true;
+  for (const std::string& path : unfinished().paths) ::unlink(path.c_str());
+  unfinished().paths.clear();
+}
+
+}  // namespace sdf

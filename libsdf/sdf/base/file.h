@@ -1,0 +1,26 @@
+// Writing files whole: a file appears under its name only when every byte of it is on its way to the disk.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <ostream>
+
+#include "sdf/base/result.h"
+
+namespace sdf {
+
+/// Could a file be made at `target` now? Checks that its folder exists and is writable, and that no folder
+/// and no write-protected file has that name. Meant to be asked before long work; a full disk shows only on
+/// writing. Errors: Files.
+Status checkWritable(const std::filesystem::path& target);
+
+/// Calls `write` with a binary stream into a new file beside `target`, and renames that to `target` once
+/// `write` has succeeded and everything is written. On any failure the new file is removed and an older
+/// `target` is left as it was. A target that is a symbolic link is followed. Errors: those of `write`; Files,
+/// with the system's reason and what to do; Interrupted after abandonWrites.
+Status writeFile(const std::filesystem::path& target, const std::function<Status(std::ostream&)>& write);
+
+/// For programs that are told to end: removes every unfinished file at once and makes each writeFile, running
+/// or yet to come, fail with Interrupted. May be called from any thread, not from a signal handler.
+void abandonWrites();
+
+}  // namespace sdf

@@ -1,0 +1,7 @@
+#include "sdf/base/version.h"
+
+namespace sdf {
+
+const char* version() { return SDF_VERSION; }
+
+}  // namespace sdf

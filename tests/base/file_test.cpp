@@ -1,0 +1,174 @@
+#include "sdf/base/file.h"
+
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <functional>
+
+#include "support/folder.h"
+
+namespace sdf {
+namespace {
+
+Status text(std::ostream& out, const std::string& what) {
+  out << what;
+  return okStatus();
+}
+
+std::function<Status(std::ostream&)> writing(const std::string& what) {
+  return [what](std::ostream& out) { return text(out, what); };
+}
+
+/// Runs `body` in a process of its own, for what would change this one; true if every check in it held.
+bool inChild(const std::function<bool()>& body) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(body() ? 0 : 1);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST(WriteFile, PutsEveryByteUnderTheName) {
+  const Folder folder;
+  const std::string large(3'000'001, 'x');  // more than the buffer and more than one piece
+  ASSERT_TRUE(writeFile(folder / "a.bin", [&](std::ostream& out) {
+    out << "head" << large << "tail";
+    return okStatus();
+  }));
+  EXPECT_EQ(contents(folder / "a.bin"), "head" + large + "tail");
+}
+
+TEST(WriteFile, ShowsNothingUnderTheNameBeforeItIsComplete) {
+  const Folder folder;
+  ASSERT_TRUE(writeFile(folder / "a", [&](std::ostream& out) {
+    out << "half" << std::flush;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+    return okStatus();
+  }));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a"));
+}
+
+TEST(WriteFile, LeavesNothingWhenTheWriterFails) {
+  const Folder folder;
+  const Status status = writeFile(folder / "a", [](std::ostream& out) -> Status {
+    out << "half";
+    return Error{ErrorKind::Limits, "too much"};
+  });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Limits);
+  EXPECT_EQ(status.error().message, "too much");
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(WriteFile, LeavesAnOlderFileAsItWasWhenTheWriterFails) {
+  const Folder folder;
+  ASSERT_TRUE(writeFile(folder / "a", writing("old")));
+  ASSERT_FALSE(writeFile(folder / "a", [](std::ostream&) -> Status { return Error{ErrorKind::Limits, ""}; }));
+  EXPECT_EQ(contents(folder / "a"), "old");
+}
+
+TEST(WriteFile, ReplacesAnOlderFile) {
+  const Folder folder;
+  ASSERT_TRUE(writeFile(folder / "a", writing("a long old text")));
+  ASSERT_TRUE(writeFile(folder / "a", writing("new")));
+  EXPECT_EQ(contents(folder / "a"), "new");
+}
+
+TEST(WriteFile, FollowsSymbolicLinks) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "deep");
+  std::filesystem::create_symlink("deep/real", folder / "link");
+  ASSERT_TRUE(writeFile(folder / "link", writing("text")));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(contents(folder / "deep/real"), "text");
+}
+
+TEST(WriteFile, GivesTheFileOrdinaryPermissions) {
+  const Folder folder;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ASSERT_TRUE(writeFile(folder / "a", writing("text")));
+  struct stat about;
+  ASSERT_EQ(::stat((folder / "a").c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 0777u, 0666u & ~mask);
+}
+
+TEST(WriteFile, NamesTheMissingFolder) {
+  const Folder folder;
+  const Status status = writeFile(folder / "none/a.glb", writing("text"));
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Files);
+  EXPECT_EQ(status.error().message,
+            "cannot write '" + (folder / "none/a.glb").string() +
+                "': No such file or directory; make the folder first or choose another");
+}
+
+TEST(WriteFile, RefusesAFolderAsTarget) {
+  const Folder folder;
+  const Status status = writeFile(folder.path(), writing("text"));
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("Is a directory"), std::string::npos) << status.error().message;
+}
+
+TEST(WriteFile, RefusesAFolderThatMayNotBeWrittenTo) {
+  const Folder folder;
+  std::filesystem::permissions(folder.path(),
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_TRUE(inChild([&] {
+    constexpr uid_t kNobody = 65534;  // the superuser may write anywhere
+    if (::geteuid() == 0 && ::setuid(kNobody) != 0) return false;
+    const Status status = checkWritable(folder / "a");
+    return !status && status.error().kind == ErrorKind::Files &&
+           status.error().message.find("Permission denied; choose a folder") != std::string::npos;
+  }));
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+}
+
+TEST(WriteFile, LeavesNothingWhenTheFileGrowsBeyondItsLimit) {
+  const Folder folder;
+  EXPECT_TRUE(inChild([&] {
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::signal(SIGXFSZ, SIG_IGN);
+    const Status status = writeFile(folder / "a", writing(std::string(5000, 'x')));
+    return !status && status.error().kind == ErrorKind::Files &&
+           status.error().message.find("File too large; raise the limit") != std::string::npos;
+  }));
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(WriteFile, LeavesNothingOnAFullDisk) {
+  const Folder folder;
+  if (::mount("none", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
+    GTEST_SKIP() << "mounting needs root";
+  const Status status = writeFile(folder / "a", writing(std::string(1 << 20, 'x')));
+  const bool empty = folder.empty();
+  ::umount(folder.path().c_str());
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Files);
+  EXPECT_NE(status.error().message.find("No space left on device; free some space"), std::string::npos);
+  EXPECT_TRUE(empty);
+}
+
+TEST(WriteFile, EndsAtOnceAndLeavesNothingAfterAbandonWrites) {
+  const Folder folder;
+  EXPECT_TRUE(inChild([&] {
+    const Status running = writeFile(folder / "a", [&](std::ostream& out) {
+      out << "half" << std::flush;
+      abandonWrites();
+      EXPECT_TRUE(folder.empty());
+      return okStatus();
+    });
+    const Status later = writeFile(folder / "b", writing("text"));
+    return !running && running.error().kind == ErrorKind::Interrupted && !later &&
+           later.error().kind == ErrorKind::Interrupted && !testing::Test::HasFailure();
+  }));
+  EXPECT_TRUE(folder.empty());
+}
+
+}  // namespace
+}  // namespace sdf
