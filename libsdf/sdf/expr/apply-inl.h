@@ -12,6 +12,7 @@
 #endif
 
 #include <cassert>
+#include <utility>
 
 #include "sdf/expr/op.h"
 #include "sdf/number/dual-inl.h"
@@ -58,13 +59,13 @@ struct Apply;
       return call(a, b, c);                           \
     }                                                 \
   };
-#define SDF_FUSED(name, arity, body)                                                          \
+#define SDF_FUSED(name, rows, constants, body)                                                \
   template <>                                                                                 \
   struct Apply<Op::name> {                                                                    \
     template <class T>                                                                        \
     static T of(const T& a, const T& b, const T& c = T{}, const T& d = T{}, const T& e = T{}, \
-                const T& f = T{}) {                                                           \
-      (void)c, (void)d, (void)e, (void)f;                                                     \
+                const T& f = T{}, const T& g = T{}) {                                         \
+      (void)c, (void)d, (void)e, (void)f, (void)g;                                            \
       return body;                                                                            \
     }                                                                                         \
   };
@@ -84,7 +85,7 @@ void dispatch(Op op, F&& f) {
     return f(OpTag<Op::name>{});
 #define SDF_BINARY SDF_UNARY
 #define SDF_TERNARY SDF_UNARY
-#define SDF_FUSED(name, arity, body) SDF_UNARY(name, body)
+#define SDF_FUSED(name, rows, constants, body) SDF_UNARY(name, body)
 #include "sdf/expr/ops.def"
     default:
       assert(!"dispatch: not an operation");
@@ -95,12 +96,9 @@ void dispatch(Op op, F&& f) {
 template <class T, class Args>
 T evaluateOp(Op op, Args&& args) {
   T result{};
-  dispatch(op, [&](auto tag) {
-    if constexpr (tag.arity == 1) result = apply<tag.op>(args(0));
-    if constexpr (tag.arity == 2) result = apply<tag.op>(args(0), args(1));
-    if constexpr (tag.arity == 3) result = apply<tag.op>(args(0), args(1), args(2));
-    if constexpr (tag.arity == 6)
-      result = apply<tag.op>(args(0), args(1), args(2), args(3), args(4), args(5));
+  dispatch(op, [&]<class Tag>(Tag tag) {
+    result = [&]<int... i>(std::integer_sequence<int, i...>) { return apply<tag.op>(args(i)...); }
+    (std::make_integer_sequence<int, Tag::arity>());
   });
   return result;
 }

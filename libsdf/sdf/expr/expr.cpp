@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <cassert>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -85,7 +86,15 @@ void setFacts(Node& n) {
   n.lipschitz = fact.d[0].magnitude();
 }
 
+// Nodes made less nodes deleted by this thread, and how many there may be (see NodeLimit).
+thread_local std::int64_t nodesHeld = 0;
+thread_local std::int64_t nodesAllowed = std::numeric_limits<std::int64_t>::max();
+
 }  // namespace
+
+NodeLimit::NodeLimit(std::int64_t count) : before_(nodesHeld) { nodesAllowed = before_ + count; }
+NodeLimit::~NodeLimit() { nodesAllowed = std::numeric_limits<std::int64_t>::max(); }
+std::int64_t NodeLimit::held() const { return nodesHeld - before_; }
 
 // Every live node, so that equal nodes are found again. References from here are not counted: a node leaves
 // as its last handle goes. The last reference is dropped under the lock, so no look-up can revive a node that
@@ -104,11 +113,13 @@ class NodeTable {
       retain(*it);
       return Expr(*it);
     }
+    if (nodesHeld >= nodesAllowed) throw NodeLimitReached();
     setFacts(*n);
     for (const Node* a : n->args)
       if (a) retain(a);
     const Node* node = n.release();
     nodes_.insert(node);
+    ++nodesHeld;
     return Expr(node);
   }
 
@@ -134,6 +145,7 @@ class NodeTable {
       for (const Node* a : n->args)
         if (a) pending.push_back(a);
       delete n;
+      --nodesHeld;
     }
   }
 

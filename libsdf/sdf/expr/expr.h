@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <span>
@@ -72,6 +73,27 @@ class Expr {
   explicit Expr(const Node* node) : node_(node) {}  // takes over one reference
   friend class NodeTable;
   const Node* node_;
+};
+
+/// Thrown by the making of a node that the NodeLimit in force does not allow.
+struct NodeLimitReached : std::exception {
+  const char* what() const noexcept override { return "the expression graph outgrew its limit"; }
+};
+
+/// While it lives, this thread may hold at most `count` nodes more than it held before (made here, less
+/// deleted here): an operation can double a graph, so a bound on a graph that someone else describes cannot
+/// wait until the operation is done. Limits do not nest.
+class NodeLimit {
+ public:
+  explicit NodeLimit(std::int64_t count);
+  ~NodeLimit();
+  NodeLimit(const NodeLimit&) = delete;
+  NodeLimit& operator=(const NodeLimit&) = delete;
+  /// Nodes held since this was made.
+  std::int64_t held() const;
+
+ private:
+  std::int64_t before_;
 };
 
 Expr operator-(const Expr& a);

@@ -1,0 +1,330 @@
+#include "sdf/eval/batch.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+// Older targets run through Highway's SSE4 path or its portable one; newer ones gain nothing over AVX3.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sdf/eval/batch.cpp"
+#include <hwy/aligned_allocator.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "sdf/eval/lanes-inl.h"
+#include "sdf/expr/apply-inl.h"
+
+#ifndef SDF_BATCH_JOB
+#define SDF_BATCH_JOB
+namespace sdf {
+/// Rows beside the tape's registers, one for each argument, for constants where a loop wants a row.
+inline constexpr std::uint32_t kSpareRows = 3;
+/// One pass of a tape over at most kBatchPoints points. Pointers to registers, the spare rows last; gradients
+/// lie `stride` floats further on.
+struct BatchJob {
+  const Tape* tape;
+  float* const* registers;
+  std::size_t count;   // points, rounded up to whole vectors
+  std::size_t stride;  // floats from a value's row to its derivative rows
+};
+struct BallJob {
+  BatchJob batch;
+  float radius;
+  float slack;
+  std::size_t balls;
+  Decision* decisions;
+};
+}  // namespace sdf
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace sdf {
+namespace HWY_NAMESPACE {
+
+// How a number type lies in the rows.
+template <class T>
+struct Rowed;
+
+template <>
+struct Rowed<Lanes> {
+  static HWY_INLINE Lanes load(const float* p, std::size_t) { return hn::Load(kD, p); }
+  static HWY_INLINE Lanes fromConstant(float v) { return Lanes(static_cast<double>(v)); }
+  static HWY_INLINE void store(const Lanes& a, float* p, std::size_t) { hn::Store(a.v, kD, p); }
+};
+
+using Gradient = Dual<Lanes, 3>;
+template <>
+struct Rowed<Gradient> {
+  static HWY_INLINE Gradient load(const float* p, std::size_t stride) {
+    return {Lanes(hn::Load(kD, p)),
+            {Lanes(hn::Load(kD, p + stride)), Lanes(hn::Load(kD, p + 2 * stride)),
+             Lanes(hn::Load(kD, p + 3 * stride))}};
+  }
+  static HWY_INLINE Gradient fromConstant(float v) { return {Lanes(static_cast<double>(v)), {}}; }
+  static HWY_INLINE void store(const Gradient& a, float* p, std::size_t stride) {
+    hn::Store(a.v.v, kD, p);
+    for (int i = 0; i < 3; ++i) hn::Store(a.d[i].v, kD, p + (i + 1) * stride);
+  }
+};
+
+// An argument: a row to load from, or a constant kept in a vector. Which of them is known as the loop is
+// compiled.
+template <class T, bool kConstant>
+struct Argument;
+
+template <class T>
+struct Argument<T, false> {
+  const float* row;
+  std::size_t stride;
+  HWY_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
+      : row(HWY_UNLIKELY(n.constant[k]) ? filledRow(job, n, k) : job.registers[n.in[k]]),
+        stride(job.stride) {}
+  HWY_INLINE T operator()(std::size_t i) const { return Rowed<T>::load(row + i, stride); }
+
+  // Constants in unusual places (specialisation leaves some) are spread over a spare row.
+  static HWY_NOINLINE const float* filledRow(const BatchJob& job, const RegisterInstruction& n, int k) {
+    float* spare = job.registers[job.tape->registerCount() + k];
+    const T value = Rowed<T>::fromConstant(job.tape->floats()[n.in[k]]);
+    for (std::size_t i = 0; i < job.count; i += hn::Lanes(kD)) Rowed<T>::store(value, spare + i, job.stride);
+    return spare;
+  }
+};
+
+template <class T>
+struct Argument<T, true> {
+  T value;
+  HWY_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
+      : value(Rowed<T>::fromConstant(job.tape->floats()[n.in[k]])) {}
+  HWY_INLINE const T& operator()(std::size_t) const { return value; }
+};
+
+// Two vectors at once, which hides latencies. `constants` are the trailing arguments of a fused operation.
+template <class T, Op op, std::size_t... kConstants, class... Args>
+HWY_INLINE void loop(const BatchJob& job, const RegisterInstruction& n, std::index_sequence<kConstants...>,
+                     const Args&... args) {
+  const float* c = job.tape->floats() + n.constants;
+  [[maybe_unused]] const T constants[] = {Rowed<T>::fromConstant(c[0]),
+                                          Rowed<T>::fromConstant(c[kConstants])...};
+  float* out = job.registers[n.out];
+  const std::size_t step = hn::Lanes(kD);
+  for (std::size_t i = 0; i < job.count; i += 2 * step) {
+    const T first = apply<op>(args(i)..., constants[kConstants + 1]...);
+    const T second = apply<op>(args(i + step)..., constants[kConstants + 1]...);
+    Rowed<T>::store(first, out + i, job.stride);
+    Rowed<T>::store(second, out + i + step, job.stride);
+  }
+}
+
+// Runs one instruction: picks the loop for the kinds of its arguments.
+template <class T, Op op>
+void runInstruction(const BatchJob& job, const RegisterInstruction& n) {
+  using Row = Argument<T, false>;
+  using Number = Argument<T, true>;
+  constexpr int kRows = rowArguments(op);
+  const std::make_index_sequence<info(op).constants> constants;
+  const Row a(job, n, 0);
+  if constexpr (kRows == 1) {
+    loop<T, op>(job, n, constants, a);
+  } else if constexpr (kRows == 2) {
+    if (n.constant[0])
+      loop<T, op>(job, n, constants, Number(job, n, 0), Row(job, n, 1));
+    else if (n.constant[1])
+      loop<T, op>(job, n, constants, a, Number(job, n, 1));
+    else
+      loop<T, op>(job, n, constants, a, Row(job, n, 1));
+  } else {
+    const int kinds = n.constant[1] + 2 * n.constant[2];
+    if (kinds == 0) loop<T, op>(job, n, constants, a, Row(job, n, 1), Row(job, n, 2));
+    if (kinds == 1) loop<T, op>(job, n, constants, a, Number(job, n, 1), Row(job, n, 2));
+    if (kinds == 2) loop<T, op>(job, n, constants, a, Row(job, n, 1), Number(job, n, 2));
+    if (kinds == 3) loop<T, op>(job, n, constants, a, Number(job, n, 1), Number(job, n, 2));
+  }
+}
+
+template <class T>
+HWY_INLINE void runInstruction(const BatchJob& job, const RegisterInstruction& n) {
+  dispatch(n.op, [&](auto tag) HWY_ATTR { runInstruction<T, tag.op>(job, n); });
+}
+
+void RunValues(const BatchJob& job) {
+  for (const RegisterInstruction& n : job.tape->program()) runInstruction<Lanes>(job, n);
+}
+
+void RunGradients(const BatchJob& job) {
+  for (const RegisterInstruction& n : job.tape->program()) runInstruction<Gradient>(job, n);
+}
+
+// Where a - b leaves [-margin, margin] the ball is decided; the instruction's meaning says which way.
+void decide(const BallJob& job, const RegisterInstruction& n, float slopes, Decision* out) {
+  const float* a = n.constant[0] ? nullptr : job.batch.registers[n.in[0]];
+  const float* b = n.constant[1] ? nullptr : job.batch.registers[n.in[1]];
+  const float ca = n.constant[0] ? job.batch.tape->floats()[n.in[0]] : 0.0f;
+  const float cb = n.constant[1] ? job.batch.tape->floats()[n.in[1]] : 0.0f;
+  const float margin = slopes * job.radius + job.slack;
+  const bool lowerFirst = n.op == Op::Min || n.op == Op::Less || n.op == Op::LessEqual;
+  const auto below = lowerFirst ? Decision::First : Decision::Second;
+  const auto above = n.op == Op::Max ? Decision::First : Decision::Second;
+  for (std::size_t i = 0; i < job.balls; ++i) {
+    const float difference = (a ? a[i] : ca) - (b ? b[i] : cb);
+    out[i] = difference < -margin ? below : difference > margin ? above : Decision::Open;
+  }
+}
+
+void RunBalls(const BallJob& job) {
+  const Tape& tape = *job.batch.tape;
+  Decision* out = job.decisions;
+  for (std::size_t i = 0; i < tape.program().size(); ++i) {
+    const RegisterInstruction& n = tape.program()[i];
+    if (isDecidable(n.op)) {
+      const Instruction& source = tape.instructions()[i];
+      const float slopes = tape.slope(source.in[0]) + tape.slope(source.in[1]);
+      if (n.op == Op::Select || !(slopes < HUGE_VALF))
+        std::fill_n(out, job.balls, Decision::Open);
+      else
+        decide(job, n, slopes, out);
+      out += job.balls;
+    }
+    runInstruction<Lanes>(job.batch, n);
+  }
+}
+
+std::size_t LaneCount() { return hn::Lanes(kD); }
+const char* TargetName() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sdf
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sdf {
+
+HWY_EXPORT(RunValues);
+HWY_EXPORT(RunGradients);
+HWY_EXPORT(RunBalls);
+HWY_EXPORT(LaneCount);
+HWY_EXPORT(TargetName);
+
+namespace {
+
+constexpr std::size_t kGranule = 32;  // two of the widest vectors: what a loop takes at once
+constexpr std::size_t kL1Bytes =
+    32 * 1024;  // what a pass may keep in registers, so that they stay in the first cache
+constexpr std::size_t kSmallestPass = 64;
+
+std::size_t wholeVectors(std::size_t count) { return (count + kGranule - 1) / kGranule * kGranule; }
+
+// Points in one pass of a tape with so many rows.
+std::size_t passLength(std::size_t rows) {
+  std::size_t points = kBatchPoints;
+  while (points > kSmallestPass && rows * points * sizeof(float) > kL1Bytes) points /= 2;
+  return points;
+}
+
+}  // namespace
+
+struct BatchEvaluator::Scratch {
+  hwy::AlignedFreeUniquePtr<float[]> memory;
+  std::size_t capacity = 0;
+  std::vector<float*> registers;
+
+  // Lays out the registers of a tape and the spare rows, `rows` rows of `length` floats each.
+  void layOut(const Tape& tape, std::size_t rows, std::size_t length) {
+    const std::size_t count = tape.registerCount() + kSpareRows;
+    const std::size_t needed = count * rows * length;
+    if (needed > capacity) {
+      memory = hwy::AllocateAligned<float>(needed);
+      std::fill_n(memory.get(), needed, 0.0f);
+      capacity = needed;
+    }
+    registers.resize(count);
+    for (std::size_t i = 0; i < count; ++i) registers[i] = memory.get() + i * rows * length;
+  }
+};
+
+BatchEvaluator::BatchEvaluator() : scratch_(std::make_unique<Scratch>()) {}
+BatchEvaluator::~BatchEvaluator() = default;
+BatchEvaluator::BatchEvaluator(BatchEvaluator&&) noexcept = default;
+
+const char* BatchEvaluator::targetName() { return HWY_DYNAMIC_DISPATCH(TargetName)(); }
+
+namespace {
+
+std::array<const float*, kVariableCount> rowsOf(const Rows& in) {
+  return {in.x, in.y, in.z, in.nx, in.ny, in.nz};
+}
+
+// Copies the tape's value of one output, wherever it ended up, to a row of the caller.
+void copyOutput(const Tape& tape, std::size_t i, float* const* registers, std::size_t count, float* out) {
+  const Operand o = tape.programOutputs()[i];
+  if (o.isConstant())
+    std::fill_n(out, count, tape.floats()[o.index()]);
+  else
+    std::memcpy(out, registers[o.isValue() ? o.index() + kVariableCount : o.index()], count * sizeof(float));
+}
+
+void copyInputs(const Rows& in, std::size_t first, std::size_t count, float* const* registers) {
+  const auto rows = rowsOf(in);
+  for (int v = 0; v < kVariableCount; ++v)
+    if (rows[v]) std::memcpy(registers[v], rows[v] + first, count * sizeof(float));
+}
+
+}  // namespace
+
+void BatchEvaluator::evaluate(const Tape& tape, const Rows& in, std::size_t count,
+                              std::span<float* const> out) {
+  assert(out.size() == tape.outputs().size());
+  const std::size_t length = passLength(tape.registerCount());
+  scratch_->layOut(tape, 1, length);
+  float** registers = scratch_->registers.data();
+  for (std::size_t first = 0; first < count; first += length) {
+    const std::size_t n = std::min(length, count - first);
+    copyInputs(in, first, n, registers);
+    HWY_DYNAMIC_DISPATCH(RunValues)({&tape, registers, wholeVectors(n), 0});
+    for (std::size_t i = 0; i < out.size(); ++i) copyOutput(tape, i, registers, n, out[i] + first);
+  }
+}
+
+void BatchEvaluator::evaluateGradient(const Tape& tape, const Rows& in, std::size_t count, float* value,
+                                      float* dx, float* dy, float* dz) {
+  const std::size_t length = passLength(4 * tape.registerCount());
+  scratch_->layOut(tape, 4, length);
+  float** registers = scratch_->registers.data();
+  for (int v = 0; v < kVariableCount; ++v)
+    for (int axis = 0; axis < 3; ++axis)
+      std::fill_n(registers[v] + (axis + 1) * length, length, v == axis ? 1.0f : 0.0f);
+  float* const targets[4] = {value, dx, dy, dz};
+  for (std::size_t first = 0; first < count; first += length) {
+    const std::size_t n = std::min(length, count - first);
+    copyInputs(in, first, n, registers);
+    HWY_DYNAMIC_DISPATCH(RunGradients)({&tape, registers, wholeVectors(n), length});
+    const Operand o = tape.programOutputs()[0];
+    copyOutput(tape, 0, registers, n, value + first);
+    for (int axis = 0; axis < 3; ++axis) {
+      float* target = targets[axis + 1] + first;
+      if (o.isConstant())
+        std::fill_n(target, n, 0.0f);
+      else
+        std::memcpy(target,
+                    registers[o.isValue() ? o.index() + kVariableCount : o.index()] + (axis + 1) * length,
+                    n * sizeof(float));
+    }
+  }
+}
+
+void BatchEvaluator::evaluateBalls(const Tape& tape, const Rows& in, std::size_t count, float radius,
+                                   float slack, float* value, std::vector<Decision>& decisions) {
+  assert(count <= kBatchPoints);
+  const std::size_t padded = wholeVectors(count);
+  scratch_->layOut(tape, 1, padded);
+  float** registers = scratch_->registers.data();
+  copyInputs(in, 0, count, registers);
+  decisions.resize(tape.decisionCount() * count);
+  HWY_DYNAMIC_DISPATCH(RunBalls)({{&tape, registers, padded, 0}, radius, slack, count, decisions.data()});
+  copyOutput(tape, 0, registers, count, value);
+}
+
+}  // namespace sdf
+#endif  // HWY_ONCE

@@ -1,0 +1,124 @@
+// Tape: expressions laid out as straight code, for one or more outputs; and its specialisation to a region.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sdf/expr/expr.h"
+
+namespace sdf {
+
+/// Where an instruction finds an argument: a variable, an earlier instruction's value, or a constant.
+class Operand {
+ public:
+  constexpr Operand() = default;
+  static constexpr Operand variable(Variable v) { return Operand(static_cast<std::uint32_t>(v)); }
+  static constexpr Operand value(std::size_t instruction) {
+    return Operand(static_cast<std::uint32_t>(instruction) + kVariableCount);
+  }
+  static constexpr Operand constant(std::size_t index) {
+    return Operand(static_cast<std::uint32_t>(index) | kConstantBit);
+  }
+  constexpr bool isConstant() const { return bits_ & kConstantBit; }
+  constexpr bool isVariable() const { return bits_ < kVariableCount; }
+  constexpr bool isValue() const { return !isConstant() && !isVariable(); }
+  /// Index of the constant, of the variable, or of the instruction.
+  constexpr std::uint32_t index() const {
+    return isConstant() ? bits_ & ~kConstantBit : isVariable() ? bits_ : bits_ - kVariableCount;
+  }
+  friend constexpr bool operator==(Operand, Operand) = default;
+
+ private:
+  static constexpr std::uint32_t kConstantBit = 1u << 31;
+  explicit constexpr Operand(std::uint32_t bits) : bits_(bits) {}
+  std::uint32_t bits_ = 0;
+};
+
+/// One operation. The constants of a fused operation lie in a row from `constants` on.
+struct Instruction {
+  Op op;
+  std::array<Operand, 3> in;
+  std::uint32_t constants = 0;
+  float lipschitz = 0.0f;  ///< proven global bound of the value's slope, rounded up; infinite where unknown
+};
+
+/// The same instruction with registers. Registers [0, kVariableCount) are the variables.
+struct RegisterInstruction {
+  Op op;
+  std::array<bool, 3> constant{};  ///< in[i] is an index of a constant, else a register
+  std::uint32_t out;
+  std::array<std::uint32_t, 3> in;
+  std::uint32_t constants;
+};
+
+/// What is known of min, max, select and the comparisons over a region.
+enum class Decision : std::uint8_t {
+  Open,   ///< either may win
+  First,  ///< min, max: the first argument wins everywhere; select: the condition holds; comparison: true
+  Second  ///< the other way round
+};
+
+class Tape {
+ public:
+  /// Compiles the outputs, sharing common parts, folding parameters at their present values, and fusing
+  /// operations (e.g. sqrt of a sum of squares). Cost: linear in the size of the graph.
+  explicit Tape(std::span<const Expr> outputs);
+  explicit Tape(const Expr& output) : Tape(std::span(&output, 1)) {}
+
+  const std::vector<Instruction>& instructions() const { return instructions_; }
+  const std::vector<Operand>& outputs() const { return outputs_; }
+  double constant(std::size_t i) const { return pool_->doubles[i]; }
+  const double* doubles() const { return pool_->doubles.data(); }
+  const float* floats() const { return pool_->floats.data(); }
+
+  /// Register form of the tape, for the batch readings.
+  const std::vector<RegisterInstruction>& program() const { return program_; }
+  /// Registers used by program(), variables included.
+  std::uint32_t registerCount() const { return registerCount_; }
+  /// Registers (or constants) that hold the outputs at the end.
+  const std::vector<Operand>& programOutputs() const { return programOutputs_; }
+
+  /// Instructions that can be decided (isChoice or isComparison); decisions are given in their order on the
+  /// tape.
+  std::size_t decisionCount() const { return decisionCount_; }
+  /// Slope bound of output i.
+  float lipschitz(std::size_t output = 0) const { return slope(outputs_[output]); }
+  /// Slope bound of an operand's value.
+  float slope(Operand operand) const;
+  /// True where every decision can be taken from slopes alone (all min, max and comparisons have finite slope
+  /// bounds).
+  bool hasSlopes() const { return hasSlopes_; }
+
+  /// The tape with decided branches dropped, and all that only they needed. Values are unchanged wherever the
+  /// decisions hold. nullptr where nothing can be dropped. decisions[i * stride] belongs to the i-th
+  /// decidable instruction.
+  std::shared_ptr<const Tape> specialised(const Decision* decisions, std::size_t stride) const;
+
+ private:
+  struct Pool {
+    std::vector<double> doubles;  // 0 and 1 come first: what a decided comparison turns into
+    std::vector<float> floats;
+  };
+
+  Tape() = default;
+  void finish();
+  void allocateRegisters();
+
+  std::vector<Instruction> instructions_;
+  std::vector<Operand> outputs_;
+  std::shared_ptr<const Pool> pool_;
+  std::vector<RegisterInstruction> program_;
+  std::vector<Operand> programOutputs_;
+  std::uint32_t registerCount_ = 0;
+  std::size_t decisionCount_ = 0;
+  bool hasSlopes_ = true;
+  friend class TapeCompiler;
+};
+
+using TapePtr = std::shared_ptr<const Tape>;
+
+constexpr bool isDecidable(Op op) { return isChoice(op) || isComparison(op); }
+
+}  // namespace sdf
