@@ -26,7 +26,14 @@ struct Claim {
   ClaimKind kind = ClaimKind::Exact;
   double lipschitz = 1.0;  ///< |f(p) - f(q)| <= lipschitz |p - q| within `region`; infinite where unknown
   Box region = Box::everything();  ///< convex region over which `lipschitz` holds
+  /// Proven m: where f <= c for some c >= 0, the point lies in the shape's bounds grown by m c. It says how
+  /// far a solid can swell when its distance is lowered (round, smooth union). Infinite where unknown; read
+  /// it through growthOf.
+  double growth = kInfinity;
 };
+
+/// The claim's growth; exact and exact outside have 1, whatever the field says.
+inline double growthOf(const Claim& c) { return c.kind <= ClaimKind::ExactOutside ? 1.0 : c.growth; }
 
 /// The weaker kind, for results that hold what both operands hold.
 inline ClaimKind weaker(ClaimKind a, ClaimKind b) { return a > b ? a : b; }
