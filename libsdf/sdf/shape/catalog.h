@@ -14,7 +14,9 @@
 
 namespace sdf {
 
-enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Shape, Shapes, Flag };
+/// Numbers, integers and vectors are the same everywhere in space; a Field is a number that may depend on the
+/// position.
+enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Shape, Shapes, Flag, Field };
 
 /// What an argument's numbers must be; checked on their present values before `build` is called.
 enum class Rule { Any, Positive, NotNegative, NotZero };
@@ -69,7 +71,9 @@ const std::vector<CatalogEntry>& catalog();
 const CatalogEntry* findEntry(std::string_view name);
 
 /// Builds after checking each argument's rule and finiteness, and that numbers do not depend on position; a
-/// broken rule yields Shape::failed("sphere: radius must be positive, got -1").
+/// broken rule yields Shape::failed("sphere: radius must be positive, got -1"). Arguments that are monostate
+/// or beyond the end of the list take their parameter's fallback. A failed shape among the arguments is
+/// returned as it is.
 Shape build(const CatalogEntry& entry, std::vector<Argument> arguments);
 
 }  // namespace sdf
