@@ -16,11 +16,23 @@ struct ExportPart {
   MeshStats stats;
 };
 
-/// Is the extension one that writeMeshes takes? The error lists those it takes (ErrorKind::Usage).
+/// Figures of all parts together: sums; the largest voxel size and distance; the RMS weighted by triangles.
+MeshStats combined(const std::vector<ExportPart>& parts);
+
+/// Is the extension one that writeMeshes takes (in upper or lower case)? The error lists those it takes
+/// (Usage).
 Status checkExtension(const std::filesystem::path& target);
 
 /// Writes all parts to `target`, whose extension picks the format. The file appears under its name only when
-/// complete. Errors: Usage (unknown extension), Files (cannot be written).
+/// complete.
+/// - .glb, .gltf: one file (the .gltf's buffer is embedded); a node for each part, a primitive for each
+/// material of it,
+///   materials by toMetallicRoughness (pbr.h), camera and lights as in view.h; measured errors in `extras`.
+/// - .stl, .ply (both binary), .obj: all parts in one body of welded triangles, Y up. PLY and OBJ carry
+/// normals and
+///   vertex colours, as sRGB; STL has neither.
+/// The bytes depend on nothing but the arguments.
+/// Errors: Usage (unknown extension), Files (cannot be written), Limits (a .glb over 4 GiB), Interrupted.
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,
                    const std::vector<ExportPart>& parts);
 

@@ -1,0 +1,87 @@
+#include "sdf/gltf/export.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "sdf/base/file.h"
+#include "sdf/gltf/formats.h"
+
+namespace sdf {
+namespace {
+
+using Encoder = Status (*)(std::ostream&, const Scene&, const std::vector<ExportPart>&);
+
+template <GltfContainer container>
+Status gltf(std::ostream& out, const Scene& scene, const std::vector<ExportPart>& parts) {
+  return encodeGltf(out, container, scene, parts);
+}
+
+template <PlainFormat format>
+Status plain(std::ostream& out, const Scene&, const std::vector<ExportPart>& parts) {
+  return encodePlain(out, format, parts);
+}
+
+struct Format {
+  std::string_view extension;
+  Encoder encode;
+};
+
+constexpr std::array kFormats{
+    Format{".glb", gltf<GltfContainer::Binary>}, Format{".gltf", gltf<GltfContainer::Text>},
+    Format{".stl", plain<PlainFormat::Stl>},     Format{".ply", plain<PlainFormat::Ply>},
+    Format{".obj", plain<PlainFormat::Obj>},
+};
+
+const Format* findFormat(const std::filesystem::path& target) {
+  std::string extension = target.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                  [&](const Format& format) { return format.extension == extension; });
+  return found == kFormats.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Status checkExtension(const std::filesystem::path& target) {
+  if (findFormat(target)) return okStatus();
+  const std::string extension = target.extension().string();
+  std::string message = "'" + target.string() + "' has ";
+  message += extension.empty() ? "no extension" : "the unknown extension '" + extension + "'";
+  message += "; the output's name must end in one of";
+  for (const Format& format : kFormats) message.append(" ").append(format.extension);
+  return Error{ErrorKind::Usage, std::move(message)};
+}
+
+MeshStats combined(const std::vector<ExportPart>& parts) {
+  MeshStats all;
+  all.watertight = all.manifold = !parts.empty();
+  double squares = 0.0;
+  for (const ExportPart& part : parts) {
+    const MeshStats& one = part.stats;
+    all.voxels += one.voxels;
+    all.vertices += one.vertices;
+    all.triangles += one.triangles;
+    all.voxelSize = std::max(all.voxelSize, one.voxelSize);
+    all.maxDistance = std::max(all.maxDistance, one.maxDistance);
+    all.watertight = all.watertight && one.watertight;
+    all.manifold = all.manifold && one.manifold;
+    all.components += one.components;
+    all.eulerCharacteristic += one.eulerCharacteristic;
+    squares += one.rmsDistance * one.rmsDistance * static_cast<double>(one.triangles);
+  }
+  if (all.triangles > 0) all.rmsDistance = std::sqrt(squares / static_cast<double>(all.triangles));
+  return all;
+}
+
+Status writeMeshes(const std::filesystem::path& target, const Scene& scene,
+                   const std::vector<ExportPart>& parts) {
+  if (Status known = checkExtension(target); !known) return known;
+  const Encoder encode = findFormat(target)->encode;
+  return writeFile(target, [&](std::ostream& out) { return encode(out, scene, parts); });
+}
+
+}  // namespace sdf

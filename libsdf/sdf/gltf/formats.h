@@ -1,0 +1,21 @@
+// The encoders behind writeMeshes, one for each library.
+#pragma once
+#include <ostream>
+#include <vector>
+
+#include "sdf/gltf/export.h"
+
+namespace sdf {
+
+enum class GltfContainer { Binary, Text };
+/// glTF 2.0 with everything in one file: .glb, or .gltf with its buffer as base64. Errors: Limits (over 4 GiB
+/// of .glb).
+Status encodeGltf(std::ostream& out, GltfContainer container, const Scene& scene,
+                  const std::vector<ExportPart>& parts);
+
+enum class PlainFormat { Stl, Ply, Obj };
+/// All parts as one body of welded triangles: binary STL; binary PLY with normals and sRGB colours; OBJ
+/// likewise.
+Status encodePlain(std::ostream& out, PlainFormat format, const std::vector<ExportPart>& parts);
+
+}  // namespace sdf

@@ -1,0 +1,297 @@
+// glTF 2.0 through tinygltf. Khronos, glTF 2.0 Specification (2021), section numbers below.
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+
+#include "sdf/base/version.h"
+#include "sdf/gltf/formats.h"
+#include "sdf/gltf/pbr.h"
+#include "sdf/gltf/primitive.h"
+#include "sdf/gltf/view.h"
+
+namespace sdf {
+namespace {
+
+using tinygltf::Value;
+
+/// 3.7.2.1: 65535 is the restart value of 16-bit indices, so 65,535 vertices are the most.
+constexpr std::size_t kMostShortVertices = 65535;
+/// The container's length is a 32-bit number (4.4.2); the rest is left for the JSON chunk.
+constexpr std::uint64_t kMostBinaryBytes = (1ull << 32) - (1ull << 26);
+
+/// JSON is UTF-8 (RFC 8259): bytes of a name that are not become U+FFFD.
+std::string utf8(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80                   ? 1
+                               : lead >= 0xC2 && lead < 0xE0 ? 2
+                               : lead >= 0xE0 && lead < 0xF0 ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                             : 0;
+    const auto at = [&](std::size_t k) { return static_cast<unsigned char>(text[i + k]); };
+    bool valid = length > 0 && i + length <= text.size();
+    for (std::size_t k = 1; valid && k < length; ++k) valid = (at(k) & 0xC0) == 0x80;
+    // Unicode, table 3-7: no over-long forms, no surrogates, nothing above U+10FFFF.
+    if (valid && length >= 3) {
+      valid = !(lead == 0xE0 && at(1) < 0xA0) && !(lead == 0xED && at(1) >= 0xA0) &&
+              !(lead == 0xF0 && at(1) < 0x90) && !(lead == 0xF4 && at(1) >= 0x90);
+    }
+    out += valid ? text.substr(i, length) : "\xEF\xBF\xBD";
+    i += valid ? length : 1;
+  }
+  return out;
+}
+
+Value extrasOf(const MeshStats& stats) {
+  return Value(Value::Object{
+      {"voxelSize", Value(stats.voxelSize)},
+      {"rmsDistance", Value(stats.rmsDistance)},
+      {"maxDistance", Value(stats.maxDistance)},
+      {"watertight", Value(stats.watertight)},
+      {"manifold", Value(stats.manifold)},
+  });
+}
+
+std::vector<double> numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+std::vector<double> numbers(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+
+/// A unit vector near `n`; the file must not hold others (3.7.2.1).
+glm::vec3 unit(const glm::vec3& n) {
+  const glm::dvec3 wide(n);
+  const double length = glm::length(wide);
+  return length > 0.0 && std::isfinite(length) ? glm::vec3(wide / length) : glm::vec3(0, 1, 0);
+}
+
+using ColorValue = glm::vec<4, std::uint16_t>;
+
+/// Linear colour in 16 bits a channel (8 would show bands in the darks), opaque.
+ColorValue quantized(const glm::vec3& color) {
+  constexpr float kMost = 65535.0f;
+  return ColorValue(glm::round(color * kMost), 65535);
+}
+
+class GltfBuilder {
+ public:
+  explicit GltfBuilder(const Scene& scene) : scene_(scene) {
+    model_.asset.version = "2.0";
+    model_.asset.generator = std::string("libsdf ") + version();
+    model_.buffers.emplace_back();
+    model_.scenes.emplace_back();
+    model_.defaultScene = 0;
+  }
+
+  void addPart(const ExportPart& part) {
+    tinygltf::Node node;
+    node.name = utf8(part.name);
+    node.extras = extrasOf(part.stats);
+    if (!part.mesh.triangles.empty()) {
+      tinygltf::Mesh mesh;
+      mesh.name = node.name;
+      for (const Primitive& primitive : splitByMaterial(part.mesh)) {
+        mesh.primitives.push_back(addPrimitive(part.mesh, primitive));
+      }
+      node.mesh = static_cast<int>(model_.meshes.size());
+      model_.meshes.push_back(std::move(mesh));
+    }
+    addNode(std::move(node));
+  }
+
+  void addCamera() {
+    const std::optional<ViewCamera> view = viewCamera(scene_);
+    if (!view) return;
+    tinygltf::Camera camera;
+    camera.type = "perspective";
+    camera.name = "camera";
+    camera.perspective.yfov = view->verticalFov;
+    camera.perspective.znear = view->near;
+    camera.perspective.zfar = view->far;
+    model_.cameras.push_back(std::move(camera));
+    tinygltf::Node node = placed("camera", view->placement);
+    node.camera = 0;
+    // A mirrored picture is no rigid placement; whoever can show it finds the wish here.
+    if (scene_.camera.mirrored) node.extras = Value(Value::Object{{"mirrored", Value(true)}});
+    addNode(std::move(node));
+  }
+
+  void addLights() {
+    const glm::dvec3 centre = low_.x <= high_.x ? glm::dvec3(low_ + high_) * 0.5 : glm::dvec3(0.0);
+    for (const ViewLight& view : viewLights(scene_, centre)) {
+      const int index = static_cast<int>(model_.lights.size());
+      const std::string name = "light " + std::to_string(index + 1);
+      tinygltf::Light light;
+      light.name = name;
+      light.type = view.kind == Light::Kind::Point ? "point" : "directional";
+      light.color = numbers(view.color);
+      light.intensity = view.intensity;
+      model_.lights.push_back(std::move(light));
+      tinygltf::Node node = placed(name, view.placement);
+      node.extensions["KHR_lights_punctual"] = Value(Value::Object{{"light", Value(index)}});
+      addNode(std::move(node));
+    }
+  }
+
+  void setExtras(const MeshStats& stats) { model_.asset.extras = extrasOf(stats); }
+
+  Status write(std::ostream& out, GltfContainer container) {
+    const std::uint64_t size = bytes().size();
+    if (size == 0) model_.buffers.clear();
+    if (container == GltfContainer::Binary && size > kMostBinaryBytes) {
+      return Error{ErrorKind::Limits,
+                   "the meshes take " + std::to_string(size >> 20) +
+                       " MiB and a .glb holds 4096; use larger voxels, or write .gltf or .ply"};
+    }
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, true, container == GltfContainer::Binary);
+    return okStatus();
+  }
+
+ private:
+  std::vector<unsigned char>& bytes() { return model_.buffers[0].data; }
+
+  void addNode(tinygltf::Node node) {
+    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
+    model_.nodes.push_back(std::move(node));
+  }
+
+  static tinygltf::Node placed(const std::string& name, const Placement& placement) {
+    tinygltf::Node node;
+    node.name = name;
+    if (placement.position != glm::dvec3(0.0)) node.translation = numbers(placement.position);
+    if (placement.rotation != glm::dquat(1.0, 0.0, 0.0, 0.0)) node.rotation = numbers(placement.rotation);
+    return node;
+  }
+
+  void useExtension(const std::string& name) {
+    std::vector<std::string>& used = model_.extensionsUsed;
+    if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+  }
+
+  /// Appends the elements and returns the index of an accessor for them. Their sizes are multiples of four
+  /// except for 16-bit indices, so the next view is aligned by padding.
+  template <class T>
+  int addAccessor(const std::vector<T>& elements, int target, int componentType, int type) {
+    std::vector<unsigned char>& data = bytes();
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = data.size();
+    view.byteLength = elements.size() * sizeof(T);
+    view.target = target;
+    data.resize((data.size() + view.byteLength + 3) / 4 * 4);
+    std::memcpy(data.data() + view.byteOffset, elements.data(), view.byteLength);
+
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
+    accessor.componentType = componentType;
+    accessor.type = type;
+    accessor.count = elements.size();
+    model_.bufferViews.push_back(std::move(view));
+    model_.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+  template <class T>
+  int addAttribute(const std::vector<T>& elements, int componentType, int type) {
+    return addAccessor(elements, TINYGLTF_TARGET_ARRAY_BUFFER, componentType, type);
+  }
+
+  int addPositions(const Mesh& mesh, const Primitive& primitive) {
+    glm::vec3 low(std::numeric_limits<float>::infinity());
+    glm::vec3 high = -low;
+    std::vector<glm::vec3> positions;
+    positions.reserve(primitive.vertices.size());
+    for (const std::uint32_t vertex : primitive.vertices) {
+      positions.push_back(mesh.positions[vertex]);
+      low = glm::min(low, positions.back());
+      high = glm::max(high, positions.back());
+    }
+    low_ = glm::min(low_, low);
+    high_ = glm::max(high_, high);
+    const int index = addAttribute(positions, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+    model_.accessors[index].minValues = numbers(low);
+    model_.accessors[index].maxValues = numbers(high);
+    return index;
+  }
+
+  int addIndices(const Primitive& primitive) {
+    const int target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+    if (primitive.vertices.size() > kMostShortVertices) {
+      return addAccessor(primitive.indices, target, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                         TINYGLTF_TYPE_SCALAR);
+    }
+    const std::vector<std::uint16_t> narrow(primitive.indices.begin(), primitive.indices.end());
+    return addAccessor(narrow, target, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR);
+  }
+
+  tinygltf::Primitive addPrimitive(const Mesh& mesh, const Primitive& primitive) {
+    const MeshMaterial& material = mesh.materials[primitive.material];
+    const PbrMaterial pbr = toMetallicRoughness(material);
+    std::vector<glm::vec3> normals;
+    std::vector<ColorValue> colors;
+    normals.reserve(primitive.vertices.size());
+    colors.reserve(primitive.vertices.size());
+    for (const std::uint32_t vertex : primitive.vertices) {
+      normals.push_back(unit(mesh.normals[vertex]));
+      colors.push_back(quantized(pbr.baseColor(mesh.colors[vertex])));
+    }
+    const bool plain =
+        std::all_of(colors.begin(), colors.end(), [&](const ColorValue& c) { return c == colors[0]; });
+
+    tinygltf::Primitive out;
+    out.mode = TINYGLTF_MODE_TRIANGLES;
+    out.indices = addIndices(primitive);
+    out.attributes["POSITION"] = addPositions(mesh, primitive);
+    out.attributes["NORMAL"] = addAttribute(normals, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+    if (!plain) {
+      const int index = addAttribute(colors, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4);
+      model_.accessors[index].normalized = true;
+      out.attributes["COLOR_0"] = index;
+    }
+    const glm::vec3 factor = plain ? pbr.baseColor(mesh.colors[primitive.vertices[0]]) : glm::vec3(1.0f);
+    out.material = addMaterial(material.name, pbr, factor);
+    return out;
+  }
+
+  /// Index of the material; parts that wear the same one share it.
+  int addMaterial(const std::string& name, const PbrMaterial& pbr, const glm::vec3& baseColor) {
+    tinygltf::Material material;
+    material.name = utf8(name);
+    material.pbrMetallicRoughness.baseColorFactor = {baseColor.x, baseColor.y, baseColor.z, 1.0};
+    material.pbrMetallicRoughness.metallicFactor = pbr.metallic;
+    material.pbrMetallicRoughness.roughnessFactor = pbr.roughness;
+    material.emissiveFactor = numbers(pbr.emissiveFactor);
+    if (pbr.emissiveStrength > 1.0f) {
+      material.extensions["KHR_materials_emissive_strength"] =
+          Value(Value::Object{{"emissiveStrength", Value(static_cast<double>(pbr.emissiveStrength))}});
+      useExtension("KHR_materials_emissive_strength");
+    }
+    const auto found = std::find(model_.materials.begin(), model_.materials.end(), material);
+    if (found != model_.materials.end()) return static_cast<int>(found - model_.materials.begin());
+    model_.materials.push_back(std::move(material));
+    return static_cast<int>(model_.materials.size()) - 1;
+  }
+
+  const Scene& scene_;
+  tinygltf::Model model_;
+  glm::vec3 low_{std::numeric_limits<float>::infinity()};
+  glm::vec3 high_{-std::numeric_limits<float>::infinity()};
+};
+
+}  // namespace
+
+Status encodeGltf(std::ostream& out, GltfContainer container, const Scene& scene,
+                  const std::vector<ExportPart>& parts) {
+  GltfBuilder builder(scene);
+  for (const ExportPart& part : parts) builder.addPart(part);
+  builder.addCamera();
+  builder.addLights();
+  builder.setExtras(combined(parts));
+  return builder.write(out, container);
+}
+
+}  // namespace sdf

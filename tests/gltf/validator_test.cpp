@@ -1,0 +1,93 @@
+// Khronos' glTF validator over files of every kind; see validate.js.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <limits>
+
+#include "sdf/gltf/export.h"
+#include "support/folder.h"
+#include "synthetic.h"
+
+namespace sdf {
+namespace {
+
+/// What the validator prints about the file: its errors and warnings.
+std::string complaints(const std::filesystem::path& file) {
+  const std::string command = "node '" SDF_SOURCE_DIR "/tests/gltf/validate.js' '" SDF_VALIDATOR_MODULES
+                              "' '" +
+                              file.string() + "' 2>&1";
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  std::string out;
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    out.append(buffer.data(), n);
+  const int status = ::pclose(pipe);
+  return status == 0 ? "" : out + "(status " + std::to_string(status) + ")";
+}
+
+std::string complaints(const std::string& extension, const Scene& scene,
+                       const std::vector<ExportPart>& parts) {
+  const Folder folder;
+  const auto file = folder / ("a" + extension);
+  const Status status = writeMeshes(file, scene, parts);
+  return status ? complaints(file) : status.error().message;
+}
+
+Scene litScene() {
+  Scene scene;
+  scene.lights = {
+      Light{},
+      Light{.kind = Light::Kind::Point, .vector = Vec3E(1.0, 2.0, 3.0), .color = Vec3E(3.0, 1.0, 0.0)}};
+  return scene;
+}
+
+TEST(Validator, AcceptsPartsWithMaterialsCameraAndLights) {
+  Mesh glowing = twoColoredSphere(9, 9);
+  glowing.materials[0].emission = {5.0f, 1.0f, 0.0f};
+  glowing.materials[1].specular = {1.0f, 0.8f, 0.2f};
+  for (std::size_t i = 0; i < glowing.colors.size(); ++i) glowing.colors[i].x = static_cast<float>(i % 7) / 6;
+  const std::vector<ExportPart> parts = {part("one", glowing), part("two", sphere(5, 5))};
+  EXPECT_EQ(complaints(".glb", litScene(), parts), "");
+  EXPECT_EQ(complaints(".gltf", litScene(), parts), "");
+}
+
+TEST(Validator, AcceptsAnOddNumberOfShortIndices) {
+  EXPECT_EQ(complaints(".glb", Scene{}, {part("p", twoColoredSphere(1, 3)), part("q", sphere(1, 3))}), "");
+}
+
+TEST(Validator, AcceptsMoreVerticesThanSixteenBitsCount) {
+  EXPECT_EQ(complaints(".glb", Scene{}, {part("p", sphere(300, 300))}), "");
+}
+
+TEST(Validator, AcceptsExactlyAsManyVerticesAsSixteenBitsCount) {
+  EXPECT_EQ(complaints(".glb", Scene{}, {part("p", sphere(13, 5041))}), "");
+}
+
+TEST(Validator, AcceptsWhatIsMadeOfBrokenNormalsColoursAndNames) {
+  Mesh mesh = sphere(3, 4);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  mesh.normals[0] = glm::vec3(0.0f);
+  mesh.normals[1] = glm::vec3(nan);
+  mesh.colors[2] = {nan, 7.0f, -1.0f};
+  mesh.materials[0].name = "\xFF";
+  mesh.materials[0].shininess = nan;
+  EXPECT_EQ(complaints(".glb", Scene{}, {part("\xC3", mesh)}), "");
+}
+
+TEST(Validator, AcceptsAPartWithoutTriangles) {
+  EXPECT_EQ(complaints(".glb", Scene{}, {part("empty", Mesh{})}), "");
+  EXPECT_EQ(complaints(".gltf", litScene(), {part("empty", Mesh{}), part("full", sphere(3, 4))}), "");
+}
+
+TEST(Validator, WouldComplainOfABrokenFile) {
+  const Folder folder;
+  ASSERT_TRUE(writeMeshes(folder / "a.glb", Scene{}, {part("p", sphere(3, 4))}));
+  std::string bytes = contents(folder / "a.glb");
+  bytes.replace(bytes.size() - 8, 8, 8, '\xFF');  // the last index pairs or normals
+  std::ofstream(folder / "a.glb", std::ios::binary) << bytes;
+  EXPECT_NE(complaints(folder / "a.glb"), "");
+}
+
+}  // namespace
+}  // namespace sdf
