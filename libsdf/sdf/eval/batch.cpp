@@ -275,8 +275,8 @@ void copyInputs(const Rows& in, std::size_t first, std::size_t count, float* con
 
 void BatchEvaluator::evaluate(const Tape& tape, const Rows& in, std::size_t count,
                               std::span<float* const> out) {
-  assert(out.size() == tape.outputs().size());
-  const std::size_t length = passLength(tape.registerCount());
+  assert(out.size() <= tape.outputs().size());
+  const std::size_t length = std::min(passLength(tape.registerCount()), wholeVectors(count));
   scratch_->layOut(tape, 1, length);
   float** registers = scratch_->registers.data();
   for (std::size_t first = 0; first < count; first += length) {
@@ -289,7 +289,7 @@ void BatchEvaluator::evaluate(const Tape& tape, const Rows& in, std::size_t coun
 
 void BatchEvaluator::evaluateGradient(const Tape& tape, const Rows& in, std::size_t count, float* value,
                                       float* dx, float* dy, float* dz) {
-  const std::size_t length = passLength(4 * tape.registerCount());
+  const std::size_t length = std::min(passLength(4 * tape.registerCount()), wholeVectors(count));
   scratch_->layOut(tape, 4, length);
   float** registers = scratch_->registers.data();
   for (int v = 0; v < kVariableCount; ++v)

@@ -240,13 +240,6 @@ void Tape::allocateRegisters() {
 
 namespace {
 
-// What an instruction's value is known to be once decisions are taken: another operand, or itself.
-struct Resolver {
-  std::vector<Operand> known;
-
-  Operand operator()(Operand a) const { return a.isValue() ? known[a.index()] : a; }
-};
-
 constexpr Operand kZeroOperand = Operand::constant(kZero);
 
 // Lengths with arguments that became 0 (a box's nearest face, say) turn into shorter ones. The arguments are
@@ -278,49 +271,59 @@ Operand resolve(const Tape& tape, const Instruction& instruction, Operand self, 
   return self;
 }
 
+Operand knownAs(const std::vector<Operand>& known, Operand a) { return a.isValue() ? known[a.index()] : a; }
+
 }  // namespace
 
 std::shared_ptr<const Tape> Tape::specialised(const Decision* decisions, std::size_t stride) const {
-  const std::size_t count = instructions_.size();
-  Resolver resolved{std::vector<Operand>(count)};
+  std::vector<Operand> known(instructions_.size());  // what each value stands for: itself, or another operand
   std::size_t decision = 0;
   bool changed = false;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < known.size(); ++i) {
     const Instruction& instruction = instructions_[i];
-    const Operand self = Operand::value(i);
     std::array<Operand, 3> in = instruction.in;
-    for (Operand& a : in) a = resolved(a);
+    for (Operand& a : in) a = knownAs(known, a);
     const Decision d = isDecidable(instruction.op) ? decisions[decision++ * stride] : Decision::Open;
-    resolved.known[i] = resolve(*this, instruction, self, d, in);
-    changed = changed || resolved.known[i] != self;
+    known[i] = resolve(*this, instruction, Operand::value(i), d, in);
+    changed = changed || known[i] != Operand::value(i);
   }
-  if (!changed) return nullptr;
+  return changed ? reduced(known, outputs_) : nullptr;
+}
 
+std::shared_ptr<const Tape> Tape::firstOutputOnly() const {
+  std::vector<Operand> known(instructions_.size());
+  for (std::size_t i = 0; i < known.size(); ++i) known[i] = Operand::value(i);
+  return reduced(known, {outputs_.data(), 1});
+}
+
+std::shared_ptr<const Tape> Tape::reduced(const std::vector<Operand>& known,
+                                          std::span<const Operand> outputs) const {
+  const std::size_t count = instructions_.size();
   std::vector<bool> needed(count, false);
   auto need = [&](Operand a) {
-    a = resolved(a);
+    a = knownAs(known, a);
     if (a.isValue()) needed[a.index()] = true;
   };
-  for (const Operand o : outputs_) need(o);
+  for (const Operand o : outputs) need(o);
   for (std::size_t i = count; i-- > 0;)
     if (needed[i])
       for (int k = 0; k < rowArguments(instructions_[i].op); ++k) need(instructions_[i].in[k]);
 
   auto result = std::shared_ptr<Tape>(new Tape);
+  result->instructions_.reserve(std::count(needed.begin(), needed.end(), true));
   std::vector<std::uint32_t> placeOf(count);
   auto moved = [&](Operand a) {
-    a = resolved(a);
+    a = knownAs(known, a);
     return a.isValue() ? Operand::value(placeOf[a.index()]) : a;
   };
   for (std::size_t i = 0; i < count; ++i) {
     if (!needed[i]) continue;
     Instruction instruction = instructions_[i];
     for (int k = 0; k < rowArguments(instruction.op); ++k) instruction.in[k] = moved(instruction.in[k]);
-    instruction = withoutZeros(instruction);
     placeOf[i] = static_cast<std::uint32_t>(result->instructions_.size());
-    result->instructions_.push_back(instruction);
+    result->instructions_.push_back(withoutZeros(instruction));
   }
-  for (const Operand o : outputs_) result->outputs_.push_back(moved(o));
+  for (const Operand o : outputs) result->outputs_.push_back(moved(o));
   result->pool_ = pool_;
   result->finish();
   return result;

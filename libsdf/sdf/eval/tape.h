@@ -95,6 +95,8 @@ class Tape {
   /// decisions hold. nullptr where nothing can be dropped. decisions[i * stride] belongs to the i-th
   /// decidable instruction.
   std::shared_ptr<const Tape> specialised(const Decision* decisions, std::size_t stride) const;
+  /// The tape of output 0 alone.
+  std::shared_ptr<const Tape> firstOutputOnly() const;
 
  private:
   struct Pool {
@@ -103,6 +105,9 @@ class Tape {
   };
 
   Tape() = default;
+  // The instructions that `outputs` need, each value replaced by what `known` says it is.
+  std::shared_ptr<const Tape> reduced(const std::vector<Operand>& known,
+                                      std::span<const Operand> outputs) const;
   void finish();
   void allocateRegisters();
 

@@ -1,0 +1,203 @@
+#include "sdf/mesh/color.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sdf/eval/scalar_reading.h"
+
+namespace sdf {
+namespace {
+
+// How far a copied vertex looks into its own material's triangles for its colour, as a share of the way to
+// their centroids.
+constexpr float kBorderShift = 0.05f;
+constexpr std::size_t kMaterialSamples = 64;
+
+float unit(float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f; }
+
+glm::vec3 centroid(const Mesh& mesh, const glm::uvec3& t) {
+  return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
+}
+
+// Colour and material at each of `count` points.
+struct SurfaceSamples {
+  std::vector<glm::vec3> colors;
+  std::vector<int> ids;
+};
+
+template <class Point, class Normal>
+SurfaceSamples sampleSurface(std::size_t count, const Point& point, const Normal& normal,
+                             const NarrowBand& band, const LocalTapes& fallback, Progress& progress) {
+  constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
+  SurfaceSamples s{std::vector<glm::vec3>(count), std::vector<int>(count)};
+  forEachRun(count, point, band, fallback, progress, [&](const PointRun& run) {
+    float rows[6][kBatchPoints], values[kOutputs][kBatchPoints];
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const glm::vec3 p = point(run.first + i), n = normal(run.first + i);
+      for (int k = 0; k < 3; ++k) rows[k][i] = p[k], rows[3 + k][i] = n[k];
+    }
+    float* const out[kOutputs] = {values[0], values[1], values[2], values[3], values[4]};
+    run.batch.evaluate(*run.tapes.surface, {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5]}, run.count,
+                       out);
+    for (std::size_t i = 0; i < run.count; ++i) {
+      s.colors[run.first + i] = {unit(values[1][i]), unit(values[2][i]), unit(values[3][i])};
+      s.ids[run.first + i] = static_cast<int>(std::lround(values[4][i]));
+    }
+  });
+  return s;
+}
+
+// Indices of the shape's materials that occur, and each triangle's place among them.
+void assignMaterials(const Shape& shape, const std::vector<int>& ids, Mesh& mesh) {
+  std::map<int, std::uint32_t> placeOf;
+  for (const int id : ids) placeOf.emplace(id, 0);
+  for (const MaterialPtr& m : shape.materials)
+    if (const auto it = placeOf.find(m->id); it != placeOf.end()) {
+      it->second = static_cast<std::uint32_t>(mesh.materials.size());
+      mesh.materials.push_back({m->name, {}, {}, {}, {}, {}});
+    }
+  mesh.triangleMaterial.resize(ids.size());
+  for (std::size_t t = 0; t < ids.size(); ++t) mesh.triangleMaterial[t] = placeOf[ids[t]];
+}
+
+void orderByMaterial(Mesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return mesh.triangleMaterial[a] < mesh.triangleMaterial[b];
+  });
+  std::vector<glm::uvec3> triangles(order.size());
+  std::vector<std::uint32_t> materials(order.size());
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    triangles[t] = mesh.triangles[order[t]];
+    materials[t] = mesh.triangleMaterial[order[t]];
+  }
+  mesh.triangles = std::move(triangles);
+  mesh.triangleMaterial = std::move(materials);
+}
+
+// Where a border vertex takes its colour: a little way into the triangles of its own material.
+struct BorderPoint {
+  std::uint32_t vertex;
+  glm::vec3 sum{0.0f};
+  float count = 0.0f;
+};
+
+// Gives each material its own copy of the vertices that it shares with an earlier one. Returns where all
+// vertices of borders, originals included, are to be coloured.
+std::vector<BorderPoint> splitBorders(Mesh& mesh) {
+  constexpr std::uint32_t kNone = ~0u;
+  std::vector<std::uint32_t> owner(mesh.positions.size(), kNone);
+  std::vector<bool> border(mesh.positions.size(), false);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[t][k];
+      if (owner[v] == kNone)
+        owner[v] = mesh.triangleMaterial[t];
+      else if (owner[v] != mesh.triangleMaterial[t])
+        border[v] = true;
+    }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t>
+      pointOf;  // (vertex, material) -> its border point
+  std::vector<BorderPoint> points;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const glm::vec3 middle = centroid(mesh, mesh.triangles[t]);
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[t][k], material = mesh.triangleMaterial[t];
+      if (v >= border.size() || !border[v]) continue;
+      const auto [it, fresh] = pointOf.try_emplace({v, material}, points.size());
+      if (fresh) {
+        std::uint32_t place = v;
+        if (owner[v] != material) {
+          place = static_cast<std::uint32_t>(mesh.positions.size());
+          mesh.positions.push_back(glm::vec3(mesh.positions[v]));
+          mesh.normals.push_back(glm::vec3(mesh.normals[v]));
+          mesh.copyOf.push_back(v);
+        }
+        points.push_back({place});
+      }
+      BorderPoint& p = points[it->second];
+      p.sum += middle;
+      p.count += 1.0f;
+      mesh.triangles[t][k] = p.vertex;
+    }
+  }
+  return points;
+}
+
+// Averages of the attributes that a glTF material holds as single numbers, over some of the material's
+// triangles.
+void resolveMaterials(const Shape& shape, Mesh& mesh) {
+  std::vector<Expr> outputs(shape.surface.begin(), shape.surface.end());
+  const Tape tape(outputs);
+  const std::size_t count = mesh.materials.size();
+  std::vector<std::vector<std::size_t>> trianglesOf(count);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) trianglesOf[mesh.triangleMaterial[t]].push_back(t);
+  for (std::size_t m = 0; m < count; ++m) {
+    const auto& mine = trianglesOf[m];
+    const std::size_t stride = std::max<std::size_t>(1, mine.size() / kMaterialSamples);
+    std::array<double, kAttributeCount> sum{};
+    double samples = 0.0;
+    for (std::size_t i = 0; i < mine.size(); i += stride, ++samples) {
+      const glm::uvec3& t = mesh.triangles[mine[i]];
+      const std::vector<double> v =
+          evaluateAll(tape, glm::dvec3(centroid(mesh, t)), glm::dvec3(mesh.normals[t.x]));
+      for (int a = 0; a < kAttributeCount; ++a) sum[a] += std::isfinite(v[a]) ? v[a] : 0.0;
+    }
+    auto mean = [&](Attribute a) {
+      return static_cast<float>(sum[static_cast<int>(a)] / std::max(samples, 1.0));
+    };
+    MeshMaterial& out = mesh.materials[m];
+    out.color = {unit(mean(Attribute::Red)), unit(mean(Attribute::Green)), unit(mean(Attribute::Blue))};
+    out.specular = {mean(Attribute::SpecularRed), mean(Attribute::SpecularGreen),
+                    mean(Attribute::SpecularBlue)};
+    out.shininess = mean(Attribute::Shininess);
+    out.reflectivity = mean(Attribute::Reflectivity);
+    out.emission = {mean(Attribute::EmissionRed), mean(Attribute::EmissionGreen),
+                    mean(Attribute::EmissionBlue)};
+  }
+}
+
+}  // namespace
+
+std::vector<Expr> surfaceOutputs(const Shape& shape) {
+  auto attribute = [&](Attribute a) { return shape.surface[static_cast<int>(a)]; };
+  return {shape.distance, attribute(Attribute::Red), attribute(Attribute::Green), attribute(Attribute::Blue),
+          attribute(Attribute::MaterialId)};
+}
+
+void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
+               Mesh& mesh) {
+  auto normalOf = [&](std::size_t i) { return mesh.normals[i]; };
+  const Expr& id = shape.surface[static_cast<int>(Attribute::MaterialId)];
+  if (id.isConstant()) {
+    assignMaterials(shape, std::vector<int>(mesh.triangles.size(), static_cast<int>(id.constantValue())),
+                    mesh);
+  } else {
+    const auto atCentroids = sampleSurface(
+        mesh.triangles.size(), [&](std::size_t t) { return centroid(mesh, mesh.triangles[t]); },
+        [&](std::size_t t) { return mesh.normals[mesh.triangles[t].x]; }, band, fallback, progress);
+    assignMaterials(shape, atCentroids.ids, mesh);
+    orderByMaterial(mesh);
+  }
+  mesh.colors = sampleSurface(
+                    mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, band,
+                    fallback, progress)
+                    .colors;
+  if (mesh.materials.size() > 1) {
+    const std::vector<BorderPoint> border = splitBorders(mesh);
+    mesh.colors.resize(mesh.positions.size());
+    auto place = [&](std::size_t i) {
+      const BorderPoint& b = border[i];
+      return glm::mix(mesh.positions[b.vertex], b.sum / b.count, kBorderShift);
+    };
+    const auto own = sampleSurface(
+        border.size(), place, [&](std::size_t i) { return normalOf(border[i].vertex); }, band, fallback,
+        progress);
+    for (std::size_t i = 0; i < border.size(); ++i) mesh.colors[border[i].vertex] = own.colors[i];
+  }
+  resolveMaterials(shape, mesh);
+}
+
+}  // namespace sdf

@@ -1,0 +1,20 @@
+// Materials on a mesh, from the same attribute expressions that the viewer draws.
+#pragma once
+#include "sdf/mesh/mesh.h"
+#include "sdf/mesh/surface_points.h"
+#include "sdf/shape/shape.h"
+
+namespace sdf {
+
+/// Outputs of the tape that meshing runs on: the distance, then what colouring needs of the attributes.
+enum class SurfaceOutput { Distance, Red, Green, Blue, MaterialId, Count };
+/// The expressions behind them, by SurfaceOutput.
+std::vector<Expr> surfaceOutputs(const Shape& shape);
+
+/// Fills colors, triangleMaterial and materials, orders the triangles by material, and repeats vertices where
+/// materials meet (copyOf), each copy coloured on its own side of the border. positions, normals, triangles
+/// and welded are given.
+void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
+               Mesh& mesh);
+
+}  // namespace sdf

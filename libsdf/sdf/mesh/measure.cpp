@@ -1,0 +1,79 @@
+#include "sdf/mesh/measure.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sdf {
+namespace {
+
+constexpr int kInside = 4;  // sample points inside a triangle
+
+glm::vec3 samplePoint(const std::vector<glm::vec3>& p, const glm::uvec3& t, int k) {
+  const glm::vec3 centroid = (p[t.x] + p[t.y] + p[t.z]) / 3.0f;
+  return k == 0 ? centroid : 0.5f * (centroid + p[t[k - 1]]);
+}
+
+float slopeOf(const LocalTapes& tapes) {
+  const float l = tapes.distance->lipschitz();
+  return std::isfinite(l) ? l : 1.0f;
+}
+
+// Calls take(i, |distance|) for each of `count` points; points of one chunk in order, chunks in parallel.
+template <class Point, class Take>
+void forEachDistance(std::size_t count, const Point& point, const NarrowBand& band,
+                     const LocalTapes& fallback, Progress& progress, const Take& take) {
+  forEachRun(count, point, band, fallback, progress, [&](const PointRun& run) {
+    float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints];
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const glm::vec3 p = point(run.first + i);
+      x[i] = p.x, y[i] = p.y, z[i] = p.z;
+    }
+    RunGradients g;
+    g.evaluate(run, x, y, z);
+    for (std::size_t i = 0; i < run.count; ++i)
+      take(run.first + i, std::abs(g.distance(i, slopeOf(run.tapes))));
+  });
+}
+
+struct TriangleError {
+  float squares = 0.0f;  // mean over the samples
+  float largest = 0.0f;
+};
+
+}  // namespace
+
+void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
+                     const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
+                     MeshStats& stats) {
+  std::vector<float> atVertices(positions.size());
+  forEachDistance(
+      positions.size(), [&](std::size_t i) { return positions[i]; }, band, fallback, progress,
+      [&](std::size_t i, float d) { atVertices[i] = d; });
+  static_assert(kRunChunk % kInside == 0, "a triangle's samples must lie in one chunk");
+  std::vector<TriangleError> inside(triangles.size());
+  forEachDistance(
+      kInside * triangles.size(),
+      [&](std::size_t i) {
+        return samplePoint(positions, triangles[i / kInside], static_cast<int>(i % kInside));
+      },
+      band, fallback, progress,
+      [&](std::size_t i, float d) {
+        TriangleError& e = inside[i / kInside];
+        e.squares += d * d / kInside;
+        e.largest = std::max(e.largest, d);
+      });
+  double area = 0.0, squares = 0.0, largest = 0.0;
+  for (const float d : atVertices) largest = std::max<double>(largest, d);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const glm::uvec3& v = triangles[t];
+    const double a =
+        0.5 * glm::length(glm::cross(positions[v.y] - positions[v.x], positions[v.z] - positions[v.x]));
+    area += a;
+    squares += a * inside[t].squares;
+    largest = std::max<double>(largest, inside[t].largest);
+  }
+  stats.rmsDistance = area > 0.0 ? std::sqrt(squares / area) : 0.0;
+  stats.maxDistance = largest;
+}
+
+}  // namespace sdf

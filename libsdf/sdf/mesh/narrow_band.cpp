@@ -1,0 +1,382 @@
+#include "sdf/mesh/narrow_band.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/SignedFloodFill.h>
+#include <openvdb/tools/VolumeToMesh.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+#include "sdf/eval/batch.h"
+#include "sdf/eval/scalar_reading.h"
+
+namespace sdf {
+namespace {
+
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+constexpr int kLeaf = 8;    // voxels along a leaf
+constexpr int kBranch = 4;  // a cell has kBranch³ children: one pass of the batch reading
+constexpr int kChildren = kBranch * kBranch * kBranch;
+constexpr int kLeafVoxels = kLeaf * kLeaf * kLeaf;
+constexpr int kMargin = 2;  // voxels around a cell over which its tape holds: a vertex may leave its leaf by
+                            // one, and move by another as it is refined
+constexpr double kSqrt3 = 1.7320508075688772;
+
+// Float values differ from the true ones by some tens of roundings of numbers of the size of the coordinates.
+constexpr double kRoundingSlack = 0x1p-18;
+
+// What a surface voxel costs in the end: its share of a leaf, extraction's buffers, vertices, triangles and
+// measuring.
+constexpr double kBytesPerSurfaceVoxel = 300.0;
+constexpr double kSurfaceVoxelsPerLeaf = 64.0;
+
+struct Cell {
+  openvdb::Coord origin;
+  TapePtr tape;
+};
+
+struct BandLeaf {
+  std::unique_ptr<Leaf> leaf;
+  LocalTapes tapes;
+};
+
+struct Workspace {
+  BatchEvaluator batch;
+  ScalarReading<Interval> intervals;
+  std::vector<Decision> decisions;
+  std::vector<Decision> decisionsOfOne;
+};
+
+struct CoordHash {
+  std::size_t operator()(const openvdb::Coord& c) const { return c.hash<20>(); }
+};
+
+std::string gigabytes(double bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", bytes / (1ull << 30));
+  return text;
+}
+
+}  // namespace
+
+struct NarrowBand::Grid {
+  openvdb::FloatGrid::Ptr grid;
+  double voxelSize = 0.0;
+  std::unordered_map<openvdb::Coord, LocalTapes, CoordHash> tapes;
+  std::uint64_t samples = 0;
+};
+
+class BandSampler {
+ public:
+  BandSampler(const BandOptions& options, Progress& progress)
+      : options_(options), progress_(progress), h_(options.voxelSize) {}
+
+  Result<NarrowBand> run(TapePtr tape) {
+    if (auto s = placeRoot(std::move(tape)); !s) return s.error();
+    const int levels = levelCount();
+    for (int level = 0; size_ > kLeaf; ++level) {
+      stageShare_ = {static_cast<double>(level) / levels, 1.0 / levels};
+      if (size_ > kLeaf * kBranch)
+        subdivide();
+      else
+        sampleLeaves();
+      if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
+      if (auto s = checkMemory(); !s) return s.error();
+    }
+    return collect();
+  }
+
+ private:
+  // The smallest cell of kLeaf * kBranch^n voxels that covers the bounds and a voxel around them.
+  Status placeRoot(TapePtr tape) {
+    const Box& b = options_.bounds;
+    const double voxels = b.longestSide() / h_;
+    if (!(voxels < 1e8)) return tooLarge(kBytesPerSurfaceVoxel * voxels * voxels);
+    for (int axis = 0; axis < 3; ++axis) {
+      low_[axis] = static_cast<int>(std::floor(b.min[axis] / h_)) - 1;
+      high_[axis] = static_cast<int>(std::ceil(b.max[axis] / h_)) + 1;
+    }
+    const openvdb::Coord first(low_.x() & ~(kLeaf - 1), low_.y() & ~(kLeaf - 1), low_.z() & ~(kLeaf - 1));
+    const openvdb::Coord span = high_ - first;
+    size_ = kLeaf * kBranch;
+    while (size_ <= std::max({span.x(), span.y(), span.z()})) size_ *= kBranch;
+    cells_ = {{first, std::move(tape)}};
+    return okStatus();
+  }
+
+  int levelCount() const {
+    int n = 0;
+    for (int s = size_; s > kLeaf; s /= kBranch) ++n;
+    return n;
+  }
+
+  Status tooLarge(double bytes) const {
+    return Error{ErrorKind::Limits, "a voxel size of " + std::to_string(h_) + " needs about " +
+                                        gigabytes(bytes) + " GiB, more than the limit of " +
+                                        gigabytes(options_.maxMemory) +
+                                        " GiB; take a larger voxel size, smaller bounds or a higher limit"};
+  }
+
+  // From the cells that survived so far: each meets the surface in about the area of its side.
+  Status checkMemory() const {
+    const double leavesAcross = static_cast<double>(size_) / kLeaf;
+    const double leaves = size_ > kLeaf ? cells_.size() * leavesAcross * leavesAcross * 0.5 : leaves_.size();
+    const double bytes = leaves * kSurfaceVoxelsPerLeaf * kBytesPerSurfaceVoxel;
+    return bytes > options_.maxMemory ? tooLarge(bytes) : okStatus();
+  }
+
+  // Half the side of the box that a cell's voxels and `margin` voxels around them span.
+  double reach(int size, int margin) const { return ((size - 1) / 2.0 + margin) * h_; }
+
+  glm::dvec3 centre(const openvdb::Coord& origin, int size) const {
+    const double half = (size - 1) / 2.0;
+    return {(origin.x() + half) * h_, (origin.y() + half) * h_, (origin.z() + half) * h_};
+  }
+
+  double slack(const glm::dvec3& c) const {
+    return kRoundingSlack * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + options_.bounds.longestSide());
+  }
+
+  bool inBounds(const openvdb::Coord& o, int size) const {
+    return o.x() <= high_.x() && o.y() <= high_.y() && o.z() <= high_.z() && o.x() + size > low_.x() &&
+           o.y() + size > low_.y() && o.z() + size > low_.z();
+  }
+
+  // Calls visit(child origin, its tape) for each child of the cell that the surface may meet.
+  template <class Visit>
+  void forSurvivingChildren(const Cell& cell, Workspace& w, const Visit& visit) const {
+    const int size = size_ / kBranch;
+    openvdb::Coord origin[kChildren];
+    float x[kChildren], y[kChildren], z[kChildren], value[kChildren];
+    int count = 0;
+    for (int i = 0; i < kChildren; ++i) {
+      const openvdb::Coord o = cell.origin.offsetBy(i / (kBranch * kBranch) * size,
+                                                    i / kBranch % kBranch * size, i % kBranch * size);
+      if (!inBounds(o, size)) continue;
+      const glm::dvec3 c = centre(o, size);
+      origin[count] = o;
+      x[count] = static_cast<float>(c.x), y[count] = static_cast<float>(c.y),
+      z[count] = static_cast<float>(c.z);
+      ++count;
+    }
+    if (count == 0) return;
+    const Tape& tape = *cell.tape;
+    const double margin = slack(centre(cell.origin, size_));
+    w.batch.evaluateBalls(tape, {.x = x, .y = y, .z = z}, count,
+                          static_cast<float>(kSqrt3 * reach(size, kMargin)), static_cast<float>(margin),
+                          value, w.decisions);
+    for (int k = 0; k < count; ++k) {
+      const Decision* decisions = w.decisions.data() + k;
+      std::size_t stride = count;
+      if (!mayMeet(tape, origin[k], size, value[k], margin)) continue;
+      if (!tape.hasSlopes()) decisions = refineDecisions(tape, origin[k], size, decisions, stride, w);
+      const TapePtr special = tape.specialised(decisions, stride);
+      visit(origin[k], special ? special : cell.tape);
+    }
+  }
+
+  // Can the zero set meet the cell (and a voxel around it)? First by the slope bound, then, where that is
+  // loose, by interval derivatives and interval values.
+  bool mayMeet(const Tape& tape, const openvdb::Coord& origin, int size, double value, double margin) const {
+    const double radius = kSqrt3 * reach(size, 1);
+    const double slope = std::min<double>(tape.lipschitz(), options_.lipschitz);
+    if (std::abs(value) > slope * radius + margin) return false;
+    if (slope <= 1.0 || !std::isfinite(value)) return true;
+    const glm::dvec3 c = centre(origin, size), half(reach(size, 1));
+    const Box box{c - half, c + half};
+    if (std::abs(value) > lipschitzOver(tape, box) * radius + margin) return false;
+    const Interval range = evaluate(tape, box);
+    return range.nan || (range.lo <= margin && range.hi >= -margin);
+  }
+
+  // Adds to what the slopes decided what intervals decide.
+  const Decision* refineDecisions(const Tape& tape, const openvdb::Coord& origin, int size,
+                                  const Decision* known, std::size_t& stride, Workspace& w) const {
+    const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
+    evaluate(tape, Box{c - half, c + half}, w.intervals, w.decisionsOfOne);
+    for (std::size_t i = 0; i < w.decisionsOfOne.size(); ++i)
+      if (w.decisionsOfOne[i] == Decision::Open) w.decisionsOfOne[i] = known[i * stride];
+    stride = 1;
+    return w.decisionsOfOne.data();
+  }
+
+  // Runs work(cell index, workspace) over all cells in parallel, with progress, until stopped.
+  template <class Work>
+  void forEachCell(const Work& work) {
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
+      if (progress_.stopped()) return;
+      work(i, workspaces_.local());
+      progress_.update(stageShare_.first + stageShare_.second * ++done / cells_.size());
+    });
+  }
+
+  void subdivide() {
+    std::vector<std::vector<Cell>> children(cells_.size());
+    forEachCell([&](std::size_t i, Workspace& w) {
+      forSurvivingChildren(cells_[i], w, [&](const openvdb::Coord& origin, TapePtr tape) {
+        children[i].push_back({origin, std::move(tape)});
+      });
+      samples_ += kChildren;
+    });
+    cells_.clear();
+    for (auto& list : children) std::move(list.begin(), list.end(), std::back_inserter(cells_));
+    size_ /= kBranch;
+  }
+
+  void sampleLeaves() {
+    std::vector<std::vector<BandLeaf>> leaves(cells_.size());
+    forEachCell([&](std::size_t i, Workspace& w) {
+      forSurvivingChildren(cells_[i], w, [&](const openvdb::Coord& origin, TapePtr tape) {
+        BandLeaf leaf = sampleLeaf(origin, std::move(tape), w);
+        if (leaf.leaf) leaves[i].push_back(std::move(leaf));
+        samples_ += kLeafVoxels;
+      });
+      cells_[i].tape.reset();
+      samples_ += kChildren;
+    });
+    for (auto& list : leaves) std::move(list.begin(), list.end(), std::back_inserter(leaves_));
+    cells_.clear();
+    size_ = kLeaf;
+  }
+
+  // The samples of a leaf; empty where no edge of the lattice that starts or ends in it can cross the
+  // surface.
+  BandLeaf sampleLeaf(const openvdb::Coord& origin, TapePtr tape, Workspace& w) const {
+    float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels];
+    for (int i = 0; i < kLeafVoxels; ++i) {  // OpenVDB's order: z runs fastest
+      x[i] = static_cast<float>((origin.x() + i / (kLeaf * kLeaf)) * h_);
+      y[i] = static_cast<float>((origin.y() + i / kLeaf % kLeaf) * h_);
+      z[i] = static_cast<float>((origin.z() + i % kLeaf) * h_);
+    }
+    TapePtr distance = tape->firstOutputOnly();
+    if (distance->instructions().size() == tape->instructions().size())
+      distance = tape;  // no need to keep both
+    auto leaf = std::make_unique<Leaf>(origin, 0.0f, true);
+    float* values = leaf->buffer().data();
+    w.batch.evaluate(*distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
+    float nearest = std::abs(values[0]);
+    for (int i = 1; i < kLeafVoxels; ++i) nearest = std::min(nearest, std::abs(values[i]));
+    const double slope = std::min<double>(distance->lipschitz(), options_.lipschitz);
+    if (nearest > slope * h_ + slack(centre(origin, kLeaf))) return {};
+    return {std::move(leaf), {std::move(tape), std::move(distance)}};
+  }
+
+  // Hands the leaves to a grid and spreads the sign to the tiles between them.
+  NarrowBand collect() {
+    NarrowBand band;
+    band.grid_->voxelSize = h_;
+    band.grid_->samples = samples_;
+    auto& tree = band.grid_->grid->tree();
+    band.grid_->grid->setTransform(openvdb::math::Transform::createLinearTransform(h_));
+    band.grid_->tapes.reserve(leaves_.size());
+    for (BandLeaf& l : leaves_) {
+      band.grid_->tapes.emplace(l.leaf->origin(), std::move(l.tapes));
+      tree.addLeaf(l.leaf.release());
+    }
+    openvdb::tools::signedFloodFillWithValues(tree, static_cast<float>(3 * h_), static_cast<float>(-3 * h_));
+    return band;
+  }
+
+  const BandOptions& options_;
+  Progress& progress_;
+  double h_;
+  openvdb::Coord low_, high_;  // first and last voxel that matter
+  int size_ = 0;               // of the present cells, in voxels
+  std::vector<Cell> cells_;
+  std::vector<BandLeaf> leaves_;
+  std::atomic<std::uint64_t> samples_{0};
+  std::pair<double, double> stageShare_;
+  tbb::enumerable_thread_specific<Workspace> workspaces_;
+};
+
+NarrowBand::NarrowBand() : grid_(std::make_unique<Grid>()) {
+  openvdb::initialize();
+  grid_->grid = openvdb::FloatGrid::create();
+}
+NarrowBand::~NarrowBand() = default;
+NarrowBand::NarrowBand(NarrowBand&&) noexcept = default;
+NarrowBand& NarrowBand::operator=(NarrowBand&&) noexcept = default;
+
+double NarrowBand::voxelSize() const { return grid_->voxelSize; }
+std::size_t NarrowBand::leafCount() const { return grid_->tapes.size(); }
+std::uint64_t NarrowBand::sampleCount() const { return grid_->samples; }
+
+const LocalTapes* NarrowBand::Finder::at(const glm::vec3& p) {
+  const glm::dvec3 q = glm::floor(glm::dvec3(p) / band_.voxelSize());
+  const glm::ivec3 voxel(q), leaf(voxel.x & ~(kLeaf - 1), voxel.y & ~(kLeaf - 1), voxel.z & ~(kLeaf - 1));
+  if (last_ && leaf == lastLeaf_) return last_;
+  const auto& tapes = band_.grid_->tapes;
+  // A cell on a leaf's far side belongs to the next leaf, which may not be there; any leaf within a voxel
+  // will do.
+  for (int i = 0; i < 27; ++i) {
+    constexpr int kOffset[3] = {0, 1, -1};
+    const glm::ivec3 near = voxel + glm::ivec3(kOffset[i / 9], kOffset[i / 3 % 3], kOffset[i % 3]);
+    const auto it =
+        tapes.find(openvdb::Coord(near.x & ~(kLeaf - 1), near.y & ~(kLeaf - 1), near.z & ~(kLeaf - 1)));
+    if (it == tapes.end()) continue;
+    last_ = i == 0 ? &it->second : nullptr;
+    lastLeaf_ = leaf;
+    return &it->second;
+  }
+  return nullptr;
+}
+
+namespace {
+
+// A quad as two triangles, cut along its shorter diagonal.
+void appendQuad(const openvdb::Vec4I& q, RawSurface& surface) {
+  const auto& p = surface.points;
+  if (glm::distance(p[q[0]], p[q[2]]) <= glm::distance(p[q[1]], p[q[3]])) {
+    surface.triangles.emplace_back(q[0], q[1], q[2]);
+    surface.triangles.emplace_back(q[0], q[2], q[3]);
+  } else {
+    surface.triangles.emplace_back(q[1], q[2], q[3]);
+    surface.triangles.emplace_back(q[1], q[3], q[0]);
+  }
+}
+
+}  // namespace
+
+RawSurface NarrowBand::extract() {
+  openvdb::tools::VolumeToMesh extractor(0.0);
+  extractor(*grid_->grid);
+  grid_->grid.reset();
+  RawSurface surface;
+  const std::size_t points = extractor.pointListSize();
+  surface.points.reserve(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const openvdb::Vec3s& p = extractor.pointList()[i];
+    surface.points.emplace_back(p.x(), p.y(), p.z());
+  }
+  extractor.pointList().reset();
+  std::size_t triangles = 0;
+  const std::size_t pools = extractor.polygonPoolListSize();
+  for (std::size_t n = 0; n < pools; ++n) {
+    const auto& pool = extractor.polygonPoolList()[n];
+    triangles += pool.numTriangles() + 2 * pool.numQuads();
+  }
+  surface.triangles.reserve(triangles);
+  for (std::size_t n = 0; n < pools; ++n) {
+    auto& pool = extractor.polygonPoolList()[n];
+    for (std::size_t i = 0; i < pool.numTriangles(); ++i) {
+      const openvdb::Vec3I& t = pool.triangle(i);
+      surface.triangles.emplace_back(t[0], t[1], t[2]);
+    }
+    for (std::size_t i = 0; i < pool.numQuads(); ++i) appendQuad(pool.quad(i), surface);
+    pool.clearQuads();
+    pool.clearTriangles();
+  }
+  return surface;
+}
+
+Result<NarrowBand> sampleNarrowBand(TapePtr tape, const BandOptions& options, Progress& progress) {
+  return BandSampler(options, progress).run(std::move(tape));
+}
+
+}  // namespace sdf

@@ -1,0 +1,77 @@
+// Sampling a distance tape into an OpenVDB narrow band, and extracting its surface.
+#pragma once
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "sdf/base/box.h"
+#include "sdf/base/progress.h"
+#include "sdf/base/result.h"
+#include "sdf/eval/tape.h"
+
+namespace sdf {
+
+/// What a leaf of 8³ voxels (and a margin of two voxels around it) can feel of the scene.
+struct LocalTapes {
+  TapePtr surface;   ///< distance and attributes
+  TapePtr distance;  ///< output 0 alone
+};
+
+/// Triangles and quads of an extracted surface, counter-clockwise from outside.
+struct RawSurface {
+  std::vector<glm::vec3> points;  ///< scene units
+  std::vector<glm::uvec3> triangles;
+};
+
+/// A band of samples around the zero set of a tape's output 0, on the lattice of the multiples of the voxel
+/// size.
+class NarrowBand {
+ public:
+  NarrowBand();
+  ~NarrowBand();
+  NarrowBand(NarrowBand&&) noexcept;
+  NarrowBand& operator=(NarrowBand&&) noexcept;
+
+  double voxelSize() const;
+  std::size_t leafCount() const;
+  /// Distance samples taken, those of coarse cells included.
+  std::uint64_t sampleCount() const;
+  /// Finds tapes for points; remembers the last leaf, so that neighbours are found at once.
+  class Finder {
+   public:
+    explicit Finder(const NarrowBand& band) : band_(band) {}
+    /// Tapes of the leaf at or next to a point; nullptr far from the surface.
+    const LocalTapes* at(const glm::vec3& p);
+
+   private:
+    const NarrowBand& band_;
+    const LocalTapes* last_ = nullptr;
+    glm::ivec3 lastLeaf_{};
+  };
+
+  /// The zero set as OpenVDB's dual surface extraction gives it (Museth et al., OpenVDB 2013). Call once: the
+  /// samples are released on the way.
+  RawSurface extract();
+
+  struct Grid;
+
+ private:
+  friend class BandSampler;
+  std::unique_ptr<Grid> grid_;
+};
+
+struct BandOptions {
+  double voxelSize;
+  Box bounds;        ///< finite; samples are taken in it
+  double lipschitz;  ///< slope bound of output 0 over the bounds, where better known than the tape's own; or
+                     ///< infinity
+  double maxMemory;  ///< bytes
+};
+
+/// Works down from the bounds to leaves of 8³ voxels, four ways along each axis at each step. A cell whose
+/// Lipschitz ball or interval excludes the surface is dropped; a surviving one gets the tape specialised to
+/// it (Duff 1992; Keeter 2020). The work grows with the surface, not with the volume. Runs in parallel; the
+/// result does not depend on the number of threads. Errors: Limits (memory), Interrupted.
+Result<NarrowBand> sampleNarrowBand(TapePtr tape, const BandOptions& options, Progress& progress);
+
+}  // namespace sdf

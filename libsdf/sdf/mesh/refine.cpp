@@ -1,0 +1,64 @@
+#include "sdf/mesh/refine.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sdf {
+namespace {
+
+// Rows of one run's positions.
+struct PositionRows {
+  float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints];
+
+  glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, const glm::vec3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
+};
+
+glm::vec3 unit(const glm::vec3& g) {
+  const float length = glm::length(g);
+  return length > 0.0f && std::isfinite(length) ? g / length : glm::vec3(0.0f, 1.0f, 0.0f);
+}
+
+void refineRun(const PointRun& run, float reach, glm::vec3* positions, glm::vec3* normals) {
+  PositionRows trial;
+  RunGradients g;
+  float best[kBatchPoints];
+  glm::vec3 start[kBatchPoints];
+  const float slope = std::isfinite(run.tapes.distance->lipschitz()) ? run.tapes.distance->lipschitz() : 1.0f;
+  for (std::size_t i = 0; i < run.count; ++i) {
+    start[i] = positions[i];
+    best[i] = HUGE_VALF;
+    trial.set(i, positions[i]);
+  }
+  for (int step = 0; step <= kRefineSteps; ++step) {
+    g.evaluate(run, trial.x, trial.y, trial.z);
+    bool moved = false;
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const float distance = std::abs(g.distance(i, slope));
+      if (distance < best[i]) {
+        best[i] = distance;
+        positions[i] = trial.at(i);
+        normals[i] = unit(g.gradient(i));
+      }
+      const glm::vec3 target = trial.at(i) + g.step(i, slope);
+      if (!(glm::distance(target, start[i]) <= reach)) continue;
+      moved = moved || target != trial.at(i);
+      trial.set(i, target);
+    }
+    if (!moved) break;
+  }
+}
+
+}  // namespace
+
+void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
+                    const NarrowBand& band, const LocalTapes& fallback, Progress& progress) {
+  normals.assign(positions.size(), glm::vec3(0.0f, 1.0f, 0.0f));
+  const float reach = static_cast<float>(band.voxelSize());
+  const std::vector<glm::vec3> where = positions;  // runs are formed by where extraction put the vertices
+  forEachRun(
+      positions.size(), [&](std::size_t i) { return where[i]; }, band, fallback, progress,
+      [&](const PointRun& run) { refineRun(run, reach, &positions[run.first], &normals[run.first]); });
+}
+
+}  // namespace sdf

@@ -1,0 +1,60 @@
+#include "sdf/mesh/surface_points.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cmath>
+
+namespace sdf {
+namespace {
+
+// A gradient this much below the slope bound says nothing about the distance (a medial axis, a flat spot of a
+// field).
+constexpr float kVanishing = 1e-3f;
+
+}  // namespace
+
+void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const NarrowBand& band,
+                const LocalTapes& fallback, Progress& progress,
+                const std::function<void(const PointRun&)>& work) {
+  tbb::enumerable_thread_specific<BatchEvaluator> evaluators;
+  const std::size_t chunks = (count + kRunChunk - 1) / kRunChunk;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+    if (progress.stopped()) return;
+    const std::size_t end = std::min(count, (chunk + 1) * kRunChunk);
+    NarrowBand::Finder finder(band);
+    auto tapesOf = [&](std::size_t i) {
+      const LocalTapes* t = finder.at(point(i));
+      return t ? t : &fallback;
+    };
+    std::size_t first = chunk * kRunChunk;
+    const LocalTapes* tapes = tapesOf(first);
+    while (first < end) {
+      std::size_t next = first + 1;
+      const LocalTapes* nextTapes = nullptr;
+      while (next < end && next - first < kBatchPoints &&
+             (nextTapes = tapesOf(next))->surface == tapes->surface)
+        ++next;
+      work({first, next - first, *tapes, evaluators.local()});
+      first = next;
+      if (nextTapes) tapes = nextTapes;
+    }
+    progress.update(static_cast<double>(++done) / chunks);
+  });
+}
+
+float RunGradients::distance(std::size_t i, float slope) const {
+  const float length = std::hypot(dx[i], dy[i], dz[i]);
+  return length > kVanishing * slope ? value[i] / length : value[i] / slope;
+}
+
+glm::vec3 RunGradients::step(std::size_t i, float slope) const {
+  const float squared = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
+  if (!(squared > kVanishing * kVanishing * slope * slope)) return glm::vec3(0.0f);
+  return gradient(i) * (-value[i] / squared);
+}
+
+}  // namespace sdf

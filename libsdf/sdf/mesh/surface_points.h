@@ -1,0 +1,46 @@
+// Evaluating the scene at points on a mesh, each with the tapes of its own leaf.
+#pragma once
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "sdf/base/progress.h"
+#include "sdf/eval/batch.h"
+#include "sdf/mesh/narrow_band.h"
+
+namespace sdf {
+
+/// A run of consecutive points that share their tapes, as rows for the batch readings.
+struct PointRun {
+  std::size_t first;  ///< index of the first point
+  std::size_t count;  ///< at most kBatchPoints
+  const LocalTapes& tapes;
+  BatchEvaluator& batch;
+};
+
+/// Points that one task takes; fixed, so that runs do not depend on the number of threads.
+inline constexpr std::size_t kRunChunk = 4096;
+
+/// Calls work(run) for all points, chunks of kRunChunk in parallel and each chunk in order. `point(i)` yields
+/// the i-th position; points that follow one another should lie near one another. `fallback` serves points
+/// that are far from every leaf. Returns early once progress is stopped.
+void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const NarrowBand& band,
+                const LocalTapes& fallback, Progress& progress,
+                const std::function<void(const PointRun&)>& work);
+
+/// First-order distances and gradients of one run: |f| / |grad f| is the distance to the zero set up to
+/// second order (Taubin 1994).
+struct RunGradients {
+  float value[kBatchPoints], dx[kBatchPoints], dy[kBatchPoints], dz[kBatchPoints];
+
+  void evaluate(const PointRun& run, const float* x, const float* y, const float* z) {
+    run.batch.evaluateGradient(*run.tapes.distance, {.x = x, .y = y, .z = z}, run.count, value, dx, dy, dz);
+  }
+  glm::vec3 gradient(std::size_t i) const { return {dx[i], dy[i], dz[i]}; }
+  /// Signed; where the gradient vanishes the value itself, divided by `slope`, the field's slope bound.
+  float distance(std::size_t i, float slope) const;
+  /// The step from the point to the first-order zero set, along the gradient.
+  glm::vec3 step(std::size_t i, float slope) const;
+};
+
+}  // namespace sdf

@@ -1,0 +1,147 @@
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "sdf/mesh/measure.h"
+
+namespace sdf {
+namespace {
+
+// The triangles around each vertex.
+class Incidence {
+ public:
+  Incidence(const std::vector<glm::uvec3>& triangles, std::size_t vertices)
+      : first_(vertices + 1), list_(3 * triangles.size()) {
+    for (const glm::uvec3& t : triangles)
+      for (int k = 0; k < 3; ++k) ++first_[t[k] + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    // Filling moves each start to its end; shifting back restores them.
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) list_[first_[triangles[t][k]]++] = t;
+    std::rotate(first_.begin(), first_.end() - 1, first_.end());
+    first_[0] = 0;
+  }
+  const std::uint32_t* begin(std::size_t v) const { return list_.data() + first_[v]; }
+  const std::uint32_t* end(std::size_t v) const { return list_.data() + first_[v + 1]; }
+
+ private:
+  std::vector<std::uint32_t> first_, list_;
+};
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t find(std::uint32_t a) {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+struct Summary {
+  std::ptrdiff_t vertices = 0;  // used by a triangle
+  std::ptrdiff_t edges = 0;
+  bool balanced = true;  // every edge has as many triangles one way as the other
+  bool manifold = true;  // one each way, and around every vertex a single fan
+
+  Summary operator+(const Summary& o) const {
+    return {vertices + o.vertices, edges + o.edges, balanced && o.balanced, manifold && o.manifold};
+  }
+};
+
+// A neighbour of a vertex, with the triangles on the edge to it.
+struct Spoke {
+  std::uint32_t neighbour;
+  int outgoing = 0, incoming = 0;
+  std::uint32_t fan;  // index of another spoke of the same fan; itself at the root
+};
+
+// Examines one vertex at a time: its edges to larger vertices, and whether its triangles form one fan, that
+// is whether its neighbours, joined by the triangles, are connected.
+class VertexExaminer {
+ public:
+  VertexExaminer(const std::vector<glm::uvec3>& triangles, const Incidence& incidence)
+      : triangles_(triangles), incidence_(incidence) {}
+
+  void examine(std::uint32_t v, Summary& s) {
+    if (incidence_.begin(v) == incidence_.end(v)) return;
+    ++s.vertices;
+    spokes_.clear();
+    for (const std::uint32_t* t = incidence_.begin(v); t != incidence_.end(v); ++t) {
+      const glm::uvec3& c = triangles_[*t];
+      const int k = c.x == v ? 0 : c.y == v ? 1 : 2;
+      const std::size_t next = spoke(c[(k + 1) % 3]), previous = spoke(c[(k + 2) % 3]);
+      ++spokes_[next].outgoing;
+      ++spokes_[previous].incoming;
+      spokes_[root(next)].fan = root(previous);
+    }
+    int fans = 0;
+    for (std::uint32_t i = 0; i < spokes_.size(); ++i) {
+      const Spoke& e = spokes_[i];
+      fans += e.fan == i;
+      if (e.neighbour < v) continue;
+      ++s.edges;
+      s.balanced = s.balanced && e.outgoing == e.incoming;
+      s.manifold = s.manifold && e.outgoing == 1 && e.incoming == 1;
+    }
+    s.manifold = s.manifold && fans == 1;
+  }
+
+ private:
+  std::uint32_t spoke(std::uint32_t neighbour) {
+    for (std::uint32_t i = 0; i < spokes_.size(); ++i)
+      if (spokes_[i].neighbour == neighbour) return i;
+    const auto i = static_cast<std::uint32_t>(spokes_.size());
+    spokes_.push_back({neighbour, 0, 0, i});
+    return i;
+  }
+  std::uint32_t root(std::uint32_t i) const {
+    while (spokes_[i].fan != i) i = spokes_[i].fan;
+    return i;
+  }
+
+  const std::vector<glm::uvec3>& triangles_;
+  const Incidence& incidence_;
+  std::vector<Spoke> spokes_;
+};
+
+int countComponents(const std::vector<glm::uvec3>& triangles, std::size_t vertices,
+                    std::ptrdiff_t usedVertices) {
+  DisjointSets sets(vertices);
+  for (const glm::uvec3& t : triangles) {
+    sets.join(t.x, t.y);
+    sets.join(t.y, t.z);
+  }
+  std::ptrdiff_t roots = 0;
+  for (std::uint32_t v = 0; v < vertices; ++v) roots += sets.find(v) == v;
+  return static_cast<int>(
+      roots - (static_cast<std::ptrdiff_t>(vertices) - usedVertices));  // an unused vertex is a root
+}
+
+}  // namespace
+
+void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t vertices, MeshStats& stats) {
+  const Incidence incidence(triangles, vertices);
+  const Summary s = tbb::parallel_reduce(
+      tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(vertices)), Summary{},
+      [&](const tbb::blocked_range<std::uint32_t>& range, Summary sum) {
+        VertexExaminer examiner(triangles, incidence);
+        for (std::uint32_t v = range.begin(); v != range.end(); ++v) examiner.examine(v, sum);
+        return sum;
+      },
+      std::plus<>());
+  stats.triangles = triangles.size();
+  stats.vertices = static_cast<std::uint64_t>(s.vertices);
+  stats.watertight = s.balanced && !triangles.empty();
+  stats.manifold = s.manifold && !triangles.empty();
+  stats.components = countComponents(triangles, vertices, s.vertices);
+  stats.eulerCharacteristic =
+      static_cast<int>(s.vertices - s.edges + static_cast<std::ptrdiff_t>(triangles.size()));
+}
+
+}  // namespace sdf
