@@ -1,0 +1,118 @@
+#include "sdf/shape/formula.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sdf {
+
+double upper(const Expr& e) { return e.range().nan ? kInfinity : e.range().hi; }
+double lower(const Expr& e) { return e.range().nan ? -kInfinity : e.range().lo; }
+
+Expr positiveSize(const Expr& size) { return lower(size) > 0.0 ? size : max(size, kSmallestSize); }
+
+Expr scaled(const Expr& a, const Expr& factor) { return factor.isConstant(0.0) ? Expr(0.0) : a * factor; }
+
+Expr weighted(const Vec3E& v, const Vec3E& weights) {
+  return scaled(v.x, weights.x) + scaled(v.y, weights.y) + scaled(v.z, weights.z);
+}
+
+Expr norm(const Expr& a, const Expr& b) { return length(a, b).claimLipschitz(1.0); }
+Expr norm(const Expr& a, const Expr& b, const Expr& c) { return length(a, b, c).claimLipschitz(1.0); }
+
+Expr largest(const Expr& a, const Expr& b, const Expr& c) { return max(max(a, b), c); }
+
+Expr beyond(const Expr& a, const Expr& limit) {
+  // a - clamp(a) grows with a at slope 0 or 1.
+  return (a - clamp(a, 0.0, limit)).claimLipschitz(a.lipschitz());
+}
+
+Expr boxDistance(const Expr& x, const Expr& y) {
+  return (norm(max(x, 0.0), max(y, 0.0)) + min(max(x, y), 0.0)).claimLipschitz(1.0);
+}
+
+Expr boxDistance(const Expr& x, const Expr& y, const Expr& z) {
+  return (norm(max(x, 0.0), max(y, 0.0), max(z, 0.0)) + min(largest(x, y, z), 0.0)).claimLipschitz(1.0);
+}
+
+Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom, const Expr& top,
+                       const Expr& half) {
+  const Expr run = bottom - top, rise = half + half;
+  const Expr slant = length(run, rise);
+  // The slanted side's own frame, from its upper end: `out` of the side, `down` along it.
+  const Expr x = across - top, y = along - half;
+  const Expr out = (scaled(x, rise / slant) + scaled(y, run / slant)).claimLipschitz(1.0);
+  const Expr down = (scaled(x, run / slant) - scaled(y, rise / slant)).claimLipschitz(1.0);
+  const Expr inside = max(out, abs(along) - half);  // negative inside, and exact there: the shape is convex
+  Expr outside = min(norm(out, beyond(down, slant)), norm(max(across - bottom, 0.0), along + half));
+  // A side that ends in a point needs no upper end of its own.
+  if (!top.isConstant(0.0)) outside = min(outside, norm(max(x, 0.0), y));
+  return select(less(inside, 0.0), inside, outside).claimLipschitz(1.0);
+}
+
+Expr arcDistance(const Expr& along, const Expr& across, const Expr& radius, const Expr& angle) {
+  const Expr side = abs(across), s = sin(angle), c = cos(angle);
+  const Expr within = lessEqual(side * c, along * s);
+  const Expr toCircle = abs(norm(along, across) - radius);
+  const Expr toEnd = norm(along - radius * c, side - radius * s);
+  return select(within, toCircle, toEnd).claimLipschitz(1.0);
+}
+
+double arcReach(const Expr& radius, const Expr& angle) {
+  const double widest = upper(angle), smallest = std::max(lower(radius), 0.0);
+  if (widest <= std::numbers::pi / 2) return smallest;
+  return widest < std::numbers::pi ? smallest * std::sin(widest) : 0.0;
+}
+
+Wedge foldDihedral(const Expr& along, const Expr& across, int sides) {
+  Wedge w{along, abs(across)};
+  // Angles [0, m pi / sides] are folded in half about a symmetry line until m = 1.
+  for (int m = sides; m > 1;) {
+    m = (m + 1) / 2;
+    if (2 * m == sides) {
+      w.along = abs(w.along);
+      continue;
+    }
+    const double angle = m * std::numbers::pi / sides;
+    const double s = std::sin(angle), c = std::cos(angle);
+    const Expr above = max((w.across * c - w.along * s).claimLipschitz(1.0), 0.0);
+    w.along = (w.along + above * (2.0 * s)).claimLipschitz(1.0);
+    w.across = (w.across - above * (2.0 * c)).claimLipschitz(1.0);
+  }
+  return w;
+}
+
+Expr regularPolygonDistance(const Expr& along, const Expr& across, int sides, const Expr& radius) {
+  const Wedge w = foldDihedral(along, across, sides);
+  const double s = std::sin(std::numbers::pi / sides), c = std::cos(std::numbers::pi / sides);
+  const Expr out = (w.along * c + w.across * s).claimLipschitz(1.0) - radius * c;
+  const Expr sideways = (w.along * s - w.across * c).claimLipschitz(1.0) - radius * s;
+  return (norm(max(out, 0.0), max(sideways, 0.0)) + min(out, 0.0)).claimLipschitz(1.0);
+}
+
+std::pair<glm::dvec2, glm::dvec2> regularPolygonBounds(int sides) {
+  glm::dvec2 lo(0.0), hi(0.0);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    const glm::dvec2 corner(std::sin(angle), std::cos(angle));
+    lo = glm::min(lo, corner);
+    hi = glm::max(hi, corner);
+  }
+  return {lo, hi};
+}
+
+Shape solid(const Expr& distance, const Box& bounds, ClaimKind kind) {
+  Shape s;
+  s.distance = distance.claimLipschitz(1.0);
+  s.bounds = bounds;
+  s.claim.kind = kind;
+  return s;
+}
+
+Shape flat(const Expr& distance, const glm::dvec2& min, const glm::dvec2& max, ClaimKind kind) {
+  Shape s = solid(distance, {{min, -kInfinity}, {max, kInfinity}}, kind);
+  s.dimension = 2;
+  return s;
+}
+
+}  // namespace sdf
