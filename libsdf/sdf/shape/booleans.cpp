@@ -1,0 +1,275 @@
+#include "sdf/shape/booleans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "sdf/shape/operand.h"
+
+namespace sdf {
+
+namespace {
+
+using Kind = Blend::Kind;
+
+// A distance and the surface that goes with it.
+struct Layer {
+  Expr distance;
+  Attributes surface;
+};
+
+double steeper(const Expr& a, const Expr& b) { return std::max(a.lipschitz(), b.lipschitz()); }
+
+// sign times the amount by which the blend differs from the hard minimum or maximum. For every kind but
+// Exponential it is h^n k / 2n with h = 1 - |a - b| / k and n = 1 (chamfer), 2, 3.
+Expr difference(const Expr& a, const Expr& b, const Blend& blend, double sign) {
+  const Expr apart = abs(a - b), &k = blend.k;
+  if (blend.kind == Kind::Exponential) return log(exp(apart * (-1.0 / k)) + 1.0) * (sign * k);
+  const Expr near = max(k - apart, 0.0);
+  if (blend.kind == Kind::Cubic) return square(near) * near * (sign / (6.0 * square(k)));
+  return square(near) * (sign * 0.25 / k);
+}
+
+// The gradient of each smooth form is a weighted mean of the operands' gradients: the claim on the result.
+Expr lower(const Expr& a, const Expr& b, const Blend& blend) {
+  if (blend.kind == Kind::Hard) return min(a, b);
+  const Expr result = blend.kind == Kind::Chamfer ? min(min(a, b), (a + b - blend.k) * 0.5)
+                                                  : difference(a, b, blend, -1.0) + min(a, b);
+  return result.claimLipschitz(steeper(a, b));
+}
+
+Expr upper(const Expr& a, const Expr& b, const Blend& blend) {
+  if (blend.kind == Kind::Hard) return max(a, b);
+  const Expr result = blend.kind == Kind::Chamfer ? max(max(a, b), (a + b + blend.k) * 0.5)
+                                                  : difference(a, b, blend, 1.0) + max(a, b);
+  return result.claimLipschitz(steeper(a, b));
+}
+
+// Derivative of lower(a, b) by b.
+Expr weightOfSecond(const Expr& a, const Expr& b, const Blend& blend) {
+  const Expr& k = blend.k;
+  if (blend.kind == Kind::Quadratic) return clamp((a - b) * (0.5 / k) + 0.5, 0.0, 1.0);
+  const Expr apart = abs(a - b);
+  if (blend.kind == Kind::Chamfer) return select(less(apart, k), 0.5, lessEqual(b, a));
+  Expr farther;  // weight of the larger distance
+  if (blend.kind == Kind::Cubic) {
+    farther = square(max(apart * (-1.0 / k) + 1.0, 0.0)) * 0.5;
+  } else {
+    const Expr e = exp(apart * (-1.0 / k));
+    farther = e / (e + 1.0);
+  }
+  return select(less(a, b), farther, 1.0 - farther);
+}
+
+// Attributes that both share stay the same node: painted alike costs nothing.
+Attributes mixSurfaces(const Layer& a, const Layer& b, const Blend& blend) {
+  if (a.surface == b.surface) return a.surface;
+  const Expr second = lessEqual(b.distance, a.distance);
+  const bool hard = blend.kind == Kind::Hard;
+  const Expr weight = hard ? second : weightOfSecond(a.distance, b.distance, blend);
+  Attributes mixed;
+  for (int i = 0; i < kAttributeCount; ++i) {
+    const bool whole = hard || i == static_cast<int>(Attribute::MaterialId);
+    mixed[i] = whole ? select(second, b.surface[i], a.surface[i]) : mix(a.surface[i], b.surface[i], weight);
+  }
+  return mixed;
+}
+
+Layer join(const Layer& a, const Layer& b, const Blend& blend) {
+  return {lower(a.distance, b.distance, blend), mixSurfaces(a, b, blend)};
+}
+
+// Balanced, so that a region where one half wins drops the other half at once.
+Layer balancedUnion(std::span<const Layer> layers) {
+  if (layers.size() == 1) return layers[0];
+  const std::size_t half = layers.size() / 2;
+  return join(balancedUnion(layers.first(half)), balancedUnion(layers.subspan(half)), Blend::hard());
+}
+
+Expr balancedMax(std::span<const Expr> es) {
+  if (es.size() == 1) return es[0];
+  const std::size_t half = es.size() / 2;
+  return max(balancedMax(es.first(half)), balancedMax(es.subspan(half)));
+}
+
+// min - k log sum exp((min - d_i) / k): no exponent is positive, so nothing overflows, and n operands need n
+// exponentials where pairs would need 2n functions.
+Layer exponentialUnion(const std::vector<Layer>& layers, const Expr& k) {
+  const Layer nearest = balancedUnion(layers);
+  const Expr& least = nearest.distance;
+  std::vector<Expr> weights;
+  Expr total = 0.0;
+  for (const Layer& l : layers) {
+    weights.push_back(exp((least - l.distance) * (1.0 / k)));
+    total = total + weights.back();
+  }
+  Layer result{log(total) * (-1.0 * k) + least, nearest.surface};
+  result.distance.claimLipschitz(least.lipschitz());
+  for (int i = 0; i < kAttributeCount; ++i) {
+    const auto same = [&](const Layer& l) { return l.surface[i] == layers[0].surface[i]; };
+    if (i == static_cast<int>(Attribute::MaterialId) || std::all_of(layers.begin(), layers.end(), same))
+      continue;
+    Expr sum = 0.0;
+    for (std::size_t j = 0; j < layers.size(); ++j) sum = weights[j] * layers[j].surface[i] + sum;
+    result.surface[i] = sum / total;
+  }
+  return result;
+}
+
+// How far, in units of k, a union of n shapes blended from left to right may lie below the hard one. With x
+// the depth so far, one more operand adds at most h^n / 2n for h = 1 - x, and x + (1 - x)^n / 2n grows with
+// x: equal distances are the worst. The sum stays below 1.
+double deepest(Kind kind, std::size_t n) {
+  if (kind == Kind::Exponential) return std::log(static_cast<double>(n));
+  double x = 0.0;
+  for (std::size_t i = 1; i < n && kind != Kind::Hard; ++i) {
+    const double h = 1.0 - x;
+    x += kind == Kind::Chamfer ? h / 2.0 : kind == Kind::Quadratic ? h * h / 4.0 : h * h * h / 6.0;
+  }
+  return x;
+}
+
+// Why the operation is impossible: the first operand's error, or something about all of them.
+std::optional<Shape> refusal(const char* op, const std::vector<Shape>& shapes, const Blend& blend) {
+  for (const Shape& s : shapes)
+    if (!s.ok()) return s;
+  Check check(op);
+  check.that(!shapes.empty(), "needs at least one shape");
+  for (std::size_t i = 1; i < shapes.size(); ++i) {
+    const std::size_t flat = shapes[i].dimension == 2 ? i : 0;
+    check.that(
+        shapes[i].dimension == shapes[0].dimension,
+        "shape " + std::to_string(flat + 1) + " is flat and others are solid; extrude or revolve it first");
+  }
+  if (blend.kind != Kind::Hard) check.positive("k", blend.k);
+  if (check.ok()) return std::nullopt;
+  return check.failure();
+}
+
+Blend guarded(Blend blend) {
+  if (blend.kind != Kind::Hard) blend.k = keptPositive(blend.k);
+  return blend;
+}
+
+// What all results share; the caller sets distance, surface and bounds. `best` is the strongest kind the
+// operation allows.
+Shape combined(const std::vector<Shape>& shapes, const Blend& blend, ClaimKind best) {
+  Shape result = shapes[0];
+  Claim& claim = result.claim;
+  claim.kind = blend.kind == Kind::Hard ? best : ClaimKind::Field;
+  for (const Shape& s : shapes) {
+    claim.kind = weaker(claim.kind, s.claim.kind);
+    claim.lipschitz = std::max(claim.lipschitz, s.claim.lipschitz);
+    claim.region = intersect(claim.region, s.claim.region);
+  }
+  return result;
+}
+
+std::vector<Layer> layersOf(const std::vector<Shape>& shapes) {
+  std::vector<Layer> layers;
+  for (const Shape& s : shapes) layers.push_back({s.distance, s.surface});
+  return layers;
+}
+
+}  // namespace
+
+Shape unite(const std::vector<Shape>& shapes, const Blend& given) {
+  if (auto refused = refusal("union", shapes, given)) return *refused;
+  if (shapes.size() == 1) return shapes[0];
+  const Blend blend = guarded(given);
+  const std::vector<Layer> layers = layersOf(shapes);
+  Layer joined;
+  if (blend.kind == Kind::Hard) {
+    joined = balancedUnion(layers);
+  } else if (blend.kind == Kind::Exponential && layers.size() > 2) {
+    joined = exponentialUnion(layers, blend.k);
+  } else {
+    joined = layers[0];
+    for (std::size_t i = 1; i < layers.size(); ++i) joined = join(joined, layers[i], blend);
+  }
+  Shape result = combined(shapes, blend, ClaimKind::ExactOutside);
+  result.distance = joined.distance;
+  result.surface = joined.surface;
+  result.materials = mergedMaterials(shapes);
+  const double swell =
+      blend.kind == Kind::Hard ? 0.0 : deepest(blend.kind, shapes.size()) * blend.k.range().hi;
+  result.bounds = Box{};
+  result.claim.growth = 0.0;
+  for (const Shape& s : shapes) {
+    const double growth = growthOf(s.claim);
+    result.bounds = unite(result.bounds, swell > 0.0 ? grow(s.bounds, growth * swell) : s.bounds);
+    result.claim.growth = std::max(result.claim.growth, growth);
+  }
+  return settled(std::move(result));
+}
+
+Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
+  if (auto refused = refusal("intersection", shapes, given)) return *refused;
+  if (shapes.size() == 1) return shapes[0];
+  const Blend blend = guarded(given);
+  Shape result = combined(shapes, blend, ClaimKind::Bound);
+  result.claim.growth = 0.0;
+  std::vector<Expr> distances;
+  for (const Shape& s : shapes) {
+    distances.push_back(s.distance);
+    result.bounds = overlap(result.bounds, s.bounds);
+    result.claim.growth = std::max(result.claim.growth, growthOf(s.claim));
+  }
+  if (blend.kind == Kind::Hard) {
+    result.distance = balancedMax(distances);
+  } else {
+    for (std::size_t i = 1; i < shapes.size(); ++i)
+      result.distance = upper(result.distance, distances[i], blend);
+  }
+  return settled(std::move(result));
+}
+
+Shape subtract(const std::vector<Shape>& shapes, const Blend& given) {
+  if (auto refused = refusal("difference", shapes, given)) return *refused;
+  if (shapes.size() == 1) return shapes[0];
+  const Blend blend = guarded(given);
+  Shape result = combined(shapes, blend, ClaimKind::Bound);
+  result.claim.growth = growthOf(shapes[0].claim);
+  if (blend.kind == Kind::Hard) {
+    std::vector<Layer> cutters = layersOf(shapes);
+    for (Layer& l : cutters) l.surface = shapes[0].surface;
+    result.distance = max(result.distance, -balancedUnion(std::span(cutters).subspan(1)).distance);
+  } else {
+    for (std::size_t i = 1; i < shapes.size(); ++i)
+      result.distance = upper(result.distance, -shapes[i].distance, blend);
+  }
+  return settled(std::move(result));
+}
+
+Shape exclude(const std::vector<Shape>& shapes, const Blend& given) {
+  if (auto refused = refusal("xor", shapes, given)) return *refused;
+  const Blend blend = guarded(given);
+  Shape result = shapes[0];
+  for (std::size_t i = 1; i < shapes.size(); ++i) {
+    const Shape a = result;
+    const Shape& b = shapes[i];
+    const Shape either = unite(a, b, blend);
+    result = combined({a, b}, blend, ClaimKind::Bound);
+    result.distance = upper(either.distance, -upper(a.distance, b.distance, blend), blend);
+    // Where it is b's surface that is seen, b <= a holds, inside and outside: the union's rule serves.
+    result.surface = either.surface;
+    result.materials = either.materials;
+    result.bounds = either.bounds;
+    result.claim.growth = growthOf(either.claim);
+    result = settled(std::move(result));
+  }
+  return result;
+}
+
+Shape unite(const Shape& a, const Shape& b, const Blend& blend) { return unite(std::vector{a, b}, blend); }
+Shape intersect(const Shape& a, const Shape& b, const Blend& blend) {
+  return intersect(std::vector{a, b}, blend);
+}
+Shape subtract(const Shape& a, const Shape& b, const Blend& blend) {
+  return subtract(std::vector{a, b}, blend);
+}
+Shape exclude(const Shape& a, const Shape& b, const Blend& blend) {
+  return exclude(std::vector{a, b}, blend);
+}
+
+}  // namespace sdf

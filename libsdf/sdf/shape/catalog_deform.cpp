@@ -1,0 +1,80 @@
+#include "sdf/shape/deform.h"
+#include "sdf/shape/entries.h"
+
+namespace sdf {
+
+std::vector<CatalogEntry> deformEntries() {
+  using namespace parameter;
+  const Parameter operand = shape("shape", "the shape to change");
+  return {
+      {"morph",
+       Group::Deform,
+       "Part way from one shape to another; materials are mixed alike.",
+       "bound, L of the steeper shape",
+       {shape("from", "what is there at t = 0"), shape("to", "what is there at t = 1"),
+        number("t", "how far, 0 to 1", Rule::NotNegative)},
+       [](const Arguments& a) { return morph(a.shape(0), a.shape(1), a.number(2)); }},
+      {"round",
+       Group::Deform,
+       "Everything within a radius of the shape: grows it, and rounds its outer edges.",
+       "exact outside if the shape is, else bound",
+       {operand, number("radius", "scene units", Rule::NotNegative)},
+       [](const Arguments& a) { return round(a.shape(0), a.number(1)); }},
+      {"shell",
+       Group::Deform,
+       "The skin of the shape, half of its thickness on either side of the surface.",
+       "exact outside if the shape is exact, else bound",
+       {operand, number("thickness", "scene units", Rule::Positive)},
+       [](const Arguments& a) { return shell(a.shape(0), a.number(1)); }},
+      {"elongate",
+       Group::Deform,
+       "Cut at the coordinate planes, pulled apart along each axis, and the gaps filled with the cross "
+       "sections.",
+       "bound, L of the shape",
+       {operand, vector3("half", "how far each half moves along x, y and z, scene units", Rule::NotNegative)},
+       [](const Arguments& a) { return elongate(a.shape(0), a.vector(1)); }},
+      {"displace",
+       Group::Deform,
+       "The surface moved by amplitude sin(wx) sin(wy) sin(wz), w being the frequency.",
+       "bound, L = 1: divided by L of the shape + |amplitude| frequency",
+       {operand, number("amplitude", "scene units", Rule::Any),
+        number("frequency", "radians a scene unit: bumps repeat every 2 pi / frequency", Rule::Any)},
+       [](const Arguments& a) { return displace(a.shape(0), a.number(1), a.number(2)); }},
+      {"extrude",
+       Group::Deform,
+       "A flat shape swept along z, both ways from the xy plane.",
+       "as the flat shape",
+       {shape("flat", "a flat shape"), number("half_height", "scene units", Rule::Positive)},
+       [](const Arguments& a) { return extrude(a.shape(0), a.number(1)); }},
+      {"revolve",
+       Group::Deform,
+       "A flat shape swept around the y axis. What lies at x < 0, after the offset, is dropped.",
+       "as the flat shape if it keeps to x >= 0 or is symmetric about it, else bound",
+       {shape("flat", "a flat shape"),
+        number("offset", "moves the flat shape along x first, scene units", Rule::Any, "0")},
+       [](const Arguments& a) { return revolve(a.shape(0), a.number(1)); }},
+      {"twist",
+       Group::Deform,
+       "Turned about the y axis, the more the higher.",
+       "bound, L = 1: divided by (a + sqrt(a^2 + 4)) / 2, a = |rate| radius; a field if unbounded in x or z",
+       {operand, number("rate", "degrees for each unit of y", Rule::Any)},
+       [](const Arguments& a) { return twist(a.shape(0), radians(a.number(1))); }},
+      {"bend",
+       Group::Deform,
+       "The x axis bent into a circle towards +y; lengths along it stay. The shape must not reach the "
+       "circle's centre "
+       "nor half way around.",
+       "bound, L = 1: divided by the greatest stretch, 1 / (1 - y / radius)",
+       {operand, number("rate", "degrees for each unit of x; the radius is 57.3 / rate", Rule::Any)},
+       [](const Arguments& a) { return bend(a.shape(0), radians(a.number(1))); }},
+      {"taper",
+       Group::Deform,
+       "The cross section at height y scaled by 1 + rate y in x and z.",
+       "bound, L = 1: divided by the greatest stretch within the bounds; a field if unbounded in x or z",
+       {operand,
+        number("rate", "change of the scale for each unit of y; negative narrows upwards", Rule::Any)},
+       [](const Arguments& a) { return taper(a.shape(0), a.number(1)); }},
+  };
+}
+
+}  // namespace sdf

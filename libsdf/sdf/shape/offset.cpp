@@ -1,0 +1,140 @@
+// Operators that change the value of the distance.
+#include <algorithm>
+#include <cmath>
+
+#include "sdf/shape/deform.h"
+#include "sdf/shape/operand.h"
+
+namespace sdf {
+
+namespace {
+
+bool dependsOnZ(const Expr& e) {
+  const auto order = topologicalOrder({&e, 1});
+  return std::any_of(order.begin(), order.end(), [](const Expr& n) {
+    return n.op() == Op::Variable && n.variableIndex() == Variable::Z;
+  });
+}
+
+}  // namespace
+
+Shape morph(const Shape& a, const Shape& b, const Expr& t) {
+  if (!a.ok()) return a;
+  if (!b.ok()) return b;
+  Check check("morph");
+  check.that(a.dimension == b.dimension,
+             "one shape is flat and the other solid; extrude or revolve the flat one first");
+  if (check.any("t", t).ok()) {
+    const double now = uniformValue(t);
+    check.that(now >= 0.0 && now <= 1.0, "t must lie in 0 to 1, got " + shown(now));
+  }
+  if (!check.ok()) return check.failure();
+  const bool inside = t.range().lo >= 0.0 && t.range().hi <= 1.0;
+  const Expr share = inside ? t : clamp(t, 0.0, 1.0);
+  Shape result = a;
+  result.distance = mix(a.distance, b.distance, share);
+  for (int i = 0; i < kAttributeCount; ++i) {
+    const bool id = i == static_cast<int>(Attribute::MaterialId);
+    result.surface[i] = id ? select(lessEqual(0.5, share), b.surface[i], a.surface[i])
+                           : mix(a.surface[i], b.surface[i], share);
+  }
+  result.materials = mergedMaterials({a, b});
+  // A mean that is at most c has an operand that is at most c.
+  result.bounds = unite(a.bounds, b.bounds);
+  result.claim.kind = ClaimKind::Field;
+  result.claim.lipschitz = std::max(a.claim.lipschitz, b.claim.lipschitz);
+  result.claim.region = intersect(a.claim.region, b.claim.region);
+  result.claim.growth = std::max(growthOf(a.claim), growthOf(b.claim));
+  return settled(std::move(result));
+}
+
+Shape round(const Shape& shape, const Expr& radius) {
+  if (!shape.ok()) return shape;
+  Check check("round");
+  if (!check.notNegative("radius", radius).ok()) return check.failure();
+  const Expr r = notNegative(radius);
+  const double growth = growthOf(shape.claim);
+  Shape result = shape;
+  result.distance = shape.distance - r;
+  if (r.range().hi > 0.0) result.bounds = grow(shape.bounds, growth * r.range().hi);
+  // Outside, any way to the grown surface is the way to the surface less the radius. Inside, the way out
+  // crosses the surface and then at least the radius. A bound that is not exact needs L <= 1 for that;
+  // settled looks.
+  const bool exactOutside = shape.claim.kind <= ClaimKind::ExactOutside;
+  result.claim.kind = exactOutside ? ClaimKind::ExactOutside : ClaimKind::Field;
+  result.claim.growth = growth;
+  return settled(std::move(result));
+}
+
+Shape shell(const Shape& shape, const Expr& thickness) {
+  if (!shape.ok()) return shape;
+  Check check("shell");
+  if (!check.positive("thickness", thickness).ok()) return check.failure();
+  const Expr half = keptPositive(thickness) * 0.5;
+  const double growth = growthOf(shape.claim);
+  Shape result = shape;
+  result.distance = abs(shape.distance) - half;
+  result.bounds = grow(shape.bounds, growth * half.range().hi);
+  // What is within half of the surface: exact from both sides if the distance is.
+  result.claim.kind = shape.claim.kind == ClaimKind::Exact ? ClaimKind::ExactOutside : ClaimKind::Field;
+  result.claim.growth = growth;
+  return settled(std::move(result));
+}
+
+Shape elongate(const Shape& shape, const Vec3E& half) {
+  if (!shape.ok()) return shape;
+  Check check("elongate");
+  const int axes = shape.dimension;
+  if (!check.vector("half", half, Rule::NotNegative, axes).ok()) return check.failure();
+  Vec3E at = position();
+  Box bounds = shape.bounds;
+  for (int i = 0; i < axes; ++i) {
+    const Expr h = notNegative(component(half, i));
+    if (h.isConstant(0.0)) continue;
+    const Expr x = component(at, i);
+    component(at, i) = x - clamp(x, -h, h);
+    bounds.min[i] -= h.range().hi;
+    bounds.max[i] += h.range().hi;
+  }
+  // The map moves no two points apart: L stays, and a distance stays below the true one. It is not exact in
+  // general: where the gap is, the nearest point may lie beyond the cut.
+  Shape result = movedTo(shape, at, 1.0);
+  result.bounds = bounds;
+  result.claim = withoutRegion(shape.claim);
+  result.claim.kind = weaker(shape.claim.kind, ClaimKind::Bound);
+  result.claim.growth = growthOf(shape.claim);
+  return settled(std::move(result));
+}
+
+Shape displace(const Shape& shape, const Expr& offset) {
+  if (!shape.ok()) return shape;
+  Check check("displace");
+  check.that(shape.dimension == 3 || !dependsOnZ(offset), "the offset of a flat shape must not depend on z");
+  if (!check.ok()) return check.failure();
+  const double growth = growthOf(shape.claim), slope = offset.lipschitz();
+  const double steepest = std::max(1.0, globalLipschitz(shape) + slope);
+  const bool known = std::isfinite(steepest);
+  Shape result = shape;
+  result.distance = shape.distance + offset;
+  if (known) result.distance = result.distance * (1.0 / steepest);
+  const double raised = -offset.range().lo;
+  if (raised > 0.0) result.bounds = grow(shape.bounds, growth * raised);
+  result.claim = {ClaimKind::Field, known ? 1.0 : kInfinity};
+  result.claim.growth = known ? growth * steepest : growth;
+  return settled(std::move(result));
+}
+
+Shape displace(const Shape& shape, const Expr& amplitude, const Expr& frequency) {
+  if (!shape.ok()) return shape;
+  Check check("displace");
+  check.any("amplitude", amplitude).any("frequency", frequency);
+  if (!wantsSolid(check, shape).ok()) return check.failure();
+  const Vec3E p = position();
+  // With u = sin^2 of each factor, the squared slope over w^2 is u1 u2 + u2 u3 + u3 u1 - 3 u1 u2 u3, linear
+  // in each u and so greatest at a corner of [0, 1]^3, where it is 0 or 1.
+  const double w = frequency.range().magnitude();
+  const Expr wave = (sin(p.x * frequency) * sin(p.y * frequency) * sin(p.z * frequency)).claimLipschitz(w);
+  return displace(shape, (wave * amplitude).claimLipschitz(w * amplitude.range().magnitude()));
+}
+
+}  // namespace sdf

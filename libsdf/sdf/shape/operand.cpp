@@ -1,0 +1,124 @@
+#include "sdf/shape/operand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdf {
+
+namespace {
+// Far below anything visible and far above where its inverse square overflows float.
+constexpr double kHair = 1e-6;
+}  // namespace
+
+Check& wantsSolid(Check& check, const Shape& shape) {
+  return check.that(shape.dimension == 3, "the shape is flat; extrude or revolve it first");
+}
+
+Expr notNegative(const Expr& e) { return e.range().lo >= 0.0 ? e : max(e, 0.0); }
+Expr keptPositive(const Expr& e) { return e.range().lo >= kHair || e.isConstant() ? e : max(e, kHair); }
+Expr keptFromZero(const Expr& e) {
+  const bool away = e.range().lo >= kHair || e.range().hi <= -kHair || e.isConstant();
+  return away ? e : select(less(abs(e), kHair), kHair, e);
+}
+
+bool isEverything(const Box& b) { return b.contains(Box::everything()); }
+
+Box grow(const Box& b, double by) {
+  return by == kInfinity ? Box::everything() : Box{b.min - by, b.max + by};
+}
+
+Box overlap(const Box& a, const Box& b) {
+  const Box both = intersect(a, b);
+  return {glm::min(both.min, both.max), glm::max(both.min, both.max)};
+}
+
+Interval timesRange(const Interval& a, double lo, double hi) {
+  const auto times = [](double u, double v) { return u == 0.0 || v == 0.0 ? 0.0 : u * v; };
+  const auto [least, most] =
+      std::minmax({times(a.lo, lo), times(a.lo, hi), times(a.hi, lo), times(a.hi, hi)});
+  return {least, most};
+}
+
+double radiusOf(const Box& b) {
+  const glm::dvec3 far = glm::max(glm::abs(b.min), glm::abs(b.max));
+  return std::hypot(far.x, far.y, far.z);
+}
+
+double radiusAbout(const Box& b, int axis) {
+  glm::dvec3 far = glm::max(glm::abs(b.min), glm::abs(b.max));
+  far[axis] = 0.0;
+  return std::hypot(far.x, far.y, far.z);
+}
+
+Expr outsideSlab(const Expr& x, double lo, double hi) {
+  if (lo > -kInfinity && hi < kInfinity) return abs(x - 0.5 * (lo + hi)) - 0.5 * (hi - lo);
+  return hi < kInfinity ? x - hi : lo - x;
+}
+
+std::optional<Expr> outsideBox(const Box& b) {
+  std::optional<Expr> outside;
+  const Vec3E p = position();
+  for (int i = 0; i < 3; ++i) {
+    if (b.min[i] == -kInfinity && b.max[i] == kInfinity) continue;
+    const Expr slab = outsideSlab(component(p, i), b.min[i], b.max[i]);
+    outside = outside ? max(*outside, slab) : slab;
+  }
+  return outside;
+}
+
+double globalLipschitz(const Shape& s) {
+  const double stated = isEverything(s.claim.region) ? s.claim.lipschitz : kInfinity;
+  return std::min(stated, s.distance.lipschitz());
+}
+
+bool isOneLipschitz(double lipschitz) {
+  constexpr double kRounding =
+      1e-12;  // of a chain of some thousand interval operations, each outward by an ulp
+  return lipschitz <= 1.0 + kRounding;
+}
+
+Shape settled(Shape s) {
+  if (isEverything(s.claim.region)) s.distance.claimLipschitz(s.claim.lipschitz);
+  const double known = s.distance.lipschitz();
+  if (known <= s.claim.lipschitz) {
+    s.claim.lipschitz = known;
+    s.claim.region = Box::everything();
+  }
+  if (s.claim.kind == ClaimKind::Field && isOneLipschitz(known)) s.claim.kind = ClaimKind::Bound;
+  return s;
+}
+
+Shape movedTo(const Shape& s, const Vec3E& position, double stretch) {
+  std::vector<Expr> graphs{s.distance};
+  graphs.insert(graphs.end(), s.surface.begin(), s.surface.end());
+  graphs = remap(graphs, {position.x, position.y, position.z}, stretch);
+  Shape moved = s;
+  moved.distance = graphs[0];
+  std::copy(graphs.begin() + 1, graphs.end(), moved.surface.begin());
+  return moved;
+}
+
+bool isEven(const Expr& e, int axis) {
+  Vec3E p = position();
+  component(p, axis) = -component(p, axis);
+  return remap(e, {p.x, p.y, p.z}, 1.0) == e;
+}
+
+Claim withoutRegion(Claim c) {
+  if (isEverything(c.region)) return c;
+  c.lipschitz = kInfinity;
+  c.region = Box::everything();
+  return c;
+}
+
+std::vector<MaterialPtr> mergedMaterials(const std::vector<Shape>& shapes) {
+  std::vector<MaterialPtr> merged;
+  for (const Shape& s : shapes)
+    for (const MaterialPtr& m : s.materials) {
+      const auto same = [&](const MaterialPtr& other) { return other->id == m->id; };
+      if (std::none_of(merged.begin(), merged.end(), same)) merged.push_back(m);
+    }
+  return merged;
+}
+
+}  // namespace sdf

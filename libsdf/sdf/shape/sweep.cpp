@@ -1,0 +1,58 @@
+// Solids from flat shapes.
+#include <algorithm>
+
+#include "sdf/shape/deform.h"
+#include "sdf/shape/operand.h"
+
+namespace sdf {
+
+namespace {
+
+Check& wantsFlat(Check& check, const Shape& shape) {
+  return check.that(shape.dimension == 2, "the shape is solid already; give it a flat one, such as a circle");
+}
+
+}  // namespace
+
+Shape extrude(const Shape& flat, const Expr& halfHeight) {
+  if (!flat.ok()) return flat;
+  Check check("extrude");
+  if (!wantsFlat(check, flat).positive("half_height", halfHeight).ok()) return check.failure();
+  const Expr h = keptPositive(halfHeight);
+  const Expr& side = flat.distance;
+  const Expr lid = abs(position().z) - h;
+  Shape result = flat;
+  result.dimension = 3;
+  result.claim = withoutRegion(flat.claim);
+  result.claim.lipschitz = std::max(1.0, globalLipschitz(flat));
+  // side depends on x and y, lid on z: the length of the pair is no steeper than the steeper of the two.
+  const Expr corner = sqrt(square(max(side, 0.0)) + square(max(lid, 0.0)));
+  corner.claimLipschitz(std::max(1.0, side.lipschitz()));
+  result.distance = corner + min(max(side, lid), 0.0);
+  result.bounds.min.z = -h.range().hi;
+  result.bounds.max.z = h.range().hi;
+  result.claim.growth = std::max(1.0, growthOf(flat.claim));
+  return settled(std::move(result));
+}
+
+Shape revolve(const Shape& flat, const Expr& offset) {
+  if (!flat.ok()) return flat;
+  Check check("revolve");
+  if (!wantsFlat(check, flat).any("offset", offset).ok()) return check.failure();
+  const double left = flat.bounds.min.x + offset.range().lo, right = flat.bounds.max.x + offset.range().hi;
+  check.that(!(right < 0.0), "the flat shape lies at x < 0 altogether; move it or give it an offset");
+  if (!check.ok()) return check.failure();
+  const Vec3E p = position();
+  Shape result = movedTo(flat, {length(p.x, p.z).claimLipschitz(1.0) - offset, p.y, 0.0}, 1.0);
+  result.dimension = 3;
+  result.bounds = {{-right, flat.bounds.min.y, -right}, {right, flat.bounds.max.y, right}};
+  // A flat shape across the axis, unless it is its own mirror image, may owe its nearest point to the side
+  // that is dropped.
+  result.claim = withoutRegion(flat.claim);
+  const bool oneSided = left >= 0.0 || (offset.isConstant(0.0) && isEven(flat.distance, 0));
+  if (!oneSided) result.claim.kind = weaker(flat.claim.kind, ClaimKind::Bound);
+  result.claim.growth = growthOf(flat.claim);
+  return settled(std::move(result));
+}
+
+}  // namespace sdf
