@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <type_traits>
 
 #include "sdf/mesh/color.h"
 #include "sdf/mesh/measure.h"
@@ -104,7 +105,7 @@ class Mesher {
   }
 
   template <class Stage>
-  auto time(const char* stage, const Stage& work) {
+  std::invoke_result_t<const Stage&> time(const char* stage, const Stage& work) {
     progress_.beginStage(stage);
     const auto start = std::chrono::steady_clock::now();
     auto value = work();
