@@ -1,0 +1,212 @@
+#include "export_job.h"
+
+#include <chrono>
+#include <utility>
+
+#include "memory.h"
+#include "report.h"
+#include "sdf/base/file.h"
+#include "sdf/gltf/export.h"
+#include "sdf/mesh/mesher.h"
+#include "sdf/script/script.h"
+
+namespace sdf {
+namespace {
+
+/// Voxels along the longest side, unless told otherwise: a side of a thousand pixels then has five to a
+/// voxel.
+constexpr double kDefaultVoxels = 200.0;
+
+/// Runs `work` and returns what it returned, adding its seconds to a stage.
+template <class Work>
+auto timed(StageSeconds& stages, const std::string& stage, Work work) {
+  const auto began = std::chrono::steady_clock::now();
+  auto result = work();
+  addSeconds(stages, stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  return result;
+}
+
+double sum(const StageSeconds& stages) {
+  double seconds = 0.0;
+  for (const auto& stage : stages) seconds += stage.second;
+  return seconds;
+}
+
+/// The scene with only the part that was asked for.
+Result<Scene> selected(Scene scene, const Options& options) {
+  if (!options.only) return scene;
+  std::string names;
+  for (const Part& part : scene.parts) {
+    if (part.name == *options.only) {
+      scene.parts = {Part(part)};
+      return scene;
+    }
+    names += (names.empty() ? "" : ", ") + part.name;
+  }
+  return Error{ErrorKind::Usage, "--only: " + options.scene.string() + " has no part '" + *options.only +
+                                     "'; its parts are " + names};
+}
+
+/// One export of the scene at one time.
+class FrameExport {
+ public:
+  FrameExport(const Options& options, ProgressLine& progress, std::string subject)
+      : options_(options), progress_(progress), subject_(std::move(subject)) {}
+
+  /// Fills `report` and, if it is none yet, `voxelSize`.
+  Status run(const std::filesystem::path& target, double time, std::optional<double>& voxelSize) {
+    report.file = target;
+    report.time = time;
+    if (Status s = load(time); !s) return s;
+    if (Status s = chooseVoxelSize(voxelSize); !s) return s;
+    if (Status s = meshParts(*voxelSize); !s) return s;
+    if (Status s = write(target); !s) return s;
+    finish();
+    return okStatus();
+  }
+
+  FileReport report;
+  Scene scene;
+
+ private:
+  Status load(double time) {
+    progress_.setSubject(subject_);
+    progress_.beginStage("script");
+    ScriptOptions script;
+    script.values = options_.parameters;
+    script.time = time;
+    Result<Scene> loaded =
+        timed(report.total.stages, "script", [&] { return loadScene(options_.scene, script); });
+    if (!loaded) return loaded.error();
+    Result<Scene> chosen = selected(std::move(*loaded), options_);
+    if (!chosen) return chosen.error();
+    scene = std::move(*chosen);
+    clip_ = options_.bounds ? options_.bounds : scene.bounds;
+    return interrupted();
+  }
+
+  Status chooseVoxelSize(std::optional<double>& voxelSize) {
+    if (voxelSize) return okStatus();
+    progress_.beginStage("bounds");
+    Box all;
+    for (const Part& part : scene.parts) {
+      Box box = timed(report.total.stages, "bounds", [&] { return findBounds(part.shape); });
+      if (clip_) box = intersect(box, *clip_);
+      if (Status s = interrupted(); !s) return s;
+      if (box.empty()) continue;
+      // Rather now than after the other parts: the mesher knows best how to word why it cannot be meshed.
+      if (!box.finite()) {
+        Result<MeshedShape> refused = meshShape(part.shape, part.name, meshOptions(0.0), progress_);
+        if (!refused) return refused.error();
+      }
+      all = unite(all, box);
+    }
+    voxelSize = all.finite() ? all.longestSide() / kDefaultVoxels : 0.0;
+    return okStatus();
+  }
+
+  Status meshParts(double voxelSize) {
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+      const Part& part = scene.parts[i];
+      const std::string place =
+          " (" + std::to_string(i + 1) + " of " + std::to_string(scene.parts.size()) + ")";
+      progress_.setSubject(subject_ + (subject_.empty() ? "" : ", ") + "part '" + part.name + "'" + place);
+      ReportLine line;
+      line.name = part.name;
+      StageSeconds whole;
+      Result<MeshedShape> meshed = timed(
+          whole, "", [&] { return meshShape(part.shape, part.name, meshOptions(voxelSize), progress_); });
+      if (!meshed) return meshed.error();
+      line.seconds = sum(whole);
+      line.stages = std::move(meshed->stageSeconds);
+      line.stats = meshed->stats;
+      line.peakMemory = peakMemory();
+      report.parts.push_back(std::move(line));
+      parts_.push_back({part.name, std::move(meshed->mesh), meshed->stats});
+    }
+    return interrupted();
+  }
+
+  Status write(const std::filesystem::path& target) {
+    progress_.setSubject(subject_);
+    progress_.beginStage("writing");
+    return timed(report.total.stages, "writing", [&] { return writeMeshes(target, scene, parts_); });
+  }
+
+  /// The total: the parts' stages between the ones before and after them.
+  void finish() {
+    StageSeconds own = std::exchange(report.total.stages, {});
+    const auto [writing, writingSeconds] = own.back();
+    own.pop_back();
+    ReportLine& total = report.total;
+    total.name = "total";
+    total.stats = combined(parts_);
+    total.seconds = sum(own) + writingSeconds;
+    total.stages = std::move(own);
+    for (const ReportLine& part : report.parts) {
+      total.seconds += part.seconds;
+      for (const auto& [stage, seconds] : part.stages) addSeconds(total.stages, stage, seconds);
+    }
+    addSeconds(total.stages, writing, writingSeconds);
+    total.peakMemory = peakMemory();
+  }
+
+  MeshOptions meshOptions(double voxelSize) const {
+    MeshOptions mesh;
+    mesh.voxelSize = voxelSize;
+    mesh.bounds = clip_;
+    mesh.maxMemory = options_.maxMemory;
+    return mesh;
+  }
+
+  Status interrupted() const {
+    if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
+    return okStatus();
+  }
+
+  const Options& options_;
+  ProgressLine& progress_;
+  std::string subject_;
+  std::optional<Box> clip_;
+  std::vector<ExportPart> parts_;
+};
+
+/// What can be known of the files to write before the work that fills them.
+Status checkTargets(const Options& options) {
+  const int frames = options.frames.value_or(1);
+  for (int i = 1; i <= frames; ++i) {
+    if (Status s = checkWritable(options.frames ? frameName(options.output, i) : options.output); !s)
+      return s;
+  }
+  return options.report ? checkWritable(*options.report) : okStatus();
+}
+
+}  // namespace
+
+Status runExport(const Options& options, ProgressLine& progress, std::ostream& out) {
+  if (Status s = checkTargets(options); !s) return s;
+  const int frames = options.frames.value_or(1);
+  std::optional<double> voxelSize =
+      options.voxelSize;  // one for the whole sequence, or its surface would shimmer
+  std::vector<FileReport> files;
+  std::vector<ParameterInfo> parameters;
+  for (int i = 0; i < frames; ++i) {
+    const std::string subject =
+        options.frames ? "frame " + std::to_string(i + 1) + " of " + std::to_string(frames) : "";
+    FrameExport frame(options, progress, subject);
+    const auto target = options.frames ? frameName(options.output, i + 1) : options.output;
+    if (Status s = frame.run(target, options.time + i / options.framesPerSecond, voxelSize); !s) return s;
+    progress.clear();
+    if (!options.quiet) printTable(out, frame.report);
+    out.flush();
+    parameters = frame.scene.parameters;
+    files.push_back(std::move(frame.report));
+  }
+  if (!options.report) return okStatus();
+  return writeFile(*options.report, [&](std::ostream& json) {
+    json << reportJson(options, parameters, files);
+    return okStatus();
+  });
+}
+
+}  // namespace sdf

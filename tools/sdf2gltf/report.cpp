@@ -1,0 +1,111 @@
+#include "report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "sdf/base/version.h"
+
+namespace sdf {
+namespace {
+
+// Keeps the order in which things are said, as people read reports too.
+using Json = nlohmann::ordered_json;
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+std::string grouped(std::uint64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3) {
+    digits.insert(static_cast<std::size_t>(i), ",");
+  }
+  return digits;
+}
+
+std::string formatted(const char* format, double value) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+std::vector<std::string> row(const ReportLine& line) {
+  return {line.name,
+          grouped(line.stats.triangles),
+          formatted("%.2e", line.stats.rmsDistance),
+          formatted("%.2e", line.stats.maxDistance),
+          formatted("%.2f s", line.seconds),
+          formatted("%.0f MiB", line.peakMemory / kMiB)};
+}
+
+Json json(const ReportLine& line) {
+  Json stages = Json::object();
+  for (const auto& [name, seconds] : line.stages) stages[name] = seconds;
+  const MeshStats& stats = line.stats;
+  return {{"name", line.name},
+          {"seconds", line.seconds},
+          {"stage_seconds", stages},
+          {"peak_memory_bytes", static_cast<std::uint64_t>(line.peakMemory)},
+          {"voxel_size", stats.voxelSize},
+          {"voxels", stats.voxels},
+          {"vertices", stats.vertices},
+          {"triangles", stats.triangles},
+          {"rms_distance", stats.rmsDistance},
+          {"max_distance", stats.maxDistance},
+          {"watertight", stats.watertight},
+          {"manifold", stats.manifold},
+          {"components", stats.components},
+          {"euler_characteristic", stats.eulerCharacteristic}};
+}
+
+}  // namespace
+
+void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
+  const auto found =
+      std::find_if(stages.begin(), stages.end(), [&](const auto& stage) { return stage.first == name; });
+  if (found == stages.end()) {
+    stages.emplace_back(name, seconds);
+  } else {
+    found->second += seconds;
+  }
+}
+
+void printTable(std::ostream& out, const FileReport& report) {
+  std::vector<std::vector<std::string>> rows{
+      {"part", "triangles", "rms error", "max error", "time", "peak memory"}};
+  for (const ReportLine& part : report.parts) rows.push_back(row(part));
+  rows.push_back(row(report.total));
+
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& cells : rows) {
+    for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], cells[c].size());
+  }
+  out << report.file.string() << '\n';
+  for (const auto& cells : rows) {
+    out << "  " << cells[0] << std::string(widths[0] - cells[0].size(), ' ');
+    for (std::size_t c = 1; c < cells.size(); ++c)
+      out << "  " << std::string(widths[c] - cells[c].size(), ' ') << cells[c];
+    out << '\n';
+  }
+}
+
+std::string reportJson(const Options& options, const std::vector<ParameterInfo>& parameters,
+                       const std::vector<FileReport>& files) {
+  Json values = Json::object();
+  for (const ParameterInfo& parameter : parameters) values[parameter.name] = parameter.value;
+  Json outputs = Json::array();
+  for (const FileReport& file : files) {
+    Json parts = Json::array();
+    for (const ReportLine& part : file.parts) parts.push_back(json(part));
+    outputs.push_back(
+        {{"file", file.file.string()}, {"time", file.time}, {"parts", parts}, {"total", json(file.total)}});
+  }
+  const Json report{{"generator", std::string("sdf2gltf ") + version()},
+                    {"scene", options.scene.string()},
+                    {"parameters", values},
+                    {"outputs", outputs}};
+  // Names are bytes to us; what is not UTF-8 in them is replaced.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace sdf

@@ -1,0 +1,43 @@
+// What was made and what it took, for people and for programs.
+#pragma once
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "options.h"
+#include "sdf/expr/expr.h"
+#include "sdf/mesh/mesh.h"
+
+namespace sdf {
+
+/// Names of stages with their seconds, in the order they ran.
+using StageSeconds = std::vector<std::pair<std::string, double>>;
+/// Adds to the stage of that name, or appends it.
+void addSeconds(StageSeconds& stages, const std::string& name, double seconds);
+
+struct ReportLine {
+  std::string name;
+  MeshStats stats;
+  StageSeconds stages;
+  double seconds = 0.0;
+  double peakMemory = 0.0;  ///< bytes, of the process up to when this was done
+};
+
+/// One written file.
+struct FileReport {
+  std::filesystem::path file;
+  double time = 0.0;
+  std::vector<ReportLine> parts;
+  ReportLine total;  ///< with the stages that belong to no part: script, bounds, writing
+};
+
+/// A table of the file's parts and their total.
+void printTable(std::ostream& out, const FileReport& report);
+
+/// Everything as JSON. `parameters` are the values that the scene ran with.
+std::string reportJson(const Options& options, const std::vector<ParameterInfo>& parameters,
+                       const std::vector<FileReport>& files);
+
+}  // namespace sdf
