@@ -56,9 +56,9 @@ using Attributes = std::array<Expr, kAttributeCount>;
 
 /// How a surface looks (Phong 1975). Each field may be an expression of position() and normal().
 struct Material {
-  std::string name;  ///< "" takes "material N"
+  std::string name{};  ///< "" takes "material N"
   Vec3E color{Expr(0.8)};
-  std::optional<Vec3E> ambient;  ///< default: color
+  std::optional<Vec3E> ambient{};  ///< default: color
   Vec3E specular{Expr(0.0)};
   Expr shininess = 32.0;
   Expr reflectivity = 0.0;
