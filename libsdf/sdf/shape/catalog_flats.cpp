@@ -87,7 +87,7 @@ std::vector<CatalogEntry> roundEntries() {
        "Band around a circle about the origin.",
        "exact",
        {size("radius", "of the circle in the middle of the band", "1"),
-        size("thickness", "of the band, at most twice the radius", "0.2")},
+        size("thickness", "of the band, below twice the radius", "0.2")},
        [](const Arguments& a) { return ring(a.number(0), a.number(1)); }},
       {"arc",
        g,

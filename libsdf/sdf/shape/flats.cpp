@@ -99,7 +99,7 @@ Shape arc(const Expr& angle, const Expr& radius, const Expr& thickness) {
 Shape ring(const Expr& radius, const Expr& thickness) {
   Check c("ring");
   c.positive("radius", radius).positive("thickness", thickness);
-  if (c.ok()) c.atMost("thickness", thickness, "twice the radius", 2.0 * radius);
+  if (c.ok()) c.below("thickness", thickness, "twice the radius", 2.0 * radius);
   if (!c.ok()) return c.failure();
   const Expr half = min(0.5 * thickness, radius);
   return flat(abs(norm(position().x, position().y) - radius) - half, -both(radius + half),

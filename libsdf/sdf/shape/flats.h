@@ -31,7 +31,7 @@ Shape star(int points, const Expr& outer, const Expr& inner);
 /// Band with round ends along a circle of this radius, `angle` to both sides of +y, thickness from edge to
 /// edge. 0 < angle <= pi, sizes > 0. Exact outside where the band runs into itself.
 Shape arc(const Expr& angle, const Expr& radius, const Expr& thickness);
-/// Band about a circle of this radius, thickness from edge to edge. radius > 0, 0 < thickness <= 2 * radius.
+/// Band about a circle of this radius, thickness from edge to edge. radius > 0, 0 < thickness < 2 * radius.
 Shape ring(const Expr& radius, const Expr& thickness);
 /// Ellipse with these radii along x and y, both > 0. Exact as ellipsoid() is.
 Shape ellipse(const Expr& radiusX, const Expr& radiusY);

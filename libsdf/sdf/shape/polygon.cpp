@@ -42,14 +42,15 @@ std::string pointName(std::size_t i) { return std::to_string(i + 1); }
 void checkEdges(const Points& points, Check& c) {
   const std::size_t n = points.size();
   const auto at = [&](std::size_t i) { return points[i % n]; };
-  for (std::size_t i = 0; i < n && c.ok(); ++i) {
+  for (std::size_t i = 0; i < n && c.ok(); ++i)
     c.that(at(i) != at(i + 1), "points " + pointName(i) + " and " + pointName((i + 1) % n) + " are the same");
+  for (std::size_t i = 0; i < n && c.ok(); ++i)
     c.that(!foldsBack(at(i), at(i + 1), at(i + 2)),
            "the edges at point " + pointName((i + 1) % n) + " lie on each other");
+  for (std::size_t i = 0; i < n && c.ok(); ++i)
     for (std::size_t j = i + 2; j < n && c.ok(); ++j)
       if (j + 1 - i != n && touch(at(i), at(i + 1), at(j), at(j + 1)))
         c.that(false, "edges " + pointName(i) + " and " + pointName(j) + " touch or cross");
-  }
 }
 
 // Counter-clockwise.

@@ -164,7 +164,10 @@ Shape roundCone(const Expr& radiusBottom, const Expr& radiusTop, const Expr& hal
   const Expr steep = clamp((radiusBottom - radiusTop) / height, -kSteepest, kSteepest);
   // The ball between the two, of radius radiusBottom - steep * s, that comes closest to the point.
   const Expr s = clamp(p.y + h - scaled(rho, steep / sqrt(1.0 - square(steep))), 0.0, height);
-  const Expr distance = norm(rho, p.y + h - s) + scaled(s, steep) - radiusBottom;
+  // Between the balls this is rho / cos(slope).
+  const double steepest = std::max(upper(steep), -lower(steep));
+  const Expr toCentre = length(rho, p.y + h - s).claimLipschitz(1.0 / std::sqrt(1.0 - steepest * steepest));
+  const Expr distance = toCentre + scaled(s, steep) - radiusBottom;
   const double bottom = upper(radiusBottom),
                top = std::max(upper(radiusTop), upper(radiusBottom - steep * height));
   return solid(distance, roundBounds(std::max(bottom, top), -upper(h) - bottom, upper(h) + top));
@@ -210,7 +213,8 @@ Shape solidAngle(const Expr& angle, const Expr& radius) {
   // The frame of the cone's side: along it, and out of it.
   const Expr along = (rho * s + p.y * k).claimLipschitz(1.0), out = (rho * k - p.y * s).claimLipschitz(1.0);
   const Expr side = norm(out, beyond(along, radius));
-  const Expr toSide = select(less(out, 0.0), -side, side).claimLipschitz(1.0);
+  // This jumps beyond the rim, where the ball's distance is larger.
+  const Expr toSide = select(less(out, 0.0), -side, side);
   const Expr distance = max(norm(p.x, p.y, p.z) - radius, toSide);
   const double r = upper(radius), widest = upper(a);
   return solid(distance, roundBounds(widest < std::numbers::pi / 2 ? r * std::sin(widest) : r,
