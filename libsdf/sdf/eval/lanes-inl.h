@@ -31,7 +31,7 @@ struct Lanes {
 
 HWY_INLINE V splat(double x) { return hn::Set(kD, static_cast<float>(x)); }
 HWY_INLINE Lanes asNumber(M m) { return hn::IfThenElseZero(m, splat(1.0)); }
-HWY_INLINE M isTrue(const Lanes& c) { return hn::Ne(c.v, hn::Zero(kD)); }
+HWY_INLINE M isTrue(const Lanes& c) { return hn::Not(hn::Eq(c.v, hn::Zero(kD))); }
 
 /// Lane by lane through a scalar function: for arguments outside what the vector form covers.
 template <class F>

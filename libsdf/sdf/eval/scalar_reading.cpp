@@ -79,7 +79,7 @@ double lipschitzOver(const Tape& tape, const Box& box) {
   reading.run(tape, {D{v[0], {one, zero, zero}}, D{v[1], {zero, one, zero}}, D{v[2], {zero, zero, one}},
                      D{v[3], {zero, zero, zero}}, D{v[4], {zero, zero, zero}}, D{v[5], {zero, zero, zero}}});
   const D r = reading.output();
-  const double slope = std::hypot(r.d[0].magnitude(), r.d[1].magnitude(), r.d[2].magnitude());
+  const double slope = std::hypot(std::hypot(r.d[0].magnitude(), r.d[1].magnitude()), r.d[2].magnitude());
   return std::nextafter(slope, kInfinity);
 }
 

@@ -188,6 +188,16 @@ float Tape::slope(Operand operand) const {
                                                                     : std::numeric_limits<float>::infinity();
 }
 
+float Tape::inheritedSlope(const Instruction& n) const {
+  switch (n.op) {
+    case Op::Neg:
+    case Op::Abs: return slope(n.in[0]);
+    case Op::Min:
+    case Op::Max: return std::max(slope(n.in[0]), slope(n.in[1]));
+    default: return std::numeric_limits<float>::infinity();
+  }
+}
+
 void Tape::finish() {
   decisionCount_ = 0;
   hasSlopes_ = true;
@@ -321,7 +331,9 @@ std::shared_ptr<const Tape> Tape::reduced(const std::vector<Operand>& known,
     Instruction instruction = instructions_[i];
     for (int k = 0; k < rowArguments(instruction.op); ++k) instruction.in[k] = moved(instruction.in[k]);
     placeOf[i] = static_cast<std::uint32_t>(result->instructions_.size());
-    result->instructions_.push_back(withoutZeros(instruction));
+    instruction = withoutZeros(instruction);
+    instruction.lipschitz = std::min(instruction.lipschitz, result->inheritedSlope(instruction));
+    result->instructions_.push_back(instruction);
   }
   for (const Operand o : outputs) result->outputs_.push_back(moved(o));
   result->pool_ = pool_;

@@ -44,7 +44,7 @@ inline Expr length(const Expr& a, const Expr& b) {
 }
 inline Expr length(const Expr& a, const Expr& b, const Expr& c) {
   return sqrt(square(a) + square(b) + square(c))
-      .claimLipschitz(std::hypot(a.lipschitz(), b.lipschitz(), c.lipschitz()));
+      .claimLipschitz(std::hypot(std::hypot(a.lipschitz(), b.lipschitz()), c.lipschitz()));
 }
 inline Expr length(const Vec3E& a) { return length(a.x, a.y, a.z); }
 
