@@ -1,10 +1,11 @@
 // Dual numbers: a value and N exact partial derivatives (forward-mode differentiation; Clifford 1873, Wengert
 // 1964).
 //
-// T is double, Interval, or a SIMD vector of lanes. At a crease one side's derivative is taken (for min and
-// max the side that gives the value); the derivative of sqrt at 0 is defined as 0, so length(max(q, 0)) has a
-// gradient everywhere. Over intervals the derivative encloses every derivative and every difference quotient,
-// jumps included.
+// T is double, Interval, or a SIMD vector of lanes. At a crease one side's derivative is taken: for abs at 0
+// the right one, for min and max that of the argument which gives the value, on a tie the second. Where the
+// tangent is vertical (sqrt and powers below 1 at 0, asin and acos at 1) the derivative is defined as 0, so
+// length(max(q, 0)) has a gradient everywhere. Over intervals the derivative encloses every derivative and
+// every difference quotient, jumps included.
 //
 // Re-included once per SIMD target by Highway's foreach_target.
 #if defined(SDF_NUMBER_DUAL_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -13,6 +14,8 @@
 #else
 #define SDF_NUMBER_DUAL_INL_H
 #endif
+
+#include <cmath>
 
 #include "sdf/number/interval.h"
 #include "sdf/number/scalar.h"
@@ -47,12 +50,33 @@ Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const T& value, const
   return r;
 }
 
+/// Derivative of a step function with this value, given the derivatives of its arguments: 0, or over
+/// intervals unbounded where it may jump. Where no argument moves there is no jump.
+template <class T, class... Slopes>
+T jump(const T& value, const T& first, const Slopes&... others) {
+  T still = equal(first, T(0.0));
+  ((still = min(still, equal(others, T(0.0)))), ...);
+  return select(still, T(0.0), stepSlope(value));
+}
+
 /// A value without a slope, or of unbounded slope where it jumps.
-template <class T, int N>
-Dual<T, N> step(const T& value) {
+template <class T, int N, class... Args>
+Dual<T, N> step(const T& value, const Args&... args) {
   Dual<T, N> r{value, {}};
-  for (int i = 0; i < N; ++i) r.d[i] = stepSlope(value);
+  for (int i = 0; i < N; ++i) r.d[i] = jump(value, args.d[i]...);
   return r;
+}
+
+/// 1 where the value is finite, 0 where it may be infinite (max takes NaN away).
+template <class T>
+T isFinite(const T& value) {
+  return less(max(abs(value), T(0.0)), T(HUGE_VAL));
+}
+
+/// 1 / x, and 0 at 0: the slope that functions with a vertical tangent are given there.
+template <class T>
+T inverseOrZero(const T& x) {
+  return select(less(T(0.0), x), div(T(1.0), x), T(0.0));
 }
 
 template <class T, int N>
@@ -92,15 +116,18 @@ Dual<T, N> cos(const Dual<T, N>& a) {
 template <class T, int N>
 Dual<T, N> tan(const Dual<T, N>& a) {
   const T t = tan(a.v);
-  return chain(a, t, add(T(1.0), square(t)));
+  Dual<T, N> r = chain(a, t, add(T(1.0), square(t)));
+  // Across a pole the value falls while the slope is positive on both sides.
+  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump(isFinite(t), a.d[i]));
+  return r;
 }
 template <class T, int N>
 Dual<T, N> asin(const Dual<T, N>& a) {
-  return chain(a, asin(a.v), div(T(1.0), sqrt(sub(T(1.0), square(a.v)))));
+  return chain(a, asin(a.v), inverseOrZero(sqrt(sub(T(1.0), square(a.v)))));
 }
 template <class T, int N>
 Dual<T, N> acos(const Dual<T, N>& a) {
-  return chain(a, acos(a.v), div(T(-1.0), sqrt(sub(T(1.0), square(a.v)))));
+  return chain(a, acos(a.v), neg(inverseOrZero(sqrt(sub(T(1.0), square(a.v))))));
 }
 template <class T, int N>
 Dual<T, N> atan(const Dual<T, N>& a) {
@@ -117,15 +144,15 @@ Dual<T, N> log(const Dual<T, N>& a) {
 }
 template <class T, int N>
 Dual<T, N> floor(const Dual<T, N>& a) {
-  return step<T, N>(floor(a.v));
+  return step<T, N>(floor(a.v), a);
 }
 template <class T, int N>
 Dual<T, N> ceil(const Dual<T, N>& a) {
-  return step<T, N>(ceil(a.v));
+  return step<T, N>(ceil(a.v), a);
 }
 template <class T, int N>
 Dual<T, N> round(const Dual<T, N>& a) {
-  return step<T, N>(round(a.v));
+  return step<T, N>(round(a.v), a);
 }
 template <class T, int N>
 Dual<T, N> add(const Dual<T, N>& a, const Dual<T, N>& b) {
@@ -165,41 +192,55 @@ Dual<T, N> max(const Dual<T, N>& a, const Dual<T, N>& b) {
 template <class T, int N>
 Dual<T, N> pow(const Dual<T, N>& a, const Dual<T, N>& b) {
   const T p = pow(a.v, b.v);
-  const T slopeA = mul(b.v, pow(a.v, sub(b.v, T(1.0))));
-  // d/db = p ln a; where a <= 0 the exponent can only be a constant, and its slope does not count.
-  const T slopeB = select(less(T(0.0), a.v), mul(p, log(a.v)), T(0.0));
-  return chain(a, b, p, slopeA, slopeB);
+  // At base 0 the tangent is vertical for exponents in (0, 1), and of no use below.
+  const T slopeA =
+      select(min(equal(a.v, T(0.0)), less(b.v, T(1.0))), T(0.0), mul(b.v, pow(a.v, sub(b.v, T(1.0)))));
+  // d/db = p ln a. Where a <= 0 the exponent can only be a constant, and its slope does not count, but for
+  // the step of pow(0, b) at b = 0.
+  const T slopeB = select(less(T(0.0), a.v), mul(p, log(a.v)), stepSlope(less(T(0.0), b.v)));
+  Dual<T, N> r = chain(a, b, p, slopeA, slopeB);
+  const T noPole = max(isFinite(p), lessEqual(T(0.0), b.v));
+  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump(noPole, a.d[i], b.d[i]));
+  return r;
 }
 template <class T, int N>
 Dual<T, N> atan2(const Dual<T, N>& y, const Dual<T, N>& x) {
-  const T square2 = squareAdd(x.v, square(y.v));
-  const T inverse = select(less(T(0.0), square2), div(T(1.0), square2), T(0.0));
-  return chain(y, x, atan2(y.v, x.v), mul(x.v, inverse), neg(mul(y.v, inverse)));
+  const T square2 = squareAdd(x.v, square(y.v)), inverse = inverseOrZero(square2);
+  Dual<T, N> r = chain(y, x, atan2(y.v, x.v), mul(x.v, inverse), neg(mul(y.v, inverse)));
+  // Jumps: through the origin, and across the cut along the negative x axis, approached from below and, where
+  // y only touches it, from above.
+  const T left = less(x.v, T(0.0)), away = less(T(0.0), square2);
+  const T below = select(left, less(y.v, T(0.0)), T(0.0)),
+          above = select(left, lessEqual(y.v, T(0.0)), T(0.0));
+  for (int i = 0; i < N; ++i)
+    for (const T& side : {away, below, above}) r.d[i] = add(r.d[i], jump(side, y.d[i], x.d[i]));
+  return r;
 }
 template <class T, int N>
 Dual<T, N> mod(const Dual<T, N>& a, const Dual<T, N>& b) {
   const T turns = floor(div(a.v, b.v));
   Dual<T, N> r = chain(a, b, mod(a.v, b.v), T(1.0), neg(turns));
-  const T jump = stepSlope(turns);
-  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump);
+  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump(turns, a.d[i], b.d[i]));
   return r;
 }
 template <class T, int N>
 Dual<T, N> less(const Dual<T, N>& a, const Dual<T, N>& b) {
-  return step<T, N>(less(a.v, b.v));
+  return step<T, N>(less(a.v, b.v), a, b);
 }
 template <class T, int N>
 Dual<T, N> lessEqual(const Dual<T, N>& a, const Dual<T, N>& b) {
-  return step<T, N>(lessEqual(a.v, b.v));
+  return step<T, N>(lessEqual(a.v, b.v), a, b);
 }
 template <class T, int N>
 Dual<T, N> equal(const Dual<T, N>& a, const Dual<T, N>& b) {
-  return step<T, N>(equal(a.v, b.v));
+  return step<T, N>(equal(a.v, b.v), a, b);
 }
 template <class T, int N>
 Dual<T, N> select(const Dual<T, N>& c, const Dual<T, N>& a, const Dual<T, N>& b) {
   Dual<T, N> r{select(c.v, a.v, b.v), {}};
-  for (int i = 0; i < N; ++i) r.d[i] = choiceSlope(c.v, a.d[i], b.d[i]);
+  // Branches meet where the condition does not move.
+  for (int i = 0; i < N; ++i)
+    r.d[i] = select(equal(c.d[i], T(0.0)), select(c.v, a.d[i], b.d[i]), choiceSlope(c.v, a.d[i], b.d[i]));
   return r;
 }
 template <class T, int N>

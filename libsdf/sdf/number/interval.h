@@ -15,7 +15,8 @@ struct Interval {
   bool nan = false;  ///< the value may be NaN
 
   Interval() = default;
-  Interval(double v) : lo(v), hi(v), nan(v != v) {}  // NOLINT: a number is an interval
+  /// A number is an interval; NaN is [0, 0] or NaN, for the ends are numbers always.
+  Interval(double v) : lo(v == v ? v : 0.0), hi(lo), nan(v != v) {}  // NOLINT
   Interval(double l, double h, bool n = false) : lo(l), hi(h), nan(n) {}
 
   static Interval everything();
