@@ -1,0 +1,395 @@
+#include "sdf/shape/solids.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "shape/cases.h"
+
+namespace sdf {
+namespace {
+
+using glm::dvec3;
+using test::Evaluator;
+using test::Sampler;
+
+constexpr unsigned kSeed = 20240612;
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree = kPi / 180.0;
+
+// Results of some tens of roundings on numbers below 10.
+constexpr double kRounding = 1e-13;
+
+double at(const Shape& s, const dvec3& p) { return Evaluator(s.distance)(p); }
+
+TEST(Solids, HaveTheDistancesWorkedOutByHand) {
+  const double r2 = std::sqrt(2.0), r3 = std::sqrt(3.0);
+  const struct {
+    const char* what;
+    Shape shape;
+    dvec3 point;
+    double distance;
+  } table[] = {
+      {"sphere", sphere(1.5), {0, 3, 4}, 3.5},
+      {"box, corner", box({1.0, 2.0, 3.0}), {4, 6, 15}, 13},
+      {"box, face from inside", box({1.0, 2.0, 3.0}), {0.25, 0, 0}, -0.75},
+      {"round_box keeps its size", roundBox({1.0, 2.0, 3.0}, 0.5), {2, 0, 0}, 1},
+      {"round_box, corner", roundBox(Vec3E(1.0), 0.5), {1, 1, 1}, 0.5 * r3 - 0.5},
+      {"box_frame, middle of a face", boxFrame(Vec3E(1.0), 0.25), {0, 0, 1}, 0.75},
+      {"box_frame, middle of a beam", boxFrame(Vec3E(1.0), 0.25), {0.875, 0, 0.875}, -0.125},
+      {"torus, centre", torus(2.0, 0.5), {0, 0, 0}, 1.5},
+      {"torus, over the tube", torus(2.0, 0.5), {0, 3, 2}, 2.5},
+      {"capped_torus, along the gap", cappedTorus(90 * kDegree, 2.0, 0.5), {0, 0, -3}, std::sqrt(13.0) - 0.5},
+      {"capped_torus, on the arc", cappedTorus(90 * kDegree, 2.0, 0.5), {0, 0, 2}, -0.5},
+      {"link, end", link(1.0, 0.5, 0.25), {0, 3, 0}, 1.25},
+      {"link, side", link(1.0, 0.5, 0.25), {1.5, 0.3, 0}, 0.75},
+      {"cylinder, rim", cylinder(1.0, 2.0), {4, 6, 0}, 5},
+      {"cylinder, inside", cylinder(1.0, 2.0), {0, 1.5, 0}, -0.5},
+      {"infinite_cylinder", infiniteCylinder(1.0), {3, 1e4, 4}, 4},
+      {"capsule, side", capsule({0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, 0.5), {2, 3, 4}, 4.5},
+      {"capsule, end", capsule({0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, 0.5), {7, 0, 4}, 4.5},
+      {"cone, above the tip", cone(1.0, 2.0), {0, 5, 0}, 3},
+      {"cone, under the base", cone(1.0, 2.0), {0.5, -3, 0}, 1},
+      {"cone, beside the side", cone(3.0, 2.0), {3, 2, 0}, 3 * 4 / 5.0},
+      {"capped_cone, over the top", cappedCone(2.0, 1.0, 1.0), {0.5, 4, 0}, 3},
+      {"capped_cone as a cylinder", cappedCone(1.0, 1.0, 1.0), {4, 5, 0}, 5},
+      {"round_cone, top ball", roundCone(1.0, 0.5, 1.0), {0, 3, 0}, 1.5},
+      {"round_cone, bottom ball", roundCone(1.0, 0.5, 1.0), {0, -3, 0}, 1},
+      // The side of radii 2 and 1 at distance 2 slopes by 30 degrees.
+      {"round_cone, side", roundCone(2.0, 1.0, 1.0), {2 * r3, -1 + 2, 0}, 4 - 2},
+      {"plane", plane({0.0, 3.0, 4.0}, 1.0), {7, 3, 4}, 4},
+      {"ellipsoid, axis", ellipsoid({1.0, 2.0, 3.0}), {0, 0, 5}, 2},
+      {"hex_prism, flat side", hexPrism(2.0, 1.0), {2, 0, 0}, 2 - r3},
+      {"hex_prism, corner", hexPrism(2.0, 1.0), {0, 0, 3}, 1},
+      {"tri_prism, flat side", triPrism(2.0, 1.0), {0, 0, -3}, 2},
+      {"tri_prism, top", triPrism(2.0, 1.0), {0.1, 4, 0.2}, 3},
+      {"octahedron, face", octahedron(1.0), {1, 1, 1}, 2 / r3},
+      {"octahedron, edge", octahedron(1.0), {2, 2, 0}, 1.5 * r2},
+      {"octahedron, centre", octahedron(1.0), {0, 0, 0}, -1 / r3},
+      {"tetrahedron, centre", tetrahedron(3.0), {0, 0, 0}, -1},
+      {"tetrahedron, corner", tetrahedron(r3), {2, -2, -2}, r3},
+      {"tetrahedron, face", tetrahedron(3.0), {-2, -2, -2}, 2 * r3 - 1},
+      {"pyramid, tip", pyramid(1.0, 2.0), {0, 4, 0}, 2},
+      {"pyramid, base corner", pyramid(1.0, 2.0), {2, -3, 2}, r3},
+      {"pyramid, base", pyramid(1.0, 2.0), {0.5, -5, -0.9}, 3},
+      {"solid_angle, under the tip", solidAngle(45 * kDegree, 1.0), {0, -2, 0}, 2},
+      {"solid_angle, side", solidAngle(45 * kDegree, 4.0), {2, 0, 0}, r2},
+      {"solid_angle, ball", solidAngle(45 * kDegree, 4.0), {0, 7, 0}, 3},
+      {"cut_sphere, under the cut", cutSphere(1.0, 0.5), {0.1, 0, 0.1}, 0.5},
+      {"cut_sphere, ball", cutSphere(1.0, -0.5), {3, 0, 4}, 4},
+      {"cut_sphere, rim", cutSphere(5.0, 3.0), {4, 1, 0}, 2},
+  };
+  for (const auto& row : table) {
+    ASSERT_TRUE(row.shape.ok()) << row.what << ": " << *row.shape.error;
+    EXPECT_NEAR(at(row.shape, row.point), row.distance,
+                row.what[0] == 'e' ? 5e-7 * 3.0 : kRounding)  // the ellipsoid's own accuracy
+        << row.what;
+  }
+}
+
+// Which points each solid is made of, said without any distance.
+struct Membership {
+  const char* name;
+  Shape shape;
+  std::function<bool(dvec3)> inside;
+};
+
+double rho(const dvec3& p) { return std::hypot(p.x, p.z); }
+
+bool inRegularPolygon(double x, double z, int sides, double radius) {
+  for (int i = 0; i < sides; ++i) {
+    const double normal = 2 * kPi * (i + 0.5) / sides;
+    if (x * std::sin(normal) + z * std::cos(normal) > radius * std::cos(kPi / sides)) return false;
+  }
+  return true;
+}
+
+bool inTetrahedron(const dvec3& p, double radius) {
+  for (const dvec3& n : {dvec3(-1, -1, -1), dvec3(-1, 1, 1), dvec3(1, -1, 1), dvec3(1, 1, -1)})
+    if (glm::dot(p, glm::normalize(n)) > radius / 3.0) return false;
+  return true;
+}
+
+std::vector<Membership> memberships() {
+  const auto within = [](const dvec3& p, const dvec3& half) {
+    return std::abs(p.x) <= half.x && std::abs(p.y) <= half.y && std::abs(p.z) <= half.z;
+  };
+  return {
+      {"box_frame", boxFrame({1.0, 0.8, 1.2}, 0.3),
+       [=](dvec3 p) {
+         const dvec3 half(1.0, 0.8, 1.2);
+         if (!within(p, half)) return false;
+         int near = 0;
+         for (int i = 0; i < 3; ++i) near += std::abs(p[i]) >= half[i] - 0.3;
+         return near >= 2;
+       }},
+      {"round_cone", roundCone(1.0, 0.4, 0.8),
+       [](dvec3 p) {
+         for (int i = 0; i <= 2000; ++i) {
+           const double t = i / 2000.0;
+           if (std::hypot(rho(p), p.y - (-0.8 + 1.6 * t)) <= 1.0 - 0.6 * t) return true;
+         }
+         return false;
+       }},
+      {"capped_torus", cappedTorus(130 * kDegree, 1.0, 0.3),
+       [](dvec3 p) {
+         for (int i = -2000; i <= 2000; ++i) {
+           const double a = 130 * kDegree * i / 2000.0;
+           if (glm::distance(p, {std::sin(a), 0, std::cos(a)}) <= 0.3) return true;
+         }
+         return false;
+       }},
+      {"capped_cone", cappedCone(1.0, 0.4, 0.7),
+       [](dvec3 p) { return std::abs(p.y) <= 0.7 && rho(p) <= 0.7 - 0.3 * p.y / 0.7; }},
+      {"cone", cone(1.2, 0.5),
+       [](dvec3 p) { return std::abs(p.y) <= 0.5 && rho(p) <= 0.6 * (1.0 - p.y / 0.5); }},
+      {"ellipsoid", ellipsoid({1.0, 0.4, 0.7}),
+       [](dvec3 p) { return glm::length(p / dvec3(1.0, 0.4, 0.7)) <= 1.0; }},
+      {"ellipsoid_bound", ellipsoidBound({1.0, 0.4, 0.7}),
+       [](dvec3 p) { return glm::length(p / dvec3(1.0, 0.4, 0.7)) <= 1.0; }},
+      {"hex_prism", hexPrism(1.0, 0.4),
+       [](dvec3 p) { return std::abs(p.y) <= 0.4 && inRegularPolygon(p.x, p.z, 6, 1.0); }},
+      {"tri_prism", triPrism(1.0, 0.4),
+       [](dvec3 p) { return std::abs(p.y) <= 0.4 && inRegularPolygon(p.x, p.z, 3, 1.0); }},
+      {"octahedron", octahedron(1.1),
+       [](dvec3 p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= 1.1; }},
+      {"tetrahedron", tetrahedron(1.2), [](dvec3 p) { return inTetrahedron(p, 1.2); }},
+      {"pyramid", pyramid(0.9, 0.6),
+       [](dvec3 p) {
+         const double side = 0.45 * (1.0 - p.y / 0.6);
+         return std::abs(p.y) <= 0.6 && std::max(std::abs(p.x), std::abs(p.z)) <= side;
+       }},
+      {"solid_angle", solidAngle(40 * kDegree, 1.0),
+       [](dvec3 p) { return glm::length(p) <= 1.0 && std::atan2(rho(p), p.y) <= 40 * kDegree; }},
+      {"wide solid_angle", solidAngle(150 * kDegree, 1.0),
+       [](dvec3 p) { return glm::length(p) <= 1.0 && std::atan2(rho(p), p.y) <= 150 * kDegree; }},
+      {"cut_sphere", cutSphere(1.0, 0.3), [](dvec3 p) { return glm::length(p) <= 1.0 && p.y >= 0.3; }},
+      {"deep cut_sphere", cutSphere(1.0, -0.7), [](dvec3 p) { return glm::length(p) <= 1.0 && p.y >= -0.7; }},
+      {"gyroid", gyroid(2.0, 0.2),
+       [](dvec3 p) {
+         p *= kPi;
+         const double g =
+             std::sin(p.x) * std::cos(p.y) + std::sin(p.y) * std::cos(p.z) + std::sin(p.z) * std::cos(p.x);
+         return std::abs(g) <= 0.1 * kPi * std::sqrt(3.0);
+       }},
+      {"schwarz_p", schwarzP(2.0, 0.2),
+       [](dvec3 p) {
+         p *= kPi;
+         return std::abs(std::cos(p.x) + std::cos(p.y) + std::cos(p.z)) <= 0.1 * kPi * std::sqrt(3.0);
+       }},
+      {"schwarz_d", schwarzD(2.0, 0.2),
+       [](dvec3 p) {
+         // The surface's other usual form, moved by an eighth of a cell.
+         p = p * kPi - kPi / 4;
+         const double g =
+             std::sin(p.x) * std::sin(p.y) * std::sin(p.z) + std::sin(p.x) * std::cos(p.y) * std::cos(p.z) +
+             std::cos(p.x) * std::sin(p.y) * std::cos(p.z) + std::cos(p.x) * std::cos(p.y) * std::sin(p.z);
+         return std::abs(g) <= 0.1 * kPi * std::sqrt(3.0);
+       }},
+  };
+}
+
+TEST(Solids, AreMadeOfThePointsThatTheirNamesSay) {
+  for (const Membership& m : memberships()) {
+    ASSERT_TRUE(m.shape.ok()) << *m.shape.error;
+    const Evaluator f(m.shape.distance);
+    Sampler sampler(Box::centred(dvec3(1.5)), kSeed);
+    // Swept balls are told from 2000 of them, 1.2e-3 apart, which hides at most 1e-6 of their surface.
+    constexpr double kUndecided = 1e-6;
+    int inside = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const dvec3 p = sampler.orOnAnAxis();
+      const double value = f(p);
+      if (std::abs(value) < kUndecided) continue;
+      ASSERT_EQ(value < 0.0, m.inside(p)) << m.name << " at " << test::text(p) << ", seed " << kSeed;
+      inside += value < 0.0;
+    }
+    EXPECT_GT(inside, 40) << m.name;
+  }
+}
+
+// Closest point on a dense sampling of the surface: at most `spacing` farther than the true one.
+double nearest(const std::vector<dvec3>& surface, const dvec3& p) {
+  double best = kInfinity;
+  for (const dvec3& q : surface) best = std::min(best, glm::distance(p, q));
+  return best;
+}
+
+// A surface of revolution from its profile, for points in the half-plane z = 0, x >= 0 alone.
+std::vector<dvec3> sampledProfile(const std::vector<dvec3>& corners, double spacing) {
+  std::vector<dvec3> points;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const int n = static_cast<int>(glm::distance(corners[i], corners[i + 1]) / spacing) + 1;
+    for (int k = 0; k <= n; ++k) points.push_back(glm::mix(corners[i], corners[i + 1], double(k) / n));
+  }
+  return points;
+}
+
+std::vector<dvec3> sampledArc(double from, double to, double radius, double spacing) {
+  std::vector<dvec3> points;
+  const int n = static_cast<int>((to - from) * radius / spacing) + 1;
+  for (int k = 0; k <= n; ++k) {
+    const double a = from + (to - from) * k / n;
+    points.push_back(radius * dvec3(std::sin(a), std::cos(a), 0));
+  }
+  return points;
+}
+
+TEST(Solids, AreAsFarAsTheNearestOfDenselySampledSurfacePoints) {
+  constexpr double kSpacing = 1e-3;
+  const auto joined = [](std::vector<dvec3> a, const std::vector<dvec3>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+  };
+  const double rim = std::sqrt(1.0 - 0.09);
+  const struct {
+    const char* name;
+    Shape shape;
+    std::vector<dvec3> profile;
+  } table[] = {
+      {"capped_cone", cappedCone(1.0, 0.4, 0.7),
+       sampledProfile({{0, -0.7, 0}, {1, -0.7, 0}, {0.4, 0.7, 0}, {0, 0.7, 0}}, kSpacing)},
+      {"wide capped_cone", cappedCone(0.2, 1.4, 0.1),
+       sampledProfile({{0, -0.1, 0}, {0.2, -0.1, 0}, {1.4, 0.1, 0}, {0, 0.1, 0}}, kSpacing)},
+      {"solid_angle", solidAngle(0.6, 1.0),
+       joined(sampledProfile({{0, 0, 0}, {std::sin(0.6), std::cos(0.6), 0}}, kSpacing),
+              sampledArc(0, 0.6, 1.0, kSpacing))},
+      {"wide solid_angle", solidAngle(2.5, 1.0),
+       joined(sampledProfile({{0, 0, 0}, {std::sin(2.5), std::cos(2.5), 0}}, kSpacing),
+              sampledArc(0, 2.5, 1.0, kSpacing))},
+      {"cut_sphere", cutSphere(1.0, 0.3),
+       joined(sampledProfile({{0, 0.3, 0}, {rim, 0.3, 0}}, kSpacing),
+              sampledArc(0, std::acos(0.3), 1.0, kSpacing))},
+      {"deep cut_sphere", cutSphere(1.0, -0.3),
+       joined(sampledProfile({{0, -0.3, 0}, {rim, -0.3, 0}}, kSpacing),
+              sampledArc(0, std::acos(-0.3), 1.0, kSpacing))},
+  };
+  for (const auto& row : table) {
+    const Evaluator f(row.shape.distance);
+    Sampler sampler({{0, -1.7, 0}, {1.7, 1.7, 0}}, kSeed);
+    for (int i = 0; i < 500; ++i) {
+      const dvec3 p = sampler.anywhere();
+      const double sampled = nearest(row.profile, p), value = std::abs(f(p));
+      ASSERT_LE(value, sampled + kRounding) << row.name << " at " << test::text(p) << ", seed " << kSeed;
+      ASSERT_GE(value, sampled - kSpacing) << row.name << " at " << test::text(p) << ", seed " << kSeed;
+    }
+  }
+}
+
+std::vector<dvec3> sampledTriangle(const dvec3& a, const dvec3& b, const dvec3& c, int n) {
+  std::vector<dvec3> points;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j)
+      points.push_back(a + (b - a) * (double(i) / n) + (c - a) * (double(j) / n));
+  return points;
+}
+
+TEST(Solids, WithFlatFacesAreAsFarAsTheNearestPointOfTheirFaces) {
+  constexpr int kRows = 60;
+  const auto faces = [](const std::vector<std::array<dvec3, 3>>& triangles) {
+    std::vector<dvec3> all;
+    for (const auto& t : triangles) {
+      const auto some = sampledTriangle(t[0], t[1], t[2], kRows);
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  };
+  std::vector<std::array<dvec3, 3>> octahedral;
+  for (double x : {-1.0, 1.0})
+    for (double y : {-1.0, 1.0})
+      for (double z : {-1.0, 1.0}) octahedral.push_back({dvec3(x, 0, 0), dvec3(0, y, 0), dvec3(0, 0, z)});
+  const dvec3 t0(1, 1, 1), t1(1, -1, -1), t2(-1, 1, -1), t3(-1, -1, 1);
+  const dvec3 tip(0, 0.5, 0), b0(1, -0.5, 1), b1(1, -0.5, -1), b2(-1, -0.5, -1), b3(-1, -0.5, 1);
+  const struct {
+    const char* name;
+    Shape shape;
+    std::vector<dvec3> surface;
+    double longestEdge;
+  } table[] = {
+      {"octahedron", octahedron(1.0), faces(octahedral), std::sqrt(2.0)},
+      {"tetrahedron", tetrahedron(std::sqrt(3.0)),
+       faces({{t0, t1, t2}, {t0, t1, t3}, {t0, t2, t3}, {t1, t2, t3}}), std::sqrt(8.0)},
+      {"pyramid", pyramid(1.0, 0.5),
+       faces({{tip, b0, b1}, {tip, b1, b2}, {tip, b2, b3}, {tip, b3, b0}, {b0, b1, b2}, {b0, b2, b3}}),
+       std::sqrt(8.0)},
+  };
+  for (const auto& row : table) {
+    const Evaluator f(row.shape.distance);
+    Sampler sampler(Box::centred(dvec3(1.8)), kSeed);
+    for (int i = 0; i < 1000; ++i) {
+      const dvec3 p = sampler.anywhere();
+      const double sampled = nearest(row.surface, p), value = std::abs(f(p));
+      ASSERT_LE(value, sampled + kRounding) << row.name << " at " << test::text(p) << ", seed " << kSeed;
+      ASSERT_GE(value, sampled - row.longestEdge / kRows)
+          << row.name << " at " << test::text(p) << ", seed " << kSeed;
+    }
+  }
+}
+
+TEST(Solids, AnswerFromAHundredThousandUnitsAwayAsTheDistanceToTheirCentre) {
+  const dvec3 direction = glm::normalize(dvec3(1, 2, -3));
+  for (const test::ShapeCase& c : test::primitiveCases()) {
+    if (!c.shape.bounds.finite() || c.shape.claim.kind >= ClaimKind::Bound) continue;
+    const double size = glm::length(c.shape.bounds.size()) + glm::length(c.shape.bounds.centre());
+    EXPECT_NEAR(at(c.shape, direction * 1e5), 1e5, size) << c.name;
+  }
+}
+
+TEST(Solids, TellOfABadArgumentInOneLine) {
+  EXPECT_EQ(sphere(-1.0).error.value_or(""), "sphere: radius must be positive, got -1");
+  EXPECT_EQ(sphere(position().x).error.value_or(""), "sphere: radius must not depend on position");
+  EXPECT_EQ(solidAngle(kPi, 1.0).error.value_or(""),
+            "solid_angle: angle must be above 0 and below 180 degrees, got 180");
+  EXPECT_EQ(cutSphere(1.0, -2.0).error.value_or(""),
+            "cut_sphere: height must lie between -radius and radius, 1, got -2");
+  EXPECT_EQ(capsule({0.0, 0.0, 0.0}, {0.0, std::nan(""), 0.0}, 1.0).error.value_or(""),
+            "capsule: to.y must be a finite number, got nan");
+}
+
+TEST(Solids, BoundsFollowTheUpperEndOfAParameter) {
+  const Expr radius = Expr::parameter({"radius", 0.5, 0.1, 2.0});
+  EXPECT_EQ(sphere(radius).bounds.max.x, 2.0);
+  EXPECT_EQ(cylinder(1.0, radius).bounds.min.y, -2.0);
+  EXPECT_EQ(plane({0.0, 2.0, 0.0}, radius).bounds.max.y, 2.0);
+  EXPECT_EQ(plane({0.0, 2.0, 0.0}, radius).bounds.min.y, -kInfinity);
+}
+
+TEST(Solids, ClaimOnlyToBeExactOutsideWhereATubeMayRunIntoItself) {
+  EXPECT_EQ(torus(1.0, 1.0).claim.kind, ClaimKind::Exact);
+  EXPECT_EQ(torus(1.0, 1.1).claim.kind, ClaimKind::ExactOutside);
+  EXPECT_EQ(torus(1.0, Expr::parameter({"minor", 0.5, 0.0, 1.5})).claim.kind, ClaimKind::ExactOutside);
+  EXPECT_EQ(cappedTorus(170 * kDegree, 1.0, 0.1).claim.kind, ClaimKind::Exact);
+  EXPECT_EQ(cappedTorus(170 * kDegree, 1.0, 0.2).claim.kind, ClaimKind::ExactOutside);
+}
+
+TEST(Field, TakesTheFormulaAsItIsAndClaimsOnlyItsSign) {
+  const Vec3E p = position();
+  const Expr formula = sin(3.0 * p.x) + p.y;
+  const Shape s = field(formula);
+  ASSERT_TRUE(s.ok());
+  EXPECT_EQ(s.distance, formula);
+  EXPECT_EQ(s.claim.kind, ClaimKind::Field);
+  EXPECT_EQ(s.claim.lipschitz, formula.lipschitz());
+  EXPECT_NEAR(s.claim.lipschitz, 4.0, 1e-12);
+}
+
+TEST(Field, TrustsABoundThatIsGivenWhereTheGraphProvesNone) {
+  const Expr formula = square(position().x) - 7.0;
+  EXPECT_EQ(field(formula).claim.lipschitz, kInfinity);
+  const Box bounds = Box::centred(dvec3(5.0));
+  const Shape s = field(formula, bounds, 10.0);
+  EXPECT_EQ(s.claim.lipschitz, 10.0);
+  EXPECT_TRUE(bounds.contains(s.bounds) && s.bounds.contains(bounds));
+}
+
+TEST(Field, RefusesTheNormalAndBoundsThatHoldNothing) {
+  EXPECT_EQ(field(normal().x).error.value_or(""), "field: distance must not depend on the normal");
+  EXPECT_EQ(field(position().x, Box{}).error.value_or(""), "field: bounds must not be empty");
+  EXPECT_EQ(field(position().x, Box::everything(), 0.0).error.value_or(""),
+            "field: lipschitz must be positive, got 0");
+}
+
+}  // namespace
+}  // namespace sdf
