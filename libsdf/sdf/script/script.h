@@ -13,8 +13,11 @@ namespace sdf {
 struct ScriptOptions {
   std::map<std::string, double> values;  ///< overrides of param(name, …); a name the scene lacks is an error
   double time = 0.0;                     ///< seconds; the value of `time`
+  bool fixed = false;  ///< parameters and time are constants: bounds and claims fit their values
   std::uint64_t instructionLimit = 50'000'000;
-  std::size_t memoryLimit = 256u << 20;  ///< bytes
+  std::size_t memoryLimit = 256u << 20;  ///< bytes, of Lua and of the graph together
+  double timeLimit =
+      60.0;  ///< seconds; for work that few instructions can ask for, such as copying long tables
 };
 
 /// Runs a scene file. Errors (ErrorKind::Scene; Files if it cannot be read) name file and line and what was

@@ -1,0 +1,41 @@
+#include "sdf/scene/scene.h"
+
+#include <algorithm>
+#include <set>
+
+#include "sdf/shape/booleans.h"
+
+namespace sdf {
+
+void Scene::add(std::string name, Shape shape) {
+  const auto taken = [&](const std::string& candidate) {
+    return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == candidate; });
+  };
+  for (std::size_t number = parts.size() + 1; name.empty(); ++number)
+    if (std::string candidate = "part " + std::to_string(number); !taken(candidate))
+      name = std::move(candidate);
+  parts.push_back({std::move(name), std::move(shape)});
+}
+
+Shape Scene::whole() const {
+  std::vector<Shape> shapes;
+  for (const Part& part : parts) shapes.push_back(part.shape);
+  return unite(shapes);
+}
+
+Result<Scene> checked(Scene scene) {
+  if (scene.parts.empty()) return Error{ErrorKind::Scene, "the scene is empty; add a shape to it"};
+  std::set<std::string> names;
+  for (const Part& part : scene.parts) {
+    const std::string subject = "part '" + part.name + "'";
+    if (part.name.empty()) return Error{ErrorKind::Scene, "a part has no name; add parts with Scene::add"};
+    if (!names.insert(part.name).second)
+      return Error{ErrorKind::Scene, subject + " is there twice; give each part a name of its own"};
+    if (!part.shape.ok()) return Error{ErrorKind::Scene, subject + ": " + *part.shape.error};
+    if (part.shape.dimension != 3)
+      return Error{ErrorKind::Scene, subject + " is flat; extrude or revolve it"};
+  }
+  return scene;
+}
+
+}  // namespace sdf

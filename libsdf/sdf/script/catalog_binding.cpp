@@ -1,0 +1,318 @@
+// The catalog in the scene language: one function for each entry, and the ways in which its arguments can be
+// written.
+#include <algorithm>
+#include <lua.hpp>
+
+#include "sdf/script/library.h"
+#include "sdf/shape/deform.h"
+
+namespace sdf {
+
+namespace {
+
+bool hasNamedField(lua_State* L, int index) {
+  bool named = false;
+  for (lua_pushnil(L); !named && lua_next(L, index); lua_pop(L, 1)) named = lua_type(L, -2) == LUA_TSTRING;
+  if (named) lua_pop(L, 1);
+  return named;
+}
+
+// One call of a catalog entry: gives each parameter the arguments that were written for it.
+//
+// Arguments come in the order of the parameters, or by name in a table that stands last. A table that stands
+// alone (or alone after the shape of a method) may hold both. A vector is a table, as many numbers in a row
+// as it has components, or one number; a list of shapes or points is a table or the arguments in a row.
+class Call {
+ public:
+  Call(lua_State* L, const CatalogEntry& entry) : L_(L), entry_(entry) {}
+
+  Shape run() {
+    gather();
+    std::vector<Argument> values;
+    for (const Parameter& p : entry_.parameters) values.push_back(valueOf(p));
+    if (next_ <= last_) tooMany();
+    Shape shape = build(entry_, std::move(values));
+    if (!shape.ok()) raise(L_, *shape.error);
+    return shape;
+  }
+
+ private:
+  // Finds the table of named fields, and spreads a table that stands for the argument list.
+  void gather() {
+    last_ = lua_gettop(L_);
+    const bool table = last_ > 0 && lua_istable(L_, last_);
+    const bool alone = last_ == 1 || (last_ == 2 && testShape(L_, 1));
+    if (table && hasNamedField(L_, last_)) {
+      options_ = last_--;
+      checkNames();
+    }
+    if (!table || !alone) return;
+    const int list = options_ ? options_ : last_--;
+    const int count = static_cast<int>(std::min<lua_Unsigned>(lua_rawlen(L_, list), kMostArguments + 1));
+    if (count > kMostArguments)
+      raise(L_, entry_.name + ": more than " + std::to_string(kMostArguments) + " arguments");
+    luaL_checkstack(L_, count + 8, nullptr);
+    for (int i = 1; i <= count; ++i) lua_rawgeti(L_, list, i);
+    // The list's own place is below the values: move them down over it where it is not needed any more.
+    if (options_) {
+      lua_pushvalue(L_, options_);
+      lua_remove(L_, list);
+      options_ = lua_gettop(L_);
+    } else {
+      lua_remove(L_, list);
+    }
+    last_ += count;
+  }
+
+  void checkNames() const {
+    std::vector<std::string> known;
+    for (const Parameter& p : entry_.parameters) known.push_back(p.name);
+    for (lua_pushnil(L_); lua_next(L_, options_); lua_pop(L_, 1)) {
+      if (lua_type(L_, -2) != LUA_TSTRING) continue;
+      const std::string name = lua_tostring(L_, -2);
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      const std::string near = suggestion(name, known);
+      raise(L_, entry_.name + ": unknown field '" + name + "'" +
+                    (near.empty() ? "; it takes " + listed(known) : near));
+    }
+  }
+
+  std::string usage() const {
+    std::string text = entry_.name + "(";
+    for (const Parameter& p : entry_.parameters)
+      text += (&p == &entry_.parameters.front() ? "" : ", ") + p.name;
+    return text + ")";
+  }
+
+  [[noreturn]] void tooMany() const {
+    raise(L_, entry_.name + ": too many arguments, the first one too many is " + describe(L_, next_) +
+                  "; write " + usage());
+  }
+
+  std::string what(const Parameter& p) const { return entry_.name + ": '" + p.name + "'"; }
+
+  Argument valueOf(const Parameter& p) {
+    if (options_ && lua_getfield(L_, options_, p.name.c_str()) != LUA_TNIL) {
+      if (next_ <= last_ && !laterCanTake(p)) raise(L_, what(p) + " is given twice, by place and by name");
+      const int at = lua_gettop(L_);
+      Argument value = readOne(p, at);
+      lua_settop(L_, options_);
+      return value;
+    }
+    if (options_) lua_settop(L_, options_);
+    if (next_ > last_ || lua_isnil(L_, next_)) {
+      if (next_ <= last_) ++next_;
+      if (!p.required) return std::monostate{};
+      raise(L_, what(p) + " is missing; write " + usage());
+    }
+    return readRow(p);
+  }
+
+  // Whether an argument in place may belong to a parameter after p, so that naming p is no contradiction.
+  bool laterCanTake(const Parameter& p) const { return &p != &entry_.parameters.back(); }
+
+  Argument readOne(const Parameter& p, int at) {
+    switch (p.kind) {
+      case ArgumentKind::Number:
+        return readNumber(L_, at, what(p), Depends::OnParameters);
+      case ArgumentKind::Field:
+        return readFormula(L_, at, what(p));
+      case ArgumentKind::Integer:
+        return readInteger(L_, at, what(p));
+      case ArgumentKind::Flag:
+        return readFlag(L_, at, what(p)) ? 1 : 0;
+      case ArgumentKind::Choice:
+        return readChoice(L_, at, what(p), p.choices);
+      case ArgumentKind::Vector2:
+        return readVector(L_, at, what(p), 2, Depends::OnParameters);
+      case ArgumentKind::Vector3:
+        return readVector(L_, at, what(p), 3, Depends::OnParameters);
+      case ArgumentKind::Shape:
+        return shapeAt(p, at);
+      case ArgumentKind::Shapes:
+        return readList<Shape>(p, at, "a list of shapes", [&](int i) { return shapeAt(p, i); });
+      case ArgumentKind::Points:
+        return readList<glm::dvec2>(p, at, "a list of points {{x, y}, …}",
+                                    [&](int i) { return pointAt(p, i); });
+    }
+    return std::monostate{};
+  }
+
+  // Reads p from the arguments in a row, from next_ on.
+  Argument readRow(const Parameter& p) {
+    switch (p.kind) {
+      case ArgumentKind::Vector2:
+        return readSpreadVector(p, 2);
+      case ArgumentKind::Vector3:
+        return readSpreadVector(p, 3);
+      case ArgumentKind::Shapes:
+        if (!testShape(L_, next_)) break;
+        return takeWhile<Shape>([&] { return testShape(L_, next_) != nullptr; },
+                                [&](int i) { return shapeAt(p, i); });
+      case ArgumentKind::Points:
+        if (!isPoint(next_)) break;
+        return takeWhile<glm::dvec2>([&] { return isPoint(next_); }, [&](int i) { return pointAt(p, i); });
+      default:
+        break;
+    }
+    return readOne(p, next_++);
+  }
+
+  const Shape& shapeAt(const Parameter& p, int at) const {
+    if (!testShape(L_, at) && at == 1)
+      raise(L_, what(p) + " must be a shape, got " + describe(L_, at) + "; write " + usage() +
+                    " or shape:" + entry_.name + "(…)");
+    return readShape(L_, at, what(p));
+  }
+
+  bool isPoint(int at) const {
+    if (!lua_istable(L_, at) || lua_rawlen(L_, at) != 2) return false;
+    const bool numbers = lua_rawgeti(L_, at, 1) != LUA_TTABLE;
+    lua_pop(L_, 1);
+    return numbers;
+  }
+
+  glm::dvec2 pointAt(const Parameter& p, int at) const {
+    const Vec3E v = readVector(L_, at, what(p), 2, Depends::OnParameters);
+    if (!v.x.isConstant() || !v.y.isConstant())
+      raise(L_, what(p) + " must be plain numbers, got a formula; value(e) gives its present value");
+    return {v.x.constantValue(), v.y.constantValue()};
+  }
+
+  template <class T, class Test, class Read>
+  std::vector<T> takeWhile(Test test, Read read) {
+    std::vector<T> list;
+    for (; next_ <= last_ && test(); ++next_) list.push_back(read(next_));
+    return list;
+  }
+
+  template <class T, class Read>
+  std::vector<T> readList(const Parameter& p, int at, const char* wanted, Read read) {
+    if (!lua_istable(L_, at)) raise(L_, what(p) + " must be " + wanted + ", got " + describe(L_, at));
+    std::vector<T> list;
+    const lua_Integer count = static_cast<lua_Integer>(lua_rawlen(L_, at));
+    for (lua_Integer i = 1; i <= count; ++i) {
+      lua_rawgeti(L_, at, i);
+      list.push_back(read(lua_gettop(L_)));
+      lua_pop(L_, 1);
+    }
+    return list;
+  }
+
+  // One number stands for all components unless there are enough numbers in a row for this vector and for the
+  // required parameters after it.
+  Argument readSpreadVector(const Parameter& p, int size) {
+    int run = 0;
+    while (next_ + run <= last_ && isNumeric(L_, next_ + run)) ++run;
+    int needed = 0;
+    for (const Parameter* q = &p + 1; q <= &entry_.parameters.back(); ++q)
+      if (q->required && (q->kind == ArgumentKind::Number || q->kind == ArgumentKind::Integer)) ++needed;
+    if (run < size || run < size + needed) return readOne(p, next_++);
+    Vec3E v;
+    Expr* components[] = {&v.x, &v.y, &v.z};
+    for (int i = 0; i < size; ++i) *components[i] = readNumber(L_, next_++, what(p), Depends::OnParameters);
+    return v;
+  }
+
+  static constexpr int kMostArguments = 100'000;
+
+  lua_State* L_;
+  const CatalogEntry& entry_;
+  int next_ = 1;     // the first argument in place that no parameter has taken
+  int last_ = 0;     // the last argument in place
+  int options_ = 0;  // the table of named fields, or 0; what lies above it is scratch
+};
+
+int callEntry(lua_State* L) {
+  const auto* entry = static_cast<const CatalogEntry*>(lua_touserdata(L, lua_upvalueindex(1)));
+  pushShape(L, Call(L, *entry).run());
+  return 1;
+}
+
+// Some names mean a function of numbers as well, which is the second upvalue: round(2.5), round(shape, 0.1).
+int callEntryOrNumberFunction(lua_State* L) {
+  if (!isNumeric(L, 1)) return callEntry(L);
+  lua_pushvalue(L, lua_upvalueindex(2));
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+  return lua_gettop(L);
+}
+
+// The catalog's displacement has a pattern of its own; a function or a formula takes its place.
+int callDisplace(lua_State* L) {
+  const bool free = lua_isfunction(L, 2) || (isFormula(L, 2) && dependsOnSpace(exprAt(L, 2)));
+  if (!testShape(L, 1) || lua_gettop(L) != 2 || !free) return callEntry(L);
+  Shape shape = displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula"));
+  if (!shape.ok()) raise(L, *shape.error);
+  return pushShape(L, std::move(shape)), 1;
+}
+
+void pushEntryFunction(lua_State* L, const CatalogEntry& entry) {
+  const auto& numbers = formulaLibrary();
+  const auto same = [&](const FunctionInfo& f) { return f.name == entry.name; };
+  const bool shared = std::any_of(numbers.begin(), numbers.end(), same);
+  lua_pushlightuserdata(L, const_cast<CatalogEntry*>(&entry));
+  if (shared) lua_getglobal(L, entry.name.c_str());
+  if (shared)
+    lua_pushcclosure(L, guarded<callEntryOrNumberFunction>, 2);
+  else
+    lua_pushcclosure(L, entry.name == "displace" ? guarded<callDisplace> : guarded<callEntry>, 1);
+}
+
+struct Sign {
+  const char* event;
+  const char* sign;
+  const char* entry;
+};
+constexpr Sign kSigns[] = {{"__bor", "|", "union"},
+                           {"__band", "&", "intersection"},
+                           {"__sub", "-", "difference"},
+                           {"__bxor", "~", "xor"}};
+
+template <int kIndex>
+int applySign(lua_State* L) {
+  const Sign& s = kSigns[kIndex];
+  for (int i = 1; i <= 2; ++i)
+    if (!testShape(L, i))
+      raise(L, std::string("'") + s.sign + "' needs a shape on both sides, got " + describe(L, i));
+  pushShape(L, Call(L, *findEntry(s.entry)).run());
+  return 1;
+}
+
+template <int... kIndices>
+void setSigns(lua_State* L, std::integer_sequence<int, kIndices...>) {
+  ((lua_pushcfunction(L, guarded<applySign<kIndices>>), setShapeOperator(L, kSigns[kIndices].event)), ...);
+}
+
+int notArithmetic(lua_State* L) {
+  raise(L,
+        "shapes are combined with | (union), & (intersection), - (difference) and ~ (xor); moved with "
+        "translate, "
+        "sized with scale");
+}
+
+}  // namespace
+
+void openCatalog(lua_State* L) {
+  pushShapeMethods(L);
+  for (const CatalogEntry& entry : catalog()) {
+    pushEntryFunction(L, entry);
+    const bool method = !entry.parameters.empty() && (entry.parameters.front().kind == ArgumentKind::Shape ||
+                                                      entry.parameters.front().kind == ArgumentKind::Shapes);
+    if (method) {
+      lua_pushvalue(L, -1);
+      lua_setfield(L, -3, entry.name.c_str());
+    }
+    lua_setglobal(L, entry.name.c_str());
+  }
+  lua_getglobal(L, "paint");
+  lua_setfield(L, -2, "paint");
+  lua_pop(L, 1);
+  setSigns(L, std::make_integer_sequence<int, static_cast<int>(std::size(kSigns))>());
+  for (const char* event : {"__add", "__mul", "__div", "__unm", "__pow", "__mod", "__idiv"}) {
+    lua_pushcfunction(L, guarded<notArithmetic>);
+    setShapeOperator(L, event);
+  }
+}
+
+}  // namespace sdf

@@ -1,0 +1,50 @@
+// What one run of a scene script keeps: the scene so far, the limits, and what has been asked for.
+#pragma once
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "sdf/expr/expr.h"
+#include "sdf/scene/scene.h"
+#include "sdf/script/script.h"
+
+struct lua_State;
+
+namespace sdf {
+
+/// Bytes that one graph node is taken to cost: the node, its place in the table and the allocator's overhead.
+inline constexpr std::size_t kNodeBytes = 256;
+
+struct ScriptContext {
+  ScriptContext(std::string fileName, const ScriptOptions& scriptOptions)
+      : file(std::move(fileName)),
+        options(scriptOptions),
+        nodes(static_cast<std::int64_t>(scriptOptions.memoryLimit / kNodeBytes)) {}
+
+  std::string file;       ///< as messages name it
+  std::string shortName;  ///< as Lua's own messages name it (Lua cuts long names)
+  ScriptOptions options;
+  Scene scene;
+  std::map<std::string, int> settingLines;  ///< settings made so far, and where
+  std::map<std::string, double> parameterDefaults;
+
+  NodeLimit nodes;
+  std::int64_t nodesAtCollection = 0;
+  std::size_t bytes = 0;  ///< held by Lua
+  bool refused = false;   ///< Lua was denied memory …
+  int refusedLine = 0;    ///< … last while this line ran
+  std::uint64_t instructions = 0;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  std::string exceeded;  ///< the message of the limit that ended the run; "" while it goes on
+  int exceededLine = 0;
+};
+
+/// The context of the script that runs in this state.
+ScriptContext& contextOf(lua_State* L);
+
+/// Ends the run if it has taken too long; collects garbage when dropped graphs have piled up. Every library
+/// function calls it, for one call can do the work of many instructions.
+void checkLimits(lua_State* L);
+
+}  // namespace sdf

@@ -1,0 +1,128 @@
+#include "sdf/script/reference.h"
+
+#include <string_view>
+#include <utility>
+
+#include "sdf/script/library.h"
+
+namespace sdf {
+
+namespace {
+
+std::string quoted(const std::vector<std::string>& choices) {
+  std::string text;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + ("`\"" + choices[i] + "\"`");
+  return text;
+}
+
+std::string formOf(const Parameter& p) {
+  switch (p.kind) {
+    case ArgumentKind::Number:
+      return "number";
+    case ArgumentKind::Integer:
+      return "whole number";
+    case ArgumentKind::Vector2:
+      return "`{x, y}`";
+    case ArgumentKind::Vector3:
+      return "`{x, y, z}`";
+    case ArgumentKind::Choice:
+      return quoted(p.choices);
+    case ArgumentKind::Points:
+      return "points `{{x, y}, …}`";
+    case ArgumentKind::Shape:
+      return "shape";
+    case ArgumentKind::Shapes:
+      return "shapes";
+    case ArgumentKind::Flag:
+      return "true or false";
+    case ArgumentKind::Field:
+      return "formula";
+  }
+  return "";
+}
+
+std::string ruleOf(Rule rule) {
+  switch (rule) {
+    case Rule::Positive:
+      return ", positive";
+    case Rule::NotNegative:
+      return ", 0 or more";
+    case Rule::NotZero:
+      return ", not 0";
+    case Rule::Any:
+      break;
+  }
+  return "";
+}
+
+std::string callOf(const CatalogEntry& e) {
+  std::string text = e.name + "(";
+  for (const Parameter& p : e.parameters) text += (&p == &e.parameters.front() ? "" : ", ") + p.name;
+  return text + ")";
+}
+
+void addEntry(std::string& out, const CatalogEntry& e) {
+  out += "\n#### `" + callOf(e) + "`\n\n" + e.doc + "\n\nDistance: " + e.claim + ".\n\n";
+  for (const Parameter& p : e.parameters) {
+    out += "- `" + p.name + "`: " + p.doc + " (" + formOf(p) + ruleOf(p.rule);
+    if (p.kind == ArgumentKind::Choice)
+      out += "; default `\"" + p.fallback + "\"`";
+    else if (!p.fallback.empty())
+      out += "; default `" + p.fallback + "`";
+    else if (!p.required)
+      out += "; optional";
+    out += ")\n";
+  }
+}
+
+void addGroup(std::string& out, Group group, const std::string& title, const std::string& intro) {
+  out += "\n### " + title + "\n\n" + intro + "\n";
+  for (const CatalogEntry& e : catalog())
+    if (e.group == group) addEntry(out, e);
+}
+
+void addFunction(std::string& out, const FunctionInfo& f) {
+  out += "- `" + f.usage + "`: " + f.doc + "\n";
+  for (const FieldInfo& field : f.fields)
+    out +=
+        "  - `" + field.name + "`: " + field.doc + " (" + field.form + "; default " + field.fallback + ")\n";
+}
+
+void addLibrary(std::string& out, const std::string& title, const std::vector<FunctionInfo>& functions) {
+  out += "\n### " + title + "\n\n";
+  for (const FunctionInfo& f : functions) addFunction(out, f);
+}
+
+constexpr std::string_view kBegin = "<!-- reference: begin (made from the code; do not edit) -->\n";
+constexpr std::string_view kEnd = "<!-- reference: end -->";
+
+}  // namespace
+
+std::string sceneReference() {
+  std::string out;
+  addGroup(out, Group::Solid, "Solids",
+           "Negative inside, y up, centred at the origin unless they say otherwise.");
+  addLibrary(out, "Free form", shapeLibrary());
+  addGroup(out, Group::Flat, "Flat shapes",
+           "They lie in x and y, and become solids by `extrude` or `revolve`.");
+  addGroup(
+      out, Group::Boolean, "Combining",
+      "`a | b`, `a & b`, `a - b` and `a ~ b` are the union, intersection, difference and xor of two shapes.");
+  addGroup(out, Group::Deform, "Changing", "");
+  addGroup(out, Group::Place, "Placing", "");
+  addGroup(out, Group::Pattern, "Repeating", "");
+  addLibrary(out, "Scene, materials and settings", settingLibrary());
+  addLibrary(out, "Colours and patterns", patternLibrary());
+  addLibrary(out, "Numbers and formulas", formulaLibrary());
+  return out;
+}
+
+Result<std::string> withSceneReference(const std::string& page) {
+  const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    return Error{ErrorKind::Files, "the page lacks the lines that mark the reference"};
+  return page.substr(0, begin + kBegin.size()) + sceneReference() + "\n" + page.substr(end);
+}
+
+}  // namespace sdf

@@ -1,0 +1,71 @@
+#include "sdf/script/script.h"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "sdf/script/context.h"
+#include "sdf/script/sandbox.h"
+
+namespace sdf {
+
+namespace {
+
+Error sceneError(const std::string& name, const std::string& message) {
+  return {ErrorKind::Scene, name + ": " + message};
+}
+
+std::string namesOf(const std::vector<ParameterInfo>& parameters) {
+  std::string names;
+  for (const ParameterInfo& p : parameters)
+    if (p.name != "time") names += (names.empty() ? "" : ", ") + p.name;
+  return names;
+}
+
+// An override that no param() asked for is a slip of the pen.
+Status checkOverrides(const Scene& scene, const ScriptOptions& options, const std::string& name) {
+  for (const auto& [key, value] : options.values) {
+    const auto asked = [&, &k = key](const ParameterInfo& p) { return p.name == k; };
+    if (std::any_of(scene.parameters.begin(), scene.parameters.end(), asked)) continue;
+    const std::string known = namesOf(scene.parameters);
+    return sceneError(name, "-D " + key + ": the scene has no parameter '" + key + "' (it has " +
+                                (known.empty() ? "none" : known) + ")");
+  }
+  return okStatus();
+}
+
+}  // namespace
+
+Result<Scene> runScene(const std::string& text, const std::string& name, const ScriptOptions& options) {
+  if (!std::isfinite(options.time)) return sceneError(name, "the time must be a finite number of seconds");
+  for (const auto& [key, value] : options.values) {
+    if (key == "time") return sceneError(name, "-D time: set the scene's clock with --time");
+    if (!std::isfinite(value)) return sceneError(name, "-D " + key + ": the value must be a finite number");
+  }
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  const std::string source = text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
+  if (source.starts_with('\x1B')) return sceneError(name, "this is compiled Lua; give the scene's text");
+  ScriptContext context(name, options);
+  if (const Status ran = runInSandbox(context, source); !ran) return ran.error();
+  if (const Status known = checkOverrides(context.scene, options, name); !known) return known.error();
+  if (context.scene.parts.empty())
+    return sceneError(name, "the scene is empty; add a shape with part(name, shape) or return one");
+  Result<Scene> scene = checked(std::move(context.scene));
+  if (!scene) return sceneError(name, scene.error().message);
+  return scene;
+}
+
+Result<Scene> loadScene(const std::filesystem::path& file, const ScriptOptions& options) {
+  std::error_code code;
+  if (std::filesystem::is_directory(file, code))
+    return Error{ErrorKind::Files, file.string() + ": this is a folder; name a scene file"};
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in)
+    return Error{ErrorKind::Files, file.string() + ": cannot be read; check the name and the permissions"};
+  return runScene(text.str(), file.string(), options);
+}
+
+}  // namespace sdf

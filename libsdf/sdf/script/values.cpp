@@ -1,0 +1,384 @@
+#include "sdf/script/values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <lua.hpp>
+#include <new>
+#include <utility>
+
+#include "sdf/script/context.h"
+
+namespace sdf {
+
+namespace {
+
+constexpr const char* kFormula = "formula";
+constexpr const char* kShape = "shape";
+constexpr const char* kMaterial = "material";
+constexpr const char* kShapeMethods = "shape methods";
+
+template <class T>
+int destroy(lua_State* L) {
+  static_cast<T*>(lua_touserdata(L, 1))->~T();
+  return 0;
+}
+
+template <class T>
+void pushValue(lua_State* L, const char* type, T value) {
+  new (lua_newuserdatauv(L, sizeof(T), 0)) T(std::move(value));
+  luaL_setmetatable(L, type);
+}
+
+void makeType(lua_State* L, const char* type, lua_CFunction finish) {
+  luaL_newmetatable(L, type);
+  lua_pushcfunction(L, finish);
+  lua_setfield(L, -2, "__gc");
+  lua_pushboolean(L, false);
+  lua_setfield(L, -2, "__metatable");
+}
+
+// Fields of values that have none.
+int noField(lua_State* L) {
+  const char* key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+  const std::string what = isFormula(L, 1) ? "formula" : "material";
+  raise(L, "a " + what + " has no field '" + key + "'; it is one value");
+}
+
+int shapeField(lua_State* L) {
+  luaL_getmetatable(L, kShapeMethods);
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, -2) != LUA_TNIL) return 1;
+  std::vector<std::string> known;
+  for (lua_pushnil(L); lua_next(L, -3); lua_pop(L, 1)) known.emplace_back(lua_tostring(L, -2));
+  const std::string word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+  raise(L, "a shape has no '" + word + "'" + suggestion(word, known));
+}
+
+}  // namespace
+
+int currentLine(lua_State* L) {
+  lua_Debug frame;
+  for (int level = 0; lua_getstack(L, level, &frame); ++level)
+    if (lua_getinfo(L, "l", &frame) && frame.currentline > 0) return frame.currentline;
+  return 0;
+}
+
+void raise(lua_State* L, const std::string& message) {
+  const int line = currentLine(L);
+  const std::string where = contextOf(L).shortName + (line ? ":" + std::to_string(line) : std::string());
+  lua_pushlstring(L, (where + ": " + message).c_str(), where.size() + 2 + message.size());
+  lua_error(L);
+  std::terminate();  // lua_error does not return
+}
+
+int callGuarded(lua_State* L, LibraryFunction f) {
+  try {
+    checkLimits(L);
+    return f(L);
+  } catch (const NodeLimitReached&) {
+    lua_gc(L, LUA_GCCOLLECT);
+    const std::size_t mebibytes = contextOf(L).options.memoryLimit >> 20;
+    raise(L, "the formulas need more than " + std::to_string(mebibytes) +
+                 " MiB of memory; look for a shape that doubles in a loop");
+  } catch (const std::exception& e) {
+    raise(L, e.what());
+  }
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  // Edit distance with neighbours swapped counting once (Damerau 1964, Levenshtein 1966).
+  const auto distance = [](const std::string& a, const std::string& b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+      for (std::size_t j = 1; j <= b.size(); ++j) {
+        d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+        if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+          d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      }
+    return d[a.size()][b.size()];
+  };
+  constexpr std::size_t kLongestName = 40;
+  std::string best;
+  if (word.size() > kLongestName) return best;
+  std::size_t least = 1 + word.size() / 3;  // a third of the letters may be wrong
+  for (const std::string& candidate : known) {
+    const std::size_t d = candidate.size() > kLongestName ? kLongestName : distance(word, candidate);
+    if (d < least || (d == least && !best.empty() && candidate < best && d < word.size())) {
+      best = candidate;
+      least = d;
+    }
+  }
+  return best;
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest(word, known);
+  return near.empty() ? near : "; did you mean '" + near + "'?";
+}
+
+std::string describe(lua_State* L, int index) {
+  constexpr std::size_t kShown = 40;
+  switch (lua_type(L, index)) {
+    case LUA_TNONE:
+    case LUA_TNIL:
+      return "nothing";
+    case LUA_TBOOLEAN:
+      return lua_toboolean(L, index) ? "true" : "false";
+    case LUA_TNUMBER: {
+      lua_pushvalue(L, index);  // lua_tostring would change the value in place
+      const std::string text = lua_tostring(L, -1);
+      lua_pop(L, 1);
+      return "the number " + text;
+    }
+    case LUA_TSTRING: {
+      const std::string text = lua_tostring(L, index);
+      return "a string \"" + (text.size() > kShown ? text.substr(0, kShown) + "…" : text) + "\"";
+    }
+    case LUA_TUSERDATA:
+      return isFormula(L, index) ? "a formula" : testShape(L, index) ? "a shape" : "a material";
+    default:
+      return std::string("a ") + luaL_typename(L, index);
+  }
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+void registerTypes(lua_State* L) {
+  makeType(L, kFormula, destroy<Expr>);
+  lua_pushcfunction(L, guarded<noField>);
+  lua_setfield(L, -2, "__index");
+  makeType(L, kMaterial, destroy<MaterialPtr>);
+  lua_pushcfunction(L, guarded<noField>);
+  lua_setfield(L, -2, "__index");
+  makeType(L, kShape, destroy<Shape>);
+  lua_pushcfunction(L, guarded<shapeField>);
+  lua_setfield(L, -2, "__index");
+  luaL_newmetatable(L, kShapeMethods);
+  lua_pop(L, 4);
+}
+
+void pushShapeMethods(lua_State* L) { luaL_getmetatable(L, kShapeMethods); }
+
+void setOperator(lua_State* L, const char* type, const char* event) {
+  luaL_getmetatable(L, type);
+  lua_insert(L, -2);
+  lua_setfield(L, -2, event);
+  lua_pop(L, 1);
+}
+void setShapeOperator(lua_State* L, const char* event) { setOperator(L, kShape, event); }
+void setFormulaOperator(lua_State* L, const char* event) { setOperator(L, kFormula, event); }
+
+void pushExpr(lua_State* L, const Expr& e) {
+  if (e.isConstant())
+    lua_pushnumber(L, e.constantValue());
+  else
+    pushValue(L, kFormula, e);
+}
+void pushVector(lua_State* L, const Vec3E& v) {
+  lua_createtable(L, 3, 0);
+  int i = 0;
+  for (const Expr* e : {&v.x, &v.y, &v.z}) {
+    pushExpr(L, *e);
+    lua_rawseti(L, -2, ++i);
+  }
+}
+void pushShape(lua_State* L, Shape shape) { pushValue(L, kShape, std::move(shape)); }
+void pushMaterial(lua_State* L, MaterialPtr material) { pushValue(L, kMaterial, std::move(material)); }
+
+bool isFormula(lua_State* L, int index) { return luaL_testudata(L, index, kFormula); }
+bool isNumeric(lua_State* L, int index) { return lua_type(L, index) == LUA_TNUMBER || isFormula(L, index); }
+const Shape* testShape(lua_State* L, int index) {
+  return static_cast<const Shape*>(luaL_testudata(L, index, kShape));
+}
+const MaterialPtr* testMaterial(lua_State* L, int index) {
+  return static_cast<const MaterialPtr*>(luaL_testudata(L, index, kMaterial));
+}
+
+Expr exprAt(lua_State* L, int index) {
+  if (const void* e = luaL_testudata(L, index, kFormula)) return *static_cast<const Expr*>(e);
+  return Expr(lua_tonumber(L, index));
+}
+
+namespace {
+
+[[noreturn]] void wrongType(lua_State* L, int index, const std::string& what, const std::string& wanted) {
+  raise(L, what + " must be " + wanted + ", got " + describe(L, index));
+}
+
+// Refuses numbers that are not finite, and position where there is none.
+Expr checkedNumber(lua_State* L, const Expr& e, const std::string& what, Depends depends) {
+  const bool varies = !e.isConstant() && dependsOnSpace(e);
+  if (varies && depends == Depends::OnParameters)
+    raise(L, what + " must not depend on the position; it is one number for the whole scene");
+  if (varies) return e;
+  if (const double v = uniformValue(e); !std::isfinite(v))
+    raise(L, what + " must be a finite number, got " +
+                 (std::isnan(v) ? "NaN, which is not a number" : "infinity"));
+  return e;
+}
+
+}  // namespace
+
+Expr readNumber(lua_State* L, int index, const std::string& what, Depends depends) {
+  if (!isNumeric(L, index)) wrongType(L, index, what, "a number");
+  return checkedNumber(L, exprAt(L, index), what, depends);
+}
+
+double readPlainNumber(lua_State* L, int index, const std::string& what) {
+  if (isFormula(L, index))
+    raise(L, what + " must be a plain number, got a formula; value(e) gives its present value");
+  return readNumber(L, index, what, Depends::OnParameters).constantValue();
+}
+
+int readInteger(lua_State* L, int index, const std::string& what) {
+  const double v = readPlainNumber(L, index, what);
+  constexpr double kLargest = 1e9;
+  if (v != std::floor(v) || std::abs(v) > kLargest) wrongType(L, index, what, "a whole number");
+  return static_cast<int>(v);
+}
+
+bool readFlag(lua_State* L, int index, const std::string& what) {
+  if (!lua_isboolean(L, index)) wrongType(L, index, what, "true or false");
+  return lua_toboolean(L, index);
+}
+
+std::string readText(lua_State* L, int index, const std::string& what) {
+  if (lua_type(L, index) != LUA_TSTRING) wrongType(L, index, what, "a text");
+  return lua_tostring(L, index);
+}
+
+int readChoice(lua_State* L, int index, const std::string& what, const std::vector<std::string>& choices) {
+  if (lua_type(L, index) == LUA_TSTRING) {
+    const auto it = std::find(choices.begin(), choices.end(), lua_tostring(L, index));
+    if (it != choices.end()) return static_cast<int>(it - choices.begin());
+  }
+  std::string wanted = "one of";
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    wanted += (i == 0 ? " \"" : i + 1 == choices.size() ? " or \"" : ", \"") + choices[i] + "\"";
+  wrongType(L, index, what, wanted);
+}
+
+const Shape& readShape(lua_State* L, int index, const std::string& what) {
+  const Shape* shape = testShape(L, index);
+  if (!shape) wrongType(L, index, what, "a shape");
+  return *shape;
+}
+
+namespace {
+
+bool isList(lua_State* L, int index, int size) {
+  return lua_istable(L, index) && static_cast<int>(lua_rawlen(L, index)) == size;
+}
+
+// Component i (from 1) of the table at `index`.
+Expr component(lua_State* L, int index, int i, const std::string& what, Depends depends) {
+  lua_rawgeti(L, index, i);
+  Expr e = readNumber(L, lua_gettop(L), "number " + std::to_string(i) + " of " + what, depends);
+  lua_pop(L, 1);
+  return e;
+}
+
+// IEC 61966-2-1.
+double linearFromSrgb(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+
+Vec3E colorFromText(lua_State* L, const std::string& text, const std::string& what) {
+  const bool valid = (text.size() == 4 || text.size() == 7) && text[0] == '#' &&
+                     text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  if (!valid) raise(L, what + " must be a colour like \"#ff8800\", got \"" + text.substr(0, 40) + "\"");
+  const std::size_t digits = text.size() / 3;
+  std::array<Expr, 3> c;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int v = std::stoi(text.substr(1 + i * digits, digits), nullptr, 16);
+    c[i] = linearFromSrgb((digits == 1 ? v * 17 : v) / 255.0);
+  }
+  return {c[0], c[1], c[2]};
+}
+
+// Calls the function with position and normal; its results are left on the stack.
+int callOnSurface(lua_State* L, int index) {
+  const int before = lua_gettop(L);
+  luaL_checkstack(L, 8, nullptr);
+  lua_pushvalue(L, index);
+  for (int v = 0; v < kVariableCount; ++v) pushExpr(L, Expr::variable(static_cast<Variable>(v)));
+  lua_call(L, kVariableCount, LUA_MULTRET);
+  return lua_gettop(L) - before;
+}
+
+constexpr const char* kColorForms = "a colour (a number, {r, g, b}, \"#rrggbb\" or a function of x, y, z)";
+
+}  // namespace
+
+Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Depends depends) {
+  if (isNumeric(L, index)) {
+    const Expr e = readNumber(L, index, what, depends);
+    return {e, e, size == 3 ? e : Expr(0.0)};
+  }
+  if (!isList(L, index, size))
+    wrongType(L, index, what, size == 3 ? "{x, y, z} or a number" : "{x, y} or a number");
+  return {component(L, index, 1, what, depends), component(L, index, 2, what, depends),
+          size == 3 ? component(L, index, 3, what, depends) : Expr(0.0)};
+}
+
+Vec3E readColor(lua_State* L, int index, const std::string& what, Depends depends) {
+  if (isNumeric(L, index)) return readNumber(L, index, what, depends);
+  if (lua_type(L, index) == LUA_TSTRING) return colorFromText(L, lua_tostring(L, index), what);
+  if (isList(L, index, 3))
+    return {component(L, index, 1, what, depends), component(L, index, 2, what, depends),
+            component(L, index, 3, what, depends)};
+  if (!lua_isfunction(L, index)) wrongType(L, index, what, kColorForms);
+  if (depends == Depends::OnParameters)
+    raise(L, what + " must not depend on the position; give a plain colour");
+  const int count = callOnSurface(L, index);
+  const int first = lua_gettop(L) - count + 1;
+  Vec3E color;
+  if (count == 3)
+    color = {readNumber(L, first, "red of " + what, depends),
+             readNumber(L, first + 1, "green of " + what, depends),
+             readNumber(L, first + 2, "blue of " + what, depends)};
+  else if (count == 1 && !lua_isfunction(L, first))
+    color = readColor(L, first, "the result of " + what, depends);
+  else
+    raise(L, what + " must return r, g, b or one colour, returned " +
+                 (count == 1 ? describe(L, first) : std::to_string(count) + " values"));
+  lua_pop(L, count);
+  return color;
+}
+
+Expr readSurfaceNumber(lua_State* L, int index, const std::string& what) {
+  if (!lua_isfunction(L, index)) {
+    if (!isNumeric(L, index)) wrongType(L, index, what, "a number or a function of x, y, z");
+    return readNumber(L, index, what, Depends::OnPosition);
+  }
+  const int count = callOnSurface(L, index);
+  if (count != 1) raise(L, what + " must return one number, returned " + std::to_string(count) + " values");
+  Expr e = readNumber(L, lua_gettop(L), "the result of " + what, Depends::OnPosition);
+  lua_pop(L, 1);
+  return e;
+}
+
+Expr readFormula(lua_State* L, int index, const std::string& what) {
+  if (!lua_isfunction(L, index)) {
+    if (!isNumeric(L, index)) wrongType(L, index, what, "a formula or a function of x, y, z");
+    return readNumber(L, index, what, Depends::OnPosition);
+  }
+  constexpr int kCoordinates = 3;
+  luaL_checkstack(L, kCoordinates + 2, nullptr);
+  lua_pushvalue(L, index);
+  const Vec3E p = position();
+  for (const Expr* e : {&p.x, &p.y, &p.z}) pushExpr(L, *e);
+  lua_call(L, kCoordinates, 1);
+  Expr e = readNumber(L, lua_gettop(L), "the result of " + what, Depends::OnPosition);
+  lua_pop(L, 1);
+  return e;
+}
+
+}  // namespace sdf

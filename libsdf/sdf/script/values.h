@@ -1,0 +1,81 @@
+// What scripts and the library hand each other: numbers, formulas, vectors, colours, shapes and materials.
+//
+// `what` names the value in messages: "sphere: 'radius'". Each reader raises a script error that says what
+// the value must be and what was given.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sdf/expr/vec.h"
+#include "sdf/shape/shape.h"
+
+struct lua_State;
+
+namespace sdf {
+
+/// Ends the script with "file:line: message", the line being where the script called.
+[[noreturn]] void raise(lua_State* L, const std::string& message);
+/// Line of the innermost script function; 0 outside of any.
+int currentLine(lua_State* L);
+
+/// The known word that `word` is probably a slip of; "" when none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+/// "; did you mean 'sphere'?" or "" when none is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known);
+/// What stands at this place of the stack, in words: `a string "big"`, "nothing".
+std::string describe(lua_State* L, int index);
+/// "1, 2 and 3".
+std::string listed(const std::vector<std::string>& words);
+
+/// Makes the types known to the state; call once.
+void registerTypes(lua_State* L);
+/// Pushes the table of methods that shapes have.
+void pushShapeMethods(lua_State* L);
+/// Makes the function on the top of the stack the type's operator ("__add"), and pops it.
+void setShapeOperator(lua_State* L, const char* event);
+void setFormulaOperator(lua_State* L, const char* event);
+
+/// Constants are pushed as plain numbers.
+void pushExpr(lua_State* L, const Expr& e);
+void pushVector(lua_State* L, const Vec3E& v);
+void pushShape(lua_State* L, Shape shape);
+void pushMaterial(lua_State* L, MaterialPtr material);
+
+/// A number or a formula?
+bool isNumeric(lua_State* L, int index);
+bool isFormula(lua_State* L, int index);
+const Shape* testShape(lua_State* L, int index);
+const MaterialPtr* testMaterial(lua_State* L, int index);
+
+/// The number or formula at `index`, which isNumeric.
+Expr exprAt(lua_State* L, int index);
+
+enum class Depends { OnParameters, OnPosition };
+
+Expr readNumber(lua_State* L, int index, const std::string& what, Depends depends);
+double readPlainNumber(lua_State* L, int index, const std::string& what);
+int readInteger(lua_State* L, int index, const std::string& what);
+bool readFlag(lua_State* L, int index, const std::string& what);
+std::string readText(lua_State* L, int index, const std::string& what);
+int readChoice(lua_State* L, int index, const std::string& what, const std::vector<std::string>& choices);
+const Shape& readShape(lua_State* L, int index, const std::string& what);
+/// {x, y, z}, or one number for all. `size` is 2 or 3; the components beyond it are 0.
+Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Depends depends);
+/// A number (grey), {r, g, b}, "#rgb" or "#rrggbb" in sRGB, or a function of position and normal.
+Vec3E readColor(lua_State* L, int index, const std::string& what, Depends depends);
+/// A number, a formula, or a function of position and normal.
+Expr readSurfaceNumber(lua_State* L, int index, const std::string& what);
+/// A formula of the position: a number, a formula or function(x, y, z).
+Expr readFormula(lua_State* L, int index, const std::string& what);
+
+/// Runs a library function so that limits hold and a C++ exception becomes a script error.
+template <int (*F)(lua_State*)>
+int guarded(lua_State* L);
+using LibraryFunction = int (*)(lua_State*);
+int callGuarded(lua_State* L, LibraryFunction f);
+template <int (*F)(lua_State*)>
+int guarded(lua_State* L) {
+  return callGuarded(L, F);
+}
+
+}  // namespace sdf
