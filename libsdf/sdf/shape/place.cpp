@@ -15,7 +15,8 @@ using Matrix = std::array<Vec3E, 3>;  // rows
 
 // Terms with a zero factor are left out: the graph itself must keep 0 * x, for x may be infinite.
 Expr timesUnlessZero(const Expr& a, const Expr& b) {
-  return a.isConstant(0.0) || b.isConstant(0.0) ? Expr(0.0) : a * b;
+  if (a.isConstant(0.0) || b.isConstant(0.0)) return 0.0;
+  return a.isConstant(-1.0) ? -b : a * b;
 }
 Expr weighted(const Vec3E& weights, const Vec3E& v) {
   const Expr x = timesUnlessZero(weights.x, v.x), y = timesUnlessZero(weights.y, v.y);
