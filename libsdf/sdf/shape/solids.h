@@ -49,7 +49,7 @@ Shape roundCone(const Expr& radiusBottom, const Expr& radiusTop, const Expr& hal
 /// Exact.
 Shape plane(const Vec3E& normal, const Expr& offset);
 /// Ellipsoid with these radii along x, y and z, all > 0. Exact: an iteration unrolled in the expression, off
-/// by at most 5e-7 largest radii for radii in ratios up to 100. Some 250 operations; some 120 where two radii
+/// by at most 5e-7 largest radii for radii in ratios up to 100. Some 200 operations; some 120 where two radii
 /// are the same expression.
 Shape ellipsoid(const Vec3E& radii);
 /// Ellipsoid by the cheapest formula. A bound: at the end of the longest axis it gives smallest / largest
