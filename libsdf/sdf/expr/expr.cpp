@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -154,6 +155,13 @@ class NodeTable {
 };
 
 Expr::Expr(double value) : node_(nullptr) {
+  // Expressions that are yet to be given a value are many, and 0.
+  if (std::bit_cast<std::uint64_t>(value) == 0) {
+    static const Expr* const zero = new Expr(NodeTable::instance().intern(std::make_unique<Node>()));
+    node_ = zero->node_;
+    NodeTable::retain(node_);
+    return;
+  }
   auto n = std::make_unique<Node>();
   n->value = value;
   *this = NodeTable::instance().intern(std::move(n));
@@ -205,20 +213,20 @@ const Expr* simplerBinary(Op op, const Expr& a, const Expr& b) {
   }
 }
 
-bool simplifies(Op op, std::span<const Expr> args, Expr& simpler) {
+std::optional<Expr> simplified(Op op, std::span<const Expr> args) {
   const Expr& a = args[0];
   if (args.size() == 2)
-    if (const Expr* same = simplerBinary(op, a, args[1])) return simpler = *same, true;
-  if (op == Op::Select && a.isConstant()) return simpler = a.constantValue() != 0.0 ? args[1] : args[2], true;
-  if (op == Op::Select && args[1] == args[2]) return simpler = args[1], true;
+    if (const Expr* same = simplerBinary(op, a, args[1])) return *same;
+  if (op == Op::Select && a.isConstant()) return a.constantValue() != 0.0 ? args[1] : args[2];
+  if (op == Op::Select && args[1] == args[2]) return args[1];
   const bool signless = op == Op::Abs || op == Op::Square;
-  if (op == Op::Neg && a.op() == Op::Neg) return simpler = a.arg(0), true;
-  if (op == Op::Abs && a.op() == Op::Abs) return simpler = a, true;
+  if (op == Op::Neg && a.op() == Op::Neg) return a.arg(0);
+  if (op == Op::Abs && a.op() == Op::Abs) return a;
   if (signless && (a.op() == Op::Neg || (op == Op::Square && a.op() == Op::Abs))) {
     const Expr inner = a.arg(0);
-    return simpler = Expr::make(op, {&inner, 1}), true;
+    return Expr::make(op, {&inner, 1});
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -227,8 +235,7 @@ Expr Expr::make(Op op, std::span<const Expr> args) {
   assert(static_cast<int>(args.size()) == arity(op) && arity(op) > 0 && !info(op).fused);
   if (std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.isConstant(); }))
     return evaluateOp<double>(op, [&](int i) { return args[i].constantValue(); });
-  Expr simpler;
-  if (simplifies(op, args, simpler)) return simpler;
+  if (std::optional<Expr> simpler = simplified(op, args)) return *std::move(simpler);
   auto n = std::make_unique<Node>();
   n->op = op;
   for (std::size_t i = 0; i < args.size(); ++i) n->args[i] = args[i].node_;
@@ -321,16 +328,11 @@ namespace {
 template <class Leaf>
 std::vector<Expr> rebuild(std::span<const Expr> roots, double stretch, Leaf leaf) {
   std::unordered_map<const Node*, Expr> made;
+  std::vector<Expr> args;
   for (const Expr& n : topologicalOrder(roots)) {
-    Expr e;
-    const int count = arity(n.op());
-    if (count == 0) {
-      e = leaf(n);
-    } else {
-      std::array<Expr, kMaxGraphArity> args;
-      for (int i = 0; i < count; ++i) args[i] = made.at(n.arg(i).node());
-      e = Expr::make(n.op(), {args.data(), static_cast<std::size_t>(count)});
-    }
+    args.clear();
+    for (int i = 0; i < arity(n.op()); ++i) args.push_back(made.at(n.arg(i).node()));
+    Expr e = args.empty() ? leaf(n) : Expr::make(n.op(), args);
     const double bound = n.lipschitz() * stretch;
     if (bound == bound) e.claimLipschitz(bound);
     made.emplace(n.node(), std::move(e));
@@ -354,7 +356,15 @@ Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch) {
 }
 
 Expr bind(const Expr& e, const std::map<std::string, double>& values) {
-  return rebuild({&e, 1}, 1.0,
+  // Facts hold for parameters in their ranges; a value beyond leaves only what the new graph says of itself.
+  double stretch = 1.0;
+  for (const Expr& n : topologicalOrder({&e, 1})) {
+    if (n.op() != Op::Parameter) continue;
+    const auto it = values.find(n.parameterInfo().name);
+    if (it != values.end() && !n.range().contains(it->second))
+      stretch = std::numeric_limits<double>::infinity();
+  }
+  return rebuild({&e, 1}, stretch,
                  [&](const Expr& leaf) {
                    if (leaf.op() != Op::Parameter) return leaf;
                    const auto it = values.find(leaf.parameterInfo().name);
