@@ -235,6 +235,13 @@ TEST(Booleans, BoundsShrinkToWhatCanBeLeft) {
   expectBounded(apart, cube(4.0), 10);
 }
 
+TEST(Intersection, OfALatticeAndABoxGrowsAsTheBoxDoes) {
+  const Shape s = gyroid(1.0, 0.1) & box(Vec3E(1.0));
+  EXPECT_EQ(growthOf(s.claim), 1.0);
+  expectBounded(s, cube(2.0), 13);
+  EXPECT_TRUE(unite(s, sphere(1.0), Blend::quadratic(0.2)).bounds.finite());
+}
+
 TEST(Union, ShowsTheNearerShapeAndTheLaterOneOnATie) {
   const Shape s = red(left()) | green(below());
   EXPECT_EQ(attribute(s, Attribute::Red, {0.1, 0.5, 0.0}), 1.0);

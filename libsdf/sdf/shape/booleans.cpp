@@ -213,7 +213,8 @@ Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
   for (const Shape& s : shapes) {
     distances.push_back(s.distance);
     result.bounds = overlap(result.bounds, s.bounds);
-    result.claim.growth = std::max(result.claim.growth, growthOf(s.claim));
+    // What has no bounds cannot leave them: a lattice cut to a box grows as the box does.
+    if (!isEverything(s.bounds)) result.claim.growth = std::max(result.claim.growth, growthOf(s.claim));
   }
   if (blend.kind == Kind::Hard) {
     result.distance = balancedMax(distances);

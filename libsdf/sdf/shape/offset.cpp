@@ -16,6 +16,21 @@ bool dependsOnZ(const Expr& e) {
   });
 }
 
+// f + offset over the sum of their constants; `slope` is that of the offset.
+Shape displaced(const Shape& shape, const Expr& offset, const Expr& slope) {
+  const double growth = growthOf(shape.claim), steepest = globalLipschitz(shape);
+  const Expr sum = max(slope + steepest, 1.0);
+  const bool known = std::isfinite(steepest) && std::isfinite(uniformValue(slope));
+  Shape result = shape;
+  result.distance = shape.distance + offset;
+  if (known) result.distance = result.distance * (1.0 / sum);
+  const double raised = -offset.range().lo;
+  if (raised > 0.0) result.bounds = grow(shape.bounds, growth * raised);
+  result.claim = {ClaimKind::Field, known ? 1.0 : kInfinity};
+  result.claim.growth = known ? growth * sum.range().hi : growth;
+  return settled(std::move(result));
+}
+
 }  // namespace
 
 Shape morph(const Shape& a, const Shape& b, const Expr& t) {
@@ -111,17 +126,7 @@ Shape displace(const Shape& shape, const Expr& offset) {
   Check check("displace");
   check.that(shape.dimension == 3 || !dependsOnZ(offset), "the offset of a flat shape must not depend on z");
   if (!check.ok()) return check.failure();
-  const double growth = growthOf(shape.claim), slope = offset.lipschitz();
-  const double steepest = std::max(1.0, globalLipschitz(shape) + slope);
-  const bool known = std::isfinite(steepest);
-  Shape result = shape;
-  result.distance = shape.distance + offset;
-  if (known) result.distance = result.distance * (1.0 / steepest);
-  const double raised = -offset.range().lo;
-  if (raised > 0.0) result.bounds = grow(shape.bounds, growth * raised);
-  result.claim = {ClaimKind::Field, known ? 1.0 : kInfinity};
-  result.claim.growth = known ? growth * steepest : growth;
-  return settled(std::move(result));
+  return displaced(shape, offset, offset.lipschitz());
 }
 
 Shape displace(const Shape& shape, const Expr& amplitude, const Expr& frequency) {
@@ -134,7 +139,8 @@ Shape displace(const Shape& shape, const Expr& amplitude, const Expr& frequency)
   // in each u and so greatest at a corner of [0, 1]^3, where it is 0 or 1.
   const double w = frequency.range().magnitude();
   const Expr wave = (sin(p.x * frequency) * sin(p.y * frequency) * sin(p.z * frequency)).claimLipschitz(w);
-  return displace(shape, (wave * amplitude).claimLipschitz(w * amplitude.range().magnitude()));
+  const Expr offset = (wave * amplitude).claimLipschitz(w * amplitude.range().magnitude());
+  return displaced(shape, offset, abs(amplitude * frequency));
 }
 
 }  // namespace sdf

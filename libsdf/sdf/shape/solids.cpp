@@ -201,8 +201,12 @@ Shape ellipsoidBound(const Vec3E& radii) {
   // k = |p / r| is 1 on the surface and has L = 1 / smallest radius, so (k - 1) * smallest has L = 1. The
   // usual k (k - 1) / |p / r^2| comes closer but passes the distance inside, and is 0 / 0 at the centre.
   const Expr least = smallest(r);
-  return solid(norm(p.x * (least / r.x), p.y * (least / r.y), p.z * (least / r.z)) - least,
-               Box::centred(upper(r)), ClaimKind::Bound);
+  Shape s = solid(norm(p.x * (least / r.x), p.y * (least / r.y), p.z * (least / r.z)) - least,
+                  Box::centred(upper(r)), ClaimKind::Bound);
+  // (k - 1) * smallest <= c means |p| <= r + c r / smallest along each axis.
+  const glm::dvec3 most = upper(r);
+  s.claim.growth = glm::max(most.x, glm::max(most.y, most.z)) / lower(least);
+  return s;
 }
 
 Shape solidAngle(const Expr& angle, const Expr& radius) {

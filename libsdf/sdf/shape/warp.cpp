@@ -40,10 +40,11 @@ Shape asField(Shape warped) {
   return settled(std::move(warped));
 }
 
-// Largest singular value of [[a, b], [0, 1]].
-double stretchOf(double a, double b) {
-  const double sum = a * a + b * b + 1.0;
-  return std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * a * a))) / 2.0);
+// Largest singular value of [[a, b], [0, 1]], from the eigenvalues of its square. Like all constants here it
+// is an expression: a slider that stands at a slight twist pays for a slight one.
+Expr stretchOf(const Expr& a, const Expr& b) {
+  const Expr sum = square(a) + square(b) + 1.0;
+  return sqrt((sum + sqrt(max(square(sum) - 4.0 * square(a), 0.0))) * 0.5);
 }
 
 Shape withProvenBound(Shape warped, const Expr& distance, const Box& bounds, double growth) {
@@ -64,19 +65,19 @@ Shape twist(const Shape& shape, const Expr& rate) {
   const Vec3E p = position();
   const double radius = radiusAbout(shape.bounds, 1) * (1.0 + kMargin);
   const double steepest = globalLipschitz(shape);
-  const bool known = std::isfinite(radius) && std::isfinite(steepest);
+  const bool known = radius > 0.0 && std::isfinite(radius) && std::isfinite(steepest);
   const Expr r = length(p.x, p.z).claimLipschitz(1.0);
   const Expr inward = known ? Expr(radius) / max(r, radius) : Expr(1.0);
   const Expr angle = p.y * rate, c = cos(angle), s = sin(angle);
   const Expr x = p.x * inward, z = p.z * inward;
-  const double stretch = known ? stretchOf(1.0, rate.range().magnitude() * radius) : kInfinity;
-  Shape warped = movedTo(shape, {x * c - z * s, p.y, x * s + z * c}, stretch);
+  const Expr stretch = known ? stretchOf(1.0, rate * radius) : Expr(kInfinity);
+  Shape warped = movedTo(shape, {x * c - z * s, p.y, x * s + z * c}, stretch.range().hi);
   const Box& b = shape.bounds;
   warped.bounds = {{-radius, b.min.y, -radius}, {radius, b.max.y, radius}};
   if (!known) return asField(std::move(warped));
-  const double slope = std::max(1.0, steepest * stretch);
+  const Expr slope = max(stretch * steepest, 1.0);
   return withProvenBound(warped, max(warped.distance * (1.0 / slope), r - radius), warped.bounds,
-                         std::max(1.0, growthOf(shape.claim) * slope));
+                         std::max(1.0, growthOf(shape.claim) * slope.range().hi));
 }
 
 Shape taper(const Shape& shape, const Expr& rate) {
@@ -99,20 +100,21 @@ Shape taper(const Shape& shape, const Expr& rate) {
   if (!check.ok()) return check.failure();
   const double margin = kMargin * std::min(b.max.y - b.min.y, least / steepness);
   const double bottom = b.min.y - margin, top = b.max.y + margin;
-  const Interval s = factors(bottom, top);
-  const double reach = radiusAbout(b, 1), radius = reach * s.hi * (1.0 + kMargin);
-  const double steepest = globalLipschitz(shape);
-  const bool known = std::isfinite(radius) && std::isfinite(steepest);
-  const double slant = radius / s.lo * steepness / s.lo;
-  const double stretch = known ? stretchOf(1.0 / s.lo, slant) : kInfinity;
+  const Expr atBottom = rate * bottom + 1.0, atTop = rate * top + 1.0;
+  const Expr narrowest = min(atBottom, atTop);
+  const Expr radius = max(atBottom, atTop) * (radiusAbout(b, 1) * (1.0 + kMargin));
+  const double steepest = globalLipschitz(shape), widest = radius.range().hi;
+  const bool known = radius.range().lo > 0.0 && std::isfinite(widest) && std::isfinite(steepest);
+  const Expr stretch =
+      known ? stretchOf(1.0 / narrowest, radius * rate / square(narrowest)) : Expr(kInfinity);
   const Vec3E p = position();
   const Expr y = clamp(p.y, bottom, top), factor = rate * y + 1.0;
   const Expr r = length(p.x, p.z).claimLipschitz(1.0);
-  const Expr inward = known ? Expr(radius) / (max(r, radius) * factor) : 1.0 / factor;
-  Shape warped = movedTo(shape, {p.x * inward, y, p.z * inward}, stretch);
-  warped.bounds = {{-radius, bottom, -radius}, {radius, top, radius}};
+  const Expr inward = known ? radius / (max(r, radius) * factor) : 1.0 / factor;
+  Shape warped = movedTo(shape, {p.x * inward, y, p.z * inward}, stretch.range().hi);
+  warped.bounds = {{-widest, bottom, -widest}, {widest, top, widest}};
   if (!known) return asField(std::move(warped));
-  const double slope = std::max(1.0, steepest * stretch);
+  const Expr slope = max(stretch * steepest, 1.0);
   const Expr outside = max(r - radius, outsideSlab(p.y, bottom, top));
   return withProvenBound(warped, max(warped.distance * (1.0 / slope), outside), warped.bounds, 1.0);
 }
@@ -180,8 +182,11 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   const double growth = growthOf(shape.claim), steepest = globalLipschitz(shape);
   if (!std::isfinite(growth * steepest)) return asField(std::move(warped));
   const double gap = std::min(kPi / most - half, 0.25 * (1.0 - folding.hi) / most);
-  const double stretch = 1.0 / (1.0 - folding.hi - most * gap);
-  const double slope = std::max(1.0, steepest * stretch);
+  Expr fold = abs(k) * gap;
+  for (const double end : {b.min.y, b.max.y})
+    if (std::isfinite(end)) fold = max(fold, abs(k) * gap + k * end);
+  const Expr slope = max(steepest / (1.0 - fold), 1.0);
+  const double steep = slope.range().hi;
   const double cap = gap / growth;
   Expr distance = min(warped.distance, cap) * (1.0 / slope);
   for (const auto& [e, axis] : {std::pair(y, 1), std::pair(p.z, 2)})
@@ -190,9 +195,9 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   // Below the cap the operand lies within growth * slope * c of its bounds, at a radius of at most `outer`;
   // above it anywhere in the ring.
   const double outer = 1.0 / most + farthestAlong(b, 1) + cap;
-  const double turned = (1.0 + most * outer) * growth * slope;
+  const double turned = (1.0 + most * outer) * growth * steep;
   const double swelling =
-      curvature.isConstant() ? std::max(turned + 1.0, 2.0 * outer * slope / cap + 1.0) : kInfinity;
+      curvature.isConstant() ? std::max(turned + 1.0, 2.0 * outer * steep / cap + 1.0) : kInfinity;
   return withProvenBound(warped, distance, warped.bounds, swelling);
 }
 
