@@ -191,10 +191,13 @@ float Tape::slope(Operand operand) const {
 float Tape::inheritedSlope(const Instruction& n) const {
   switch (n.op) {
     case Op::Neg:
-    case Op::Abs: return slope(n.in[0]);
+    case Op::Abs:
+      return slope(n.in[0]);
     case Op::Min:
-    case Op::Max: return std::max(slope(n.in[0]), slope(n.in[1]));
-    default: return std::numeric_limits<float>::infinity();
+    case Op::Max:
+      return std::max(slope(n.in[0]), slope(n.in[1]));
+    default:
+      return std::numeric_limits<float>::infinity();
   }
 }
 

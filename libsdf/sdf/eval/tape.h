@@ -108,8 +108,8 @@ class Tape {
   // The instructions that `outputs` need, each value replaced by what `known` says it is.
   std::shared_ptr<const Tape> reduced(const std::vector<Operand>& known,
                                       std::span<const Operand> outputs) const;
-  // Slope bound that follows from the arguments alone, for the operations that join branches: a branch that jumps may have
-  // been dropped since the graph was built.
+  // Slope bound that follows from the arguments alone, for the operations that join branches: a branch that
+  // jumps may have been dropped since the graph was built.
   float inheritedSlope(const Instruction& instruction) const;
   void finish();
   void allocateRegisters();

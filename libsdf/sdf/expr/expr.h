@@ -126,8 +126,8 @@ Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch);
 /// Several at once, sharing the work.
 std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch);
 
-/// The expression with parameters of these names set to these values (they become constants). Facts carry over where
-/// the values lie in their parameters' ranges.
+/// The expression with parameters of these names set to these values (they become constants). Facts carry
+/// over where the values lie in their parameters' ranges.
 Expr bind(const Expr& e, const std::map<std::string, double>& values);
 
 }  // namespace sdf
