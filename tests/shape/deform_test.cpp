@@ -328,9 +328,9 @@ TEST(Deform, RefusesWhatCannotBeWithOneLine) {
   EXPECT_EQ(*twist(flat, 1.0).error, "twist: the shape is flat; extrude or revolve it first");
   EXPECT_EQ(*bend(flat, 1.0).error, "bend: the shape is flat; extrude or revolve it first");
   EXPECT_EQ(*bend(half, 0.1).error, "bend: the shape is unbounded in x; intersect it with a box first");
-  EXPECT_EQ(
-      *bend(s, 1.0).error,
-      "bend: the shape would fold: at curvature 1 it must keep within 1 of the x axis on the inner side");
+  EXPECT_EQ(*bend(s, 1.0).error,
+            "bend: the shape would fold: it reaches the circle's centre, 1 from the x axis; bend it less or "
+            "make it thinner");
   EXPECT_EQ(
       *bend(bar(), 4.0).error,
       "bend: the ends would pass each other: the shape reaches 1 along x, and half a turn ends at 0.785398");

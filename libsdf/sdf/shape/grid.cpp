@@ -22,9 +22,8 @@ struct Axis {
   double lo = 0.0, hi = 0.0;
 
   double narrowest() const { return cell.range().lo; }
-  double first() const {
-    return count > 0 ? -0.5 * (count - 1) : 0.0;
-  }  // cells from the shape's place to copy 0
+  // Cells from the shape's own place to copy 0.
+  double first() const { return count > 0 ? -0.5 * (count - 1) : 0.0; }
   // Copies are asked through a window of indices that jumps.
   bool windowed() const { return repeated && !even && candidates != count; }
 };

@@ -1,44 +1,18 @@
-// Operators that warp space: twist, bend, taper.
-//
-// With f the operand, La its constant, T the map from the result's space back to the operand's and L the
-// largest singular value of T's Jacobian, f(T(p)) / (La L) is a bound wherever all of that holds. Two ways
-// make it hold everywhere:
-//
-// - Clamp (twist, taper): p is first projected to a convex region K that contains the solid, and the result
-// is
-//   max(f(T(proj p)) / (La L), d) with d a 1-Lipschitz function that is negative inside K and positive
-//   outside. A projection to a convex set moves no two points apart, so this is 1-Lipschitz, and it has the
-//   solid's zero set.
-// - Cap (bend): where T tears or stretches without limit, T(p) lies farther than g from the operand's bounds,
-// so that there
-//   f(T(p)) > c = g / growth. min(f(T(p)), c) is then the constant c, which hides the tear.
+// Twist and taper; the method is described in warp.h.
+#include "sdf/shape/warp.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sdf/shape/deform.h"
-#include "sdf/shape/operand.h"
 
 namespace sdf {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // How far beyond the bounds the clamp begins, as a share of their size: near the surface the distance is f(T)
 // / L alone.
 constexpr double kMargin = 1.0 / 16.0;
-
-bool finiteAlong(const Box& b, int axis) { return b.min[axis] > -kInfinity && b.max[axis] < kInfinity; }
-double farthestAlong(const Box& b, int axis) {
-  return std::max(std::abs(b.min[axis]), std::abs(b.max[axis]));
-}
-
-// The result where nothing is proven: the warped distance as it is.
-Shape asField(Shape warped) {
-  warped.claim = {ClaimKind::Field, kInfinity};
-  return settled(std::move(warped));
-}
 
 // Largest singular value of [[a, b], [0, 1]], from the eigenvalues of its square. Like all constants here it
 // is an expression: a slider that stands at a slight twist pays for a slight one.
@@ -47,15 +21,24 @@ Expr stretchOf(const Expr& a, const Expr& b) {
   return sqrt((sum + sqrt(max(square(sum) - 4.0 * square(a), 0.0))) * 0.5);
 }
 
-Shape withProvenBound(Shape warped, const Expr& distance, const Box& bounds, double growth) {
+}  // namespace
+
+bool finiteAlong(const Box& b, int axis) { return b.min[axis] > -kInfinity && b.max[axis] < kInfinity; }
+double farthestAlong(const Box& b, int axis) {
+  return std::max(std::abs(b.min[axis]), std::abs(b.max[axis]));
+}
+
+Shape asField(Shape warped) {
+  warped.claim = {ClaimKind::Field, kInfinity};
+  return settled(std::move(warped));
+}
+
+Shape withProvenBound(Shape warped, const Expr& distance, double growth) {
   warped.distance = distance;
-  warped.bounds = bounds;
   warped.claim = {ClaimKind::Bound, 1.0};
   warped.claim.growth = growth;
   return settled(std::move(warped));
 }
-
-}  // namespace
 
 Shape twist(const Shape& shape, const Expr& rate) {
   if (!shape.ok()) return shape;
@@ -76,7 +59,7 @@ Shape twist(const Shape& shape, const Expr& rate) {
   warped.bounds = {{-radius, b.min.y, -radius}, {radius, b.max.y, radius}};
   if (!known) return asField(std::move(warped));
   const Expr slope = max(stretch * steepest, 1.0);
-  return withProvenBound(warped, max(warped.distance * (1.0 / slope), r - radius), warped.bounds,
+  return withProvenBound(warped, max(warped.distance * (1.0 / slope), r - radius),
                          std::max(1.0, growthOf(shape.claim) * slope.range().hi));
 }
 
@@ -116,89 +99,7 @@ Shape taper(const Shape& shape, const Expr& rate) {
   if (!known) return asField(std::move(warped));
   const Expr slope = max(stretch * steepest, 1.0);
   const Expr outside = max(r - radius, outsideSlab(p.y, bottom, top));
-  return withProvenBound(warped, max(warped.distance * (1.0 / slope), outside), warped.bounds, 1.0);
-}
-
-namespace {
-
-// The box around the bent box: around the centre (0, 1/k), the sector of angles k [x0, x1] and radii 1/k -
-// [y0, y1].
-Box bentBox(const Box& b, double k) {
-  const double radii[] = {1.0 / k - b.min.y, 1.0 / k - b.max.y};
-  const double from = std::min(k * b.min.x, k * b.max.x), to = std::max(k * b.min.x, k * b.max.x);
-  Box box{glm::dvec3(kInfinity, kInfinity, b.min.z), glm::dvec3(-kInfinity, -kInfinity, b.max.z)};
-  const auto take = [&](double sine, double cosine) {
-    for (const double radius : radii) {
-      const auto along = [&](double u) { return u == 0.0 ? 0.0 : u * radius; };
-      const glm::dvec3 q(along(sine), 1.0 / k - along(cosine), b.min.z);
-      box = {glm::min(box.min, q), glm::max(box.max, glm::dvec3(q.x, q.y, b.max.z))};
-    }
-  };
-  take(std::sin(from), std::cos(from));
-  take(std::sin(to), std::cos(to));
-  for (int quarter = -1; quarter <= 1; ++quarter)  // the extremes of sine and cosine within a turn
-    if (from < quarter * kPi / 2 && quarter * kPi / 2 < to) take(quarter, quarter == 0 ? 1.0 : 0.0);
-  return box;
-}
-
-// For any curvature in a range: a point of the box moves by no more than the arc bends.
-Box bentBoxForAny(const Box& b) {
-  const double reach = std::hypot(farthestAlong(b, 0), farthestAlong(b, 1)) + farthestAlong(b, 0);
-  return {{-reach, -reach, b.min.z}, {reach, reach, b.max.z}};
-}
-
-}  // namespace
-
-Shape bend(const Shape& shape, const Expr& curvature) {
-  if (!shape.ok()) return shape;
-  Check check("bend");
-  if (!wantsSolid(check, shape).any("curvature", curvature).ok()) return check.failure();
-  if (curvature.isConstant(0.0)) return shape;
-  const Box& b = shape.bounds;
-  const Interval& range = curvature.range();
-  const double most = range.magnitude();
-  check.that(finiteAlong(b, 0), "the shape is unbounded in x; intersect it with a box first");
-  const Interval folding = hull(timesRange(range, b.min.y, b.max.y), Interval(0.0));
-  check.that(folding.hi < kInfinity,
-             "the shape is unbounded in y, where it would fold; intersect it with a box first");
-  check.that(folding.hi < 1.0, "the shape would fold: at curvature " + shown(most) + " it must keep within " +
-                                   shown(1.0 / most) + " of the x axis on the inner side");
-  const double half = farthestAlong(b, 0);
-  check.that(most * half < kPi, "the ends would pass each other: the shape reaches " + shown(half) +
-                                    " along x, and half a turn ends at " + shown(kPi / most));
-  if (!check.ok()) return check.failure();
-
-  const Expr k = keptFromZero(curvature);
-  const Vec3E p = position();
-  const Expr across = p.x * k, up = 1.0 - p.y * k;
-  const Expr ratio = sqrt(square(across) + square(up));  // distance from the bend's centre, in radii
-  const Expr x = atan2(across, up) * (1.0 / k);
-  // (1 - ratio) / k without the cancellation that a slight bend would suffer.
-  const Expr y = (p.y * 2.0 - (square(p.x) + square(p.y)) * k) / (ratio + 1.0);
-  y.claimLipschitz(1.0);
-  Shape warped = movedTo(shape, {x, y, p.z}, kInfinity);
-  warped.bounds = curvature.isConstant() ? bentBox(b, curvature.constantValue()) : bentBoxForAny(b);
-
-  const double growth = growthOf(shape.claim), steepest = globalLipschitz(shape);
-  if (!std::isfinite(growth * steepest)) return asField(std::move(warped));
-  const double gap = std::min(kPi / most - half, 0.25 * (1.0 - folding.hi) / most);
-  Expr fold = abs(k) * gap;
-  for (const double end : {b.min.y, b.max.y})
-    if (std::isfinite(end)) fold = max(fold, abs(k) * gap + k * end);
-  const Expr slope = max(steepest / (1.0 - fold), 1.0);
-  const double steep = slope.range().hi;
-  const double cap = gap / growth;
-  Expr distance = min(warped.distance, cap) * (1.0 / slope);
-  for (const auto& [e, axis] : {std::pair(y, 1), std::pair(p.z, 2)})
-    if (b.min[axis] > -kInfinity || b.max[axis] < kInfinity)
-      distance = max(distance, outsideSlab(e, b.min[axis], b.max[axis]));
-  // Below the cap the operand lies within growth * slope * c of its bounds, at a radius of at most `outer`;
-  // above it anywhere in the ring.
-  const double outer = 1.0 / most + farthestAlong(b, 1) + cap;
-  const double turned = (1.0 + most * outer) * growth * steep;
-  const double swelling =
-      curvature.isConstant() ? std::max(turned + 1.0, 2.0 * outer * steep / cap + 1.0) : kInfinity;
-  return withProvenBound(warped, distance, warped.bounds, swelling);
+  return withProvenBound(warped, max(warped.distance * (1.0 / slope), outside), 1.0);
 }
 
 }  // namespace sdf
