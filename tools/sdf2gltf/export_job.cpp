@@ -75,6 +75,7 @@ class FrameExport {
     ScriptOptions script;
     script.values = options_.parameters;
     script.time = time;
+    script.fixed = true;
     Result<Scene> loaded =
         timed(report.total.stages, "script", [&] { return loadScene(options_.scene, script); });
     if (!loaded) return loaded.error();

@@ -1,0 +1,183 @@
+// Every input that cannot work: one line on stderr that says what to change, the right status, and no file.
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include "sdf2gltf.h"
+
+namespace sdf {
+namespace {
+
+constexpr int kUsage = 2, kScene = 3, kLimits = 4, kFiles = 5;
+
+class BadInput : public Sdf2gltf {
+ protected:
+  /// The program ends with `status` and one line in which every one of `words` is found.
+  void expectRefusal(const Outcome& outcome, int status, const std::vector<std::string>& words) const {
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_EQ(outcome.err.substr(0, 10), "sdf2gltf: ") << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.back(), '\n');
+    for (const std::string& word : words) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' is not in: " << outcome.err;
+    }
+    EXPECT_EQ(written(), std::vector<std::string>{});
+  }
+
+  void expectBadFlags(std::vector<std::string> flags, const std::vector<std::string>& words) {
+    std::vector<std::string> arguments{scene(kSphere), "-o", out("a.glb")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    SCOPED_TRACE(testing::PrintToString(flags));
+    expectRefusal(run(arguments), kUsage, words);
+  }
+
+  void expectBadScene(const std::string& text, const std::vector<std::string>& words, int status = kScene,
+                      std::vector<std::string> flags = {}) {
+    std::vector<std::string> arguments{scene(text), "-o", out("a.glb"), "--report", out("r.json")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    SCOPED_TRACE(text);
+    expectRefusal(run(arguments), status, words);
+  }
+};
+
+TEST_F(BadInput, MissingArgumentsAreNamed) {
+  expectRefusal(run({}), kUsage, {"--help"});
+  expectRefusal(run({"-o", out("a.glb")}), kUsage, {"SCENE", "--help"});
+  expectRefusal(run({scene(kSphere)}), kUsage, {"--output", "--help"});
+}
+
+TEST_F(BadInput, FlagsThatDoNotExistAreNamed) {
+  expectBadFlags({"--voxel"}, {"--voxel", "--help"});
+  expectBadFlags({"surplus.lua"}, {"surplus.lua"});
+  expectBadFlags({"--voxel-size"}, {"--voxel-size takes one value"});
+  expectBadFlags({"-o", out("b.glb")}, {"--output takes one value"});
+}
+
+TEST_F(BadInput, FlagsSayWhichValuesTheyTake) {
+  for (const char* size : {"0", "-1", "nan", "inf", "thin", "1mm", ""}) {
+    expectBadFlags({"--voxel-size", size},
+                   {"--voxel-size needs a number above 0, got '" + std::string(size) + "'"});
+  }
+  for (const char* bounds : {"1,2,3", "0,0,0,1,1,nan", "1,1,1,0,0,0", "0,0,0,1,1,1,", "0 0 0 1 1 1"}) {
+    expectBadFlags({"--bounds=" + std::string(bounds)},
+                   {"--bounds needs six numbers x0,y0,z0,x1,y1,z1", bounds});
+  }
+  expectBadFlags({"--time", "noon"}, {"--time needs a finite number", "noon"});
+  expectBadFlags({"--frames", "0"}, {"--frames needs a whole number from 1", "'0'"});
+  expectBadFlags({"--frames", "2.5"}, {"--frames", "2.5"});
+  expectBadFlags({"--frames", "2", "--fps", "0"}, {"--fps needs a number above 0"});
+  expectBadFlags({"--fps", "24"}, {"--frames"});
+  expectBadFlags({"--threads", "0"}, {"--threads needs a whole number from 1"});
+  expectBadFlags({"--max-memory", "-1"}, {"--max-memory needs a number above 0"});
+}
+
+TEST_F(BadInput, ParametersNeedANameAndAFiniteNumber) {
+  for (const char* word : {"k", "k=", "=1", "k=nan", "k=inf", "k=red", "k=1;2"}) {
+    expectBadFlags({"-D", word}, {"-D needs name=value with a finite number", word});
+  }
+  expectBadFlags({"-D", "k=1", "-D", "k=2"}, {"-D sets 'k' twice"});
+}
+
+TEST_F(BadInput, AParameterThatTheSceneLacksIsNamedWithThoseItHas) {
+  expectBadScene("param('size', 0.5) return sphere(1)", {"sise", "size"}, kScene, {"-D", "sise=1"});
+}
+
+TEST_F(BadInput, UnknownExtensionsAreAnsweredWithTheKnownOnes) {
+  expectRefusal(run({scene(kSphere), "-o", out("a.fbx")}), kUsage, {"'.fbx'", ".glb .gltf .stl .ply .obj"});
+  expectRefusal(run({scene(kSphere), "-o", out("a")}), kUsage, {"no extension", ".glb"});
+}
+
+TEST_F(BadInput, ASequenceNeedsOnePlaceForItsNumber) {
+  expectRefusal(run({scene(kSphere), "-o", out("a_%d_%04d.glb"), "--frames", "2"}), kUsage,
+                {"%d_%04d", "keep one"});
+}
+
+TEST_F(BadInput, MissingSceneFilesAreNamed) {
+  expectRefusal(run({out("none.lua"), "-o", out("a.glb")}), kFiles, {"none.lua", "cannot be read"});
+  expectRefusal(run({folder.path().string(), "-o", out("a.glb")}), kFiles, {"folder"});
+}
+
+TEST_F(BadInput, SceneErrorsNameFileAndLine) {
+  expectBadScene("return sphere(1", {"scene1.lua:1", "')' expected"});
+  expectBadScene("\nreturn spere(1)", {"scene2.lua:2", "spere"});
+  expectBadScene("return sphere('large')", {"scene3.lua:1", "sphere", "number", "large"});
+  expectBadScene("return sphere(-1)", {"scene4.lua:1", "sphere", "positive", "-1"});
+  expectBadScene("return sphere(0/0)", {"scene5.lua:1", "sphere", "finite", "NaN"});
+  expectBadScene("", {"scene6.lua", "empty", "part"});
+  expectBadScene("error('no\\nway')", {"no way"});
+}
+
+TEST_F(BadInput, SmoothnessMustBePositive) {
+  for (const char* k : {"0", "-1"}) {
+    expectBadScene(std::string("return union(sphere(1), box({1, 1, 1}), {k = ") + k + "})",
+                   {".lua:1", "union", "k", "positive", k});
+  }
+}
+
+TEST_F(BadInput, ParametersInTheSceneMustBeFinite) {
+  expectBadScene("local r = param('r', 0/0) return sphere(r)",
+                 {"scene1.lua:1", "param 'r'", "finite", "NaN"});
+}
+
+TEST_F(BadInput, NoSurfaceInTheBoundsIsSaid) {
+  expectBadScene(kSphere, {"bounds"}, kScene, {"--bounds", "5,5,5,6,6,6"});
+  expectBadScene("bounds({5, 5, 5}, {6, 6, 6}) return sphere(1)", {"bounds"});
+  expectBadScene("return sphere(1) & sphere(1):translate({9, 0, 0})", {"no surface"});
+}
+
+TEST_F(BadInput, UnboundedPartsAreNamed) {
+  expectBadScene("part('ball', sphere(1)) part('floor', plane({0, 1, 0}))", {"floor", "unbounded", "bounds"});
+}
+
+TEST_F(BadInput, TooSmallVoxelsAreRefusedBeforeTheWorkStarts) {
+  const Outcome outcome =
+      run({scene(kSphere), "-o", out("a.glb"), "--voxel-size", "1e-5", "--max-memory", "0.5"});
+  expectRefusal(outcome, kLimits, {"voxel", "GiB"});
+  constexpr double kAnEstimate =
+      5.0;  // seconds; filling half a GiB of voxels takes longer even where nothing else runs
+  EXPECT_LT(outcome.seconds, kAnEstimate);
+}
+
+TEST_F(BadInput, PartsThatDoNotExistAreAnsweredWithThoseThatDo) {
+  expectRefusal(run({scene(kTwoParts), "-o", out("a.glb"), "--only", "bal"}), kUsage,
+                {"'bal'", "ball, block"});
+}
+
+TEST_F(BadInput, TargetsThatCannotBeWrittenAreRefusedBeforeTheWorkStarts) {
+  const std::string slow = scene("return gyroid(40) & sphere(10)");
+  expectRefusal(run({slow, "-o", out("none/a.glb")}), kFiles,
+                {"none/a.glb", "No such file", "make the folder"});
+  expectRefusal(run({slow, "-o", out("a.glb"), "--report", out("none/r.json")}), kFiles, {"none/r.json"});
+  std::filesystem::create_directory(folder / "folder.glb");
+  expectRefusal(run({slow, "-o", (folder / "folder.glb").string()}), kFiles, {"Is a directory"});
+}
+
+TEST_F(BadInput, FoldersThatMayNotBeWrittenToAreRefused) {
+  using std::filesystem::perms;
+  const std::string ball = scene(kSphere);
+  Command command = BadInput::command({ball, "-o", out("a.glb")});
+  command.asNobody = true;
+  std::filesystem::permissions(
+      folder / "out", perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec);
+  const Outcome outcome = command.run();
+  std::filesystem::permissions(folder / "out", perms::owner_all);
+  expectRefusal(outcome, kFiles, {"Permission denied", "choose a folder that you may write to"});
+}
+
+TEST_F(BadInput, AFullDiskLeavesNothing) {
+  const std::string disk = out("");
+  if (::mount("none", disk.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "mounting needs root";
+  for (const char* name : {"a.glb", "a.gltf", "a.stl", "a.ply", "a.obj"}) {
+    expectRefusal(run({scene(kSphere), "-o", out(name)}), kFiles,
+                  {name, "No space left on device", "free some space"});
+  }
+  ::umount(disk.c_str());
+}
+
+TEST_F(BadInput, AFileBeyondTheSizeLimitLeavesNothing) {
+  Command command = BadInput::command({scene(kSphere), "-o", out("a.glb")});
+  command.fileSizeLimit = 10'000;
+  expectRefusal(command.run(), kFiles, {"a.glb", "File too large", "ulimit"});
+}
+
+}  // namespace
+}  // namespace sdf

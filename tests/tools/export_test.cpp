@@ -1,0 +1,200 @@
+// What the program writes and prints when all is well.
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <nlohmann/json.hpp>
+
+#include "sdf2gltf.h"
+
+namespace sdf {
+namespace {
+
+using Json = nlohmann::json;
+
+class Export : public Sdf2gltf {
+ protected:
+  void expectSuccess(const Outcome& outcome) {
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "");
+  }
+
+  Json report(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--report", out("report.json")});
+    expectSuccess(run(arguments));
+    return Json::parse(contents(out("report.json")));
+  }
+
+  /// The JSON chunk of a .glb, after its header of 12 bytes and the chunk's own of 8.
+  static Json glbJson(const std::string& file) {
+    const std::string bytes = contents(file);
+    std::uint32_t length = 0;
+    bytes.copy(reinterpret_cast<char*>(&length), 4, 12);
+    return Json::parse(bytes.substr(20, length));
+  }
+};
+
+TEST_F(Export, WritesOnlyTheFileAskedFor) {
+  const Outcome outcome = run({scene(kSphere), "-o", out("a.glb")});
+  expectSuccess(outcome);
+  EXPECT_EQ(written(), std::vector<std::string>{"a.glb"});
+}
+
+TEST_F(Export, PrintsATableOfPartsAndTotal) {
+  const Outcome outcome = run({scene(kTwoParts), "-o", out("a.glb")});
+  expectSuccess(outcome);
+  std::istringstream lines(outcome.out);
+  std::vector<std::string> words;
+  for (std::string line, word; std::getline(lines, line);) {
+    std::istringstream(line) >> word;
+    words.push_back(word);
+  }
+  EXPECT_EQ(words, (std::vector<std::string>{out("a.glb"), "part", "ball", "block", "total"}));
+}
+
+TEST_F(Export, PrintsNothingWhenQuiet) {
+  const Outcome outcome = run({scene(kSphere), "-o", out("a.glb"), "--quiet"});
+  expectSuccess(outcome);
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(Export, AnswersQuestions) {
+  const Outcome help = run({"--help"}), version = run({"--version"});
+  expectSuccess(help);
+  expectSuccess(version);
+  for (const char* flag : {"--output", "--voxel-size", "--bounds", "-D", "--time", "--frames", "--fps",
+                           "--only", "--report", "--threads", "--max-memory", "--quiet"}) {
+    EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
+  }
+  EXPECT_EQ(version.out.substr(0, 9), "sdf2gltf ");
+  EXPECT_EQ(std::count(version.out.begin(), version.out.end(), '\n'), 1);
+}
+
+TEST_F(Export, WritesPlainFormatsThatLoadBackClosed) {
+  const std::string ball = scene(kSphere);
+  for (const char* name : {"a.stl", "a.PLY", "a.obj"}) {
+    const Json total = report({ball, "-o", out(name), "--voxel-size", "0.1"})["outputs"][0]["total"];
+    OpenMesh::TriMesh_ArrayKernelT<> mesh;
+    ASSERT_TRUE(OpenMesh::IO::read_mesh(mesh, out(name))) << name;
+    EXPECT_EQ(mesh.n_faces(), total["triangles"]) << name;
+    EXPECT_EQ(mesh.n_vertices(), total["vertices"]) << name;
+    EXPECT_TRUE(std::none_of(mesh.halfedges_begin(), mesh.halfedges_end(),
+                             [&](auto h) { return mesh.is_boundary(h); }));
+  }
+}
+
+TEST_F(Export, ReportsEveryFigureOfEachPartAndInTotal) {
+  const Json all = report({scene(kTwoParts), "-o", out("a.glb"), "--voxel-size", "0.0625"});
+  EXPECT_EQ(all["outputs"].size(), 1u);
+  const Json& output = all["outputs"][0];
+  EXPECT_EQ(output["file"], out("a.glb"));
+  ASSERT_EQ(output["parts"].size(), 2u);
+  EXPECT_EQ(output["parts"][0]["name"], "ball");
+  EXPECT_EQ(output["parts"][1]["name"], "block");
+  std::vector<Json> lines(output["parts"].begin(), output["parts"].end());
+  lines.push_back(output["total"]);
+  for (const Json& line : lines) {
+    EXPECT_EQ(line["voxel_size"], 0.0625);
+    for (const char* key : {"seconds", "peak_memory_bytes", "voxels", "vertices", "triangles", "rms_distance",
+                            "max_distance"}) {
+      EXPECT_GT(line[key].get<double>(), 0.0) << key;
+    }
+    EXPECT_LE(line["rms_distance"], line["max_distance"]);
+    EXPECT_LT(line["max_distance"].get<double>(),
+              0.0625);  // vertices lie on the surface and edges are voxels long
+    EXPECT_EQ(line["watertight"], true);
+    EXPECT_EQ(line["manifold"], true);
+    EXPECT_FALSE(line["stage_seconds"].empty());
+  }
+  EXPECT_EQ(output["parts"][0]["components"], 1);
+  EXPECT_EQ(output["parts"][0]["euler_characteristic"], 2);
+  EXPECT_EQ(output["total"]["components"], 2);
+  EXPECT_EQ(output["total"]["euler_characteristic"], 4);
+  for (const char* stage : {"script", "writing"})
+    EXPECT_TRUE(output["total"]["stage_seconds"].contains(stage)) << stage;
+  double stages = 0.0;
+  for (const auto& [name, seconds] : output["total"]["stage_seconds"].items())
+    stages += seconds.get<double>();
+  EXPECT_LE(stages,
+            output["total"]["seconds"].get<double>() * (1.0 + 1e-12));  // sums of doubles, in another order
+}
+
+TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
+  const Json output = report({scene(kTwoParts), "-o", out("a.glb")})["outputs"][0];
+  // Both together reach from -1 to 2.5.
+  EXPECT_DOUBLE_EQ(output["parts"][0]["voxel_size"].get<double>(), 3.5 / 200);
+  EXPECT_DOUBLE_EQ(output["parts"][1]["voxel_size"].get<double>(), 3.5 / 200);
+}
+
+TEST_F(Export, GivesTheSameBytesForAnyNumberOfThreads) {
+  const std::string file = scene(kTwoParts);
+  for (const char* extension : {".glb", ".stl"}) {
+    std::vector<std::string> bytes;
+    for (const char* threads : {"1", "2", "7"}) {
+      const std::string name = out(std::string("t") + threads + extension);
+      expectSuccess(run({file, "-o", name, "--threads", threads}));
+      bytes.push_back(contents(name));
+    }
+    EXPECT_FALSE(bytes[0].empty());
+    EXPECT_TRUE(bytes[0] == bytes[1] && bytes[1] == bytes[2]) << extension;
+  }
+}
+
+TEST_F(Export, OnlyExportsThePartAskedFor) {
+  expectSuccess(run({scene(kTwoParts), "-o", out("a.glb"), "--only", "block"}));
+  const Json gltf = glbJson(out("a.glb"));
+  EXPECT_EQ(gltf["meshes"].size(), 1u);
+  EXPECT_EQ(gltf["nodes"][0]["name"], "block");
+}
+
+TEST_F(Export, ParametersChangeTheScene) {
+  const std::string file = scene("local r = param('r', 1, {min = 0.1, max = 3}) return sphere(r)");
+  const Json report = Export::report({file, "-o", out("a.glb"), "-D", "r=2", "--voxel-size", "0.25"});
+  EXPECT_EQ(report["parameters"]["r"], 2.0);
+  const Json position = glbJson(out("a.glb"))["accessors"][1];
+  EXPECT_NEAR(position["max"][0].get<double>(), 2.0, 0.25);
+}
+
+TEST_F(Export, BoundsClipTheSceneClosed) {
+  const Json total = report({scene("return plane({0, 1, 0})"), "-o", out("a.glb"), "--bounds",
+                             "-1,-1,-1,1,1,1", "--voxel-size", "0.1"})["outputs"][0]["total"];
+  EXPECT_EQ(total["watertight"], true);
+  EXPECT_EQ(total["euler_characteristic"], 2);
+}
+
+TEST_F(Export, FramesAreNumberedFilesAtTheirTimes) {
+  const std::string moving = scene("return sphere(1):translate({time, 0, 0})");
+  const Json report = Export::report({moving, "-o", out("a.glb"), "--frames", "3", "--fps", "2", "-t", "1"});
+  EXPECT_EQ(written(), (std::vector<std::string>{"a_0001.glb", "a_0002.glb", "a_0003.glb", "report.json"}));
+  ASSERT_EQ(report["outputs"].size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    const Json& output = report["outputs"][i];
+    EXPECT_EQ(output["time"], 1.0 + i / 2.0);
+    const double voxelSize = output["total"]["voxel_size"];
+    EXPECT_EQ(voxelSize, report["outputs"][0]["total"]["voxel_size"]);
+    const Json position = glbJson(output["file"])["accessors"][1];
+    EXPECT_NEAR(position["max"][0].get<double>(), 2.0 + i / 2.0, voxelSize);
+  }
+}
+
+TEST_F(Export, FramesTakeTheirPlaceInAPattern) {
+  const std::string file = scene(kSphere);
+  expectSuccess(run({file, "-o", out("b_%03d_%x.ply"), "--frames", "2", "--voxel-size", "0.5"}));
+  expectSuccess(run({file, "-o", out("%d.ply"), "--frames", "1", "--voxel-size", "0.5"}));
+  EXPECT_EQ(written(), (std::vector<std::string>{"1.ply", "b_001_%x.ply", "b_002_%x.ply"}));
+}
+
+TEST_F(Export, ShowsItsProgressOnATerminalOnly) {
+  const std::string file = scene(kTwoParts);
+  Command command = Export::command({file, "-o", out("a.glb"), "--voxel-size", "0.01"});
+  command.terminal = true;
+  const Outcome outcome = command.run();
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("part 'ball' (1 of 2): "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("part 'block' (2 of 2): "), std::string::npos);
+  EXPECT_EQ(outcome.err.find('\n'), std::string::npos);
+  EXPECT_EQ(outcome.err.substr(outcome.err.size() - 4), "\r\x1b[K");  // nothing stays on the line
+  command.words.push_back("--quiet");
+  EXPECT_EQ(command.run().err, "");
+}
+
+}  // namespace
+}  // namespace sdf

@@ -1,0 +1,32 @@
+// Every sample becomes a file that Khronos' glTF validator accepts.
+#include "sdf2gltf.h"
+
+namespace sdf {
+namespace {
+
+std::vector<std::filesystem::path> samples() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(SDF_SOURCE_DIR "/samples")) {
+    if (entry.path().extension() == ".lua") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class Validator : public Sdf2gltf, public testing::WithParamInterface<std::filesystem::path> {};
+
+TEST_P(Validator, AcceptsTheSample) {
+  const Outcome made = run({GetParam().string(), "-o", out("a.glb")});
+  ASSERT_EQ(made.status, 0) << made.err;
+  Command validate;
+  validate.words = {"/usr/bin/env", "node", SDF_SOURCE_DIR "/tests/gltf/validate.js", SDF_VALIDATOR_MODULES,
+                    out("a.glb")};
+  const Outcome verdict = validate.run();
+  EXPECT_EQ(verdict.status, 0) << verdict.out << verdict.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(, Validator, testing::ValuesIn(samples()),
+                         [](const auto& sample) { return sample.param.stem().string(); });
+
+}  // namespace
+}  // namespace sdf
