@@ -3,10 +3,20 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/eval/scalar_reading.h"
+
 namespace sdf {
 namespace {
 
 constexpr int kInside = 4;  // sample points inside a triangle
+
+// First-order distances above this share of a voxel are doubted: near a place where the gradient vanishes
+// they come out too large. There the surface is looked for along the gradient, up to kSearchVoxels to either
+// side.
+constexpr double kDoubtful = 0.5;
+constexpr double kSearchVoxels = 2.0;
+constexpr int kSearchSteps = 16;
+constexpr int kBisections = 20;
 
 glm::vec3 samplePoint(const std::vector<glm::vec3>& p, const glm::uvec3& t, int k) {
   const glm::vec3 centroid = (p[t.x] + p[t.y] + p[t.z]) / 3.0f;
@@ -16,6 +26,36 @@ glm::vec3 samplePoint(const std::vector<glm::vec3>& p, const glm::uvec3& t, int 
 float slopeOf(const LocalTapes& tapes) {
   const float l = tapes.distance->lipschitz();
   return std::isfinite(l) ? l : 1.0f;
+}
+
+// Distance from p to where f changes sign along a unit direction, at most `reach` away to either side;
+// infinite where it does not. Any point of the surface bounds the distance from above.
+double distanceAlong(const Tape& tape, const glm::dvec3& p, const glm::dvec3& direction, double reach) {
+  const bool inside = evaluate(tape, p) < 0.0;
+  for (int i = 1; i <= kSearchSteps; ++i)
+    for (const double side : {reach, -reach}) {
+      double near = side * (i - 1) / kSearchSteps, far = side * i / kSearchSteps;
+      if ((evaluate(tape, p + far * direction) < 0.0) == inside) continue;
+      for (int k = 0; k < kBisections; ++k) {
+        const double middle = (near + far) / 2.0;
+        ((evaluate(tape, p + middle * direction) < 0.0) == inside ? near : far) = middle;
+      }
+      return std::abs(far);
+    }
+  return kInfinity;
+}
+
+// |distance| of point i of a run.
+float distanceOf(const PointRun& run, const RunGradients& g, std::size_t i, const glm::vec3& p,
+                 double voxel) {
+  const float first = std::abs(g.distance(i, slopeOf(run.tapes)));
+  if (!(first > kDoubtful * voxel)) return first;
+  const glm::dvec3 gradient(g.gradient(i));
+  const double length = glm::length(gradient);
+  if (!(length > 0.0)) return first;
+  const double found =
+      distanceAlong(*run.tapes.distance, glm::dvec3(p), gradient / length, kSearchVoxels * voxel);
+  return std::min(first, static_cast<float>(found));
 }
 
 // Calls take(i, |distance|) for each of `count` points; points of one chunk in order, chunks in parallel.
@@ -31,7 +71,7 @@ void forEachDistance(std::size_t count, const Point& point, const NarrowBand& ba
     RunGradients g;
     g.evaluate(run, x, y, z);
     for (std::size_t i = 0; i < run.count; ++i)
-      take(run.first + i, std::abs(g.distance(i, slopeOf(run.tapes))));
+      take(run.first + i, distanceOf(run, g, i, {x[i], y[i], z[i]}, band.voxelSize()));
   });
 }
 

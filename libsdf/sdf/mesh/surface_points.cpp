@@ -30,17 +30,12 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
       const LocalTapes* t = finder.at(point(i));
       return t ? t : &fallback;
     };
-    std::size_t first = chunk * kRunChunk;
-    const LocalTapes* tapes = tapesOf(first);
-    while (first < end) {
+    for (std::size_t first = chunk * kRunChunk; first < end;) {
+      const LocalTapes* tapes = tapesOf(first);
       std::size_t next = first + 1;
-      const LocalTapes* nextTapes = nullptr;
-      while (next < end && next - first < kBatchPoints &&
-             (nextTapes = tapesOf(next))->surface == tapes->surface)
-        ++next;
+      while (next < end && next - first < kBatchPoints && tapesOf(next)->surface == tapes->surface) ++next;
       work({first, next - first, *tapes, evaluators.local()});
       first = next;
-      if (nextTapes) tapes = nextTapes;
     }
     progress.update(static_cast<double>(++done) / chunks);
   });

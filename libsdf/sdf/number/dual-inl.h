@@ -177,14 +177,14 @@ Dual<T, N> div(const Dual<T, N>& a, const Dual<T, N>& b) {
 }
 template <class T, int N>
 Dual<T, N> min(const Dual<T, N>& a, const Dual<T, N>& b) {
-  const T first = less(a.v, b.v);
+  const T first = lessEqual(a.v, b.v);
   Dual<T, N> r{min(a.v, b.v), {}};
   for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
   return r;
 }
 template <class T, int N>
 Dual<T, N> max(const Dual<T, N>& a, const Dual<T, N>& b) {
-  const T first = less(b.v, a.v);
+  const T first = lessEqual(b.v, a.v);
   Dual<T, N> r{max(a.v, b.v), {}};
   for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
   return r;

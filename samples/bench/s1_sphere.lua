@@ -1,0 +1,2 @@
+-- Measuring shape S1: a sphere.
+return sphere(1)
