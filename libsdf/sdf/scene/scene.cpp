@@ -17,6 +17,11 @@ void Scene::add(std::string name, Shape shape) {
   parts.push_back({std::move(name), std::move(shape)});
 }
 
+Expr Scene::parameter(std::string name, double value, double min, double max) {
+  parameters.push_back({std::move(name), value, min, max});
+  return Expr::parameter(parameters.back());
+}
+
 Shape Scene::whole() const {
   std::vector<Shape> shapes;
   for (const Part& part : parts) shapes.push_back(part.shape);
@@ -35,6 +40,11 @@ Result<Scene> checked(Scene scene) {
     if (part.shape.dimension != 3)
       return Error{ErrorKind::Scene, subject + " is flat; extrude or revolve it"};
   }
+  std::set<std::string> parameterNames;
+  for (const ParameterInfo& p : scene.parameters)
+    if (!parameterNames.insert(p.name).second)
+      return Error{ErrorKind::Scene,
+                   "parameter '" + p.name + "' is there twice; give each a name of its own"};
   return scene;
 }
 

@@ -77,6 +77,8 @@ struct Scene {
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);
+  /// A number that the user may change, for use in the scene's formulas. Each name once.
+  Expr parameter(std::string name, double value, double min = 0.0, double max = 1.0);
   /// All parts united, for the viewer and for readings that want one distance.
   Shape whole() const;
 };

@@ -45,6 +45,9 @@ void openCatalog(lua_State* L);
 /// Makes + - * / // % ^ work on formulas, and comparisons explain themselves.
 void openFormulaOperators(lua_State* L);
 
+/// Opens everything that a script can name, and nothing else. A lua_CFunction.
+int openLanguage(lua_State* L);
+
 /// A table of named fields: "camera{fov = 40}". Unknown names are refused.
 class Options {
  public:

@@ -77,7 +77,7 @@ void addEntry(std::string& out, const CatalogEntry& e) {
 }
 
 void addGroup(std::string& out, Group group, const std::string& title, const std::string& intro) {
-  out += "\n### " + title + "\n\n" + intro + "\n";
+  out += "\n### " + title + "\n" + (intro.empty() ? "" : "\n" + intro + "\n");
   for (const CatalogEntry& e : catalog())
     if (e.group == group) addEntry(out, e);
 }

@@ -1,6 +1,7 @@
 // Materials, parts, parameters, the camera, lights and everything else that is said once per scene.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <lua.hpp>
 
 #include "sdf/script/context.h"
@@ -110,11 +111,17 @@ int setReflections(lua_State* L) {
   return 0;
 }
 
+std::string numberText(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", v);
+  return text;
+}
+
 double positiveArgument(lua_State* L) {
   once(L);
   expectArguments(L, 1, 1);
   const double v = readPlainNumber(L, 1, subject(L));
-  if (!(v > 0.0)) raise(L, subject(L) + " must be positive, got " + std::to_string(v));
+  if (!(v > 0.0)) raise(L, subject(L) + " must be positive, got " + numberText(v));
   return v;
 }
 int setMaxDistance(lua_State* L) { return contextOf(L).scene.maxDistance = positiveArgument(L), 0; }
@@ -127,8 +134,33 @@ int setBounds(lua_State* L) {
   return 0;
 }
 
+const std::vector<FieldInfo>& materialFields() {
+  static const std::vector<FieldInfo> fields{
+      {"name", "text", "\"material N\"", "shown in the exported file"},
+      {"color", "colour", "0.8", "diffuse colour"},
+      {"ambient", "colour", "the colour", "answer to the ambient light"},
+      {"specular", "colour", "0", "colour of the highlight"},
+      {"shininess", "number or function", "32", "Phong exponent; larger is tighter"},
+      {"reflectivity", "number or function", "0",
+       "mirrors reflectivity * (fresnel_bias + (1 - cos)^fresnel_power) of the light, at most all of it"},
+      {"fresnel_power", "number or function", "0",
+       "larger: only grazing views mirror; cos is that of the angle between view and normal"},
+      {"fresnel_bias", "number or function", "0", "what is mirrored straight on as well"},
+      {"emission", "colour", "0", "light of its own"}};
+  return fields;
+}
+
+int newMaterial(lua_State* L);
+
+// The fields are the material's own, whichever function took them.
+const FunctionInfo& materialFunction() {
+  static const FunctionInfo info{"material", "material{color = c, shininess = 32}", "how a surface looks",
+                                 materialFields(), newMaterial};
+  return info;
+}
+
 MaterialPtr materialFrom(lua_State* L, int index) {
-  const Options o(L, index, runningFunction(L));
+  const Options o(L, index, materialFunction());
   Material m;
   m.name = o.text("name", m.name);
   m.color = o.color("color", m.color, Depends::OnPosition);
@@ -181,12 +213,6 @@ int addPart(lua_State* L) {
   return 1;
 }
 
-std::string numberText(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", v);
-  return text;
-}
-
 int newParameter(lua_State* L) {
   expectArguments(L, 2, 3);
   ScriptContext& context = contextOf(L);
@@ -217,20 +243,6 @@ int newParameter(lua_State* L) {
   return pushExpr(L, context.options.fixed ? Expr(p.value) : Expr::parameter(p)), 1;
 }
 
-const std::vector<FieldInfo>& materialFields() {
-  static const std::vector<FieldInfo> fields{
-      {"name", "text", "\"material N\"", "shown in the exported file"},
-      {"color", "colour", "0.8", "diffuse colour"},
-      {"ambient", "colour", "the colour", "answer to the ambient light"},
-      {"specular", "colour", "0", "colour of the highlight"},
-      {"shininess", "number or function", "32", "Phong exponent; larger is tighter"},
-      {"reflectivity", "number or function", "0", "share of mirrored light, 0 … 1"},
-      {"fresnel_power", "number or function", "0", "how fast reflection grows towards grazing views"},
-      {"fresnel_bias", "number or function", "0", "reflection when seen straight on"},
-      {"emission", "colour", "0", "light of its own"}};
-  return fields;
-}
-
 std::vector<FieldInfo> lightFields(FieldInfo vector) {
   return {std::move(vector),
           {"color", "colour", "1", "linear RGB"},
@@ -249,10 +261,11 @@ const std::vector<FunctionInfo>& settingLibrary() {
        "default",
        {{"min", "number", "0", "least value it is meant for"}, {"max", "number", "1", "greatest"}},
        newParameter},
-      {"material", "material{color = c, shininess = 32}", "how a surface looks", materialFields(),
-       newMaterial},
-      {"paint", "shape:paint(material)",
-       "the shape all in one material, given as a material, its fields, or only a colour", materialFields(),
+      materialFunction(),
+      {"paint",
+       "shape:paint(material)",
+       "the shape all in one material, given as a material, its fields, or only a colour",
+       {},
        paint},
       {"camera",
        "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}",

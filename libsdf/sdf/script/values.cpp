@@ -104,13 +104,14 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   constexpr std::size_t kLongestName = 40;
   std::string best;
   if (word.size() > kLongestName) return best;
-  std::size_t least = 1 + word.size() / 3;  // a third of the letters may be wrong
+  std::size_t allowed =
+      std::max<std::size_t>(1, word.size() / 3);  // a third of the letters may be wrong, not all
+  allowed = std::min(allowed + 1, word.size());
   for (const std::string& candidate : known) {
     const std::size_t d = candidate.size() > kLongestName ? kLongestName : distance(word, candidate);
-    if (d < least || (d == least && !best.empty() && candidate < best && d < word.size())) {
-      best = candidate;
-      least = d;
-    }
+    if (d >= allowed) continue;
+    best = candidate;
+    allowed = d;
   }
   return best;
 }

@@ -1,0 +1,244 @@
+// What scene files can say, and that it means what the C++ functions mean.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "script/run.h"
+#include "sdf/shape/catalog.h"
+#include "sdf/shape/flats.h"
+#include "sdf/shape/operators.h"
+#include "sdf/shape/solids.h"
+
+namespace sdf {
+namespace {
+
+/// The one shape that `expression` gives. Equal graphs are the same node, so shapes compare exactly.
+Expr distanceOf(const std::string& expression, const ScriptOptions& options = {}) {
+  const Scene scene = sceneOf("return " + expression, options);
+  return scene.parts.empty() ? Expr(NAN) : scene.parts[0].shape.distance;
+}
+
+void expectSame(const std::string& expression, const Shape& shape) {
+  ASSERT_TRUE(shape.ok()) << *shape.error;
+  EXPECT_TRUE(distanceOf(expression) == shape.distance) << expression;
+}
+
+TEST(Language, ArgumentsComeInOrderOrByNameOrBoth) {
+  for (const char* way :
+       {"torus(1, 0.2)", "torus{1, 0.2}", "torus{major = 1, minor = 0.2}", "torus{1, minor = 0.2}",
+        "torus(1, {minor = 0.2})", "torus({minor = 0.2, major = 1})"})
+    expectSame(way, torus(1.0, 0.2));
+  expectSame("torus()", torus(1.0, 0.25));
+  expectSame("torus{}", torus(1.0, 0.25));
+}
+
+TEST(Language, VectorsComeAsTablesAsNumbersInARowOrAsOneNumber) {
+  const Shape expected = roundBox({1.0, 2.0, 3.0}, 0.5);
+  for (const char* way : {"round_box({1, 2, 3}, 0.5)", "round_box(1, 2, 3, 0.5)", "round_box{1, 2, 3, 0.5}",
+                          "round_box{{1, 2, 3}, 0.5}", "round_box{half = {1, 2, 3}, radius = 0.5}",
+                          "round_box(1, 2, 3, {radius = 0.5})"})
+    expectSame(way, expected);
+  expectSame("round_box(2, 0.5)", roundBox(Expr(2.0), 0.5));
+  expectSame("capsule(0, 0, 0, 1, 2, 3, 0.5)", capsule(Expr(0.0), {1.0, 2.0, 3.0}, 0.5));
+  expectSame("rectangle(2, 1):extrude(1)", extrude(rectangle(2.0, 1.0), 1.0));
+  expectSame("segment{from = {0, 0}, to = {1, 2}, radius = 0.5}:extrude(1)",
+             extrude(segment({0.0, 0.0, 0.0}, {1.0, 2.0, 0.0}, 0.5), 1.0));
+}
+
+TEST(Language, ListsComeAsTablesOrInARow) {
+  const Shape a = sphere(1.0), b = box(Expr(1.0)), c = torus(2.0, 0.5);
+  for (const char* way :
+       {"union(sphere(1), box(1), torus(2, 0.5))", "union{sphere(1), box(1), torus(2, 0.5)}",
+        "sphere(1):union(box(1), torus(2, 0.5))", "sphere(1):union{box(1), torus(2, 0.5)}"})
+    expectSame(way, unite(std::vector{a, b, c}));
+  for (const char* way : {"union{sphere(1), box(1), k = 0.2}", "sphere(1):union(box(1), {k = 0.2})",
+                          "union(sphere(1), box(1), 0.2)", "union({sphere(1), box(1)}, 0.2)",
+                          "union(sphere(1), box(1), {k = 0.2, blend = \"quadratic\"})"})
+    expectSame(way, unite(a, b, Blend::quadratic(0.2)));
+  const glm::dvec2 corners[] = {{0, 0}, {1, 0}, {0, 1}};
+  for (const char* way : {"polygon{{0, 0}, {1, 0}, {0, 1}}", "polygon({0, 0}, {1, 0}, {0, 1})",
+                          "polygon({{0, 0}, {1, 0}, {0, 1}})", "polygon{points = {{0, 0}, {1, 0}, {0, 1}}}"})
+    expectSame(std::string(way) + ":extrude(1)", extrude(polygon(corners), 1.0));
+}
+
+TEST(Language, SignsCombineShapes) {
+  const Shape a = sphere(1.0), b = box(Expr(0.8));
+  expectSame("sphere(1) | box(0.8)", unite(a, b));
+  expectSame("sphere(1) & box(0.8)", intersect(a, b));
+  expectSame("sphere(1) - box(0.8)", subtract(a, b));
+  expectSame("sphere(1) ~ box(0.8)", exclude(a, b));
+}
+
+TEST(Language, EveryOperatorOfTheCatalogIsAMethodToo) {
+  for (const CatalogEntry& entry : catalog()) {
+    if (entry.parameters.front().kind != ArgumentKind::Shape &&
+        entry.parameters.front().kind != ArgumentKind::Shapes)
+      continue;
+    sceneOf("assert(sphere(1)." + entry.name + " == " + entry.name + ") return sphere(1)");
+  }
+}
+
+TEST(Language, RoundTakesShapesAndNumbers) {
+  expectSame("round(box(1), 0.1)", round(box(Expr(1.0)), 0.1));
+  EXPECT_EQ(numberOf("round(2.5) + round(3.5)"), 6.0);
+}
+
+TEST(Language, AFieldOfASpheresFormulaIsTheSphere) {
+  const Scene scene = sceneOf(
+      "return field(function(x, y, z) return length(x, y, z) - 1 end, "
+      "{bounds = {{-1, -1, -1}, {1, 1, 1}}, lipschitz = 1})");
+  const Shape& shape = scene.parts.at(0).shape;
+  EXPECT_TRUE(shape.distance == sphere(1.0).distance);
+  EXPECT_EQ(shape.bounds.min, glm::dvec3(-1.0));
+  EXPECT_EQ(shape.bounds.max, glm::dvec3(1.0));
+  EXPECT_EQ(shape.claim.lipschitz, 1.0);
+}
+
+TEST(Language, DisplaceTakesAFunctionInPlaceOfItsOwnPattern) {
+  expectSame("sphere(1):displace(function(x, y, z) return 0.1 * sin(5 * x) end)",
+             displace(sphere(1.0), 0.1 * sin(5.0 * position().x)));
+  expectSame("sphere(1):displace(0.1, 5)", displace(sphere(1.0), 0.1, 5.0));
+}
+
+// Every function gives the same on numbers, and on formulas whose parameters have these values. Both sides
+// are evaluated in double by the same functions; a sum of terms in another order may differ by a few ulps.
+TEST(Language, FunctionsAgreeOnNumbersAndOnFormulas) {
+  const char* calls[] = {"sin(a)",
+                         "cos(a)",
+                         "tan(a)",
+                         "asin(a / 4)",
+                         "acos(a / 4)",
+                         "atan(a)",
+                         "atan(a, b)",
+                         "exp(a)",
+                         "log(b)",
+                         "log(b, 2)",
+                         "sqrt(b)",
+                         "square(a)",
+                         "abs(a)",
+                         "sign(a)",
+                         "floor(a)",
+                         "ceil(a)",
+                         "round(a)",
+                         "fract(a)",
+                         "min(a, b, 1)",
+                         "max(a, b, 1)",
+                         "pow(b, a)",
+                         "mod(a, b)",
+                         "clamp(a, -b, b)",
+                         "mix(a, b, 0.25)",
+                         "step(a, b)",
+                         "smoothstep(-3, 3, a)",
+                         "less(a, b)",
+                         "less_equal(a, b)",
+                         "equal(a, b)",
+                         "select(less(a, b), a, b)",
+                         "length(a, b, 1)",
+                         "dot({a, b, 1}, {b, 2, 3})",
+                         "a + b",
+                         "a - b",
+                         "a * b",
+                         "a / b",
+                         "a % b",
+                         "a // b",
+                         "b ^ a",
+                         "a ^ 2",
+                         "a ^ 3",
+                         "a ^ 4",
+                         "-a",
+                         "math.sin(a)",
+                         "math.max(a, b)",
+                         "math.floor(a)",
+                         "noise(a, b, 1)"};
+  constexpr unsigned kSeed = 11;
+  constexpr double kUlps = 8.0;
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> any(-3.0, 3.0), positive(0.1, 3.0);
+  for (const char* call : calls) {
+    ScriptOptions options;
+    options.values = {{"a", any(random)}, {"b", positive(random)}};
+    const std::string numbers =
+        "local a, b = value(param('a', 0, {min = -3})), value(param('b', 1, {max = 3}))";
+    const std::string formulas = "local a, b = param('a', 0, {min = -3}), param('b', 1, {max = 3})";
+    const double plain = numberOf(call, numbers, options), formula = numberOf(call, formulas, options);
+    EXPECT_NEAR(plain, formula,
+                kUlps * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(plain)))
+        << call << " a = " << options.values["a"] << " b = " << options.values["b"] << " seed " << kSeed;
+  }
+}
+
+TEST(Language, WholeNumbersStayFitForCounting) {
+  sceneOf(
+      "for _, v in ipairs{floor(2.5), ceil(1.5), round(2.2), abs(-2), min(2, 3), max(1, 2), mod(5, 3)} do "
+      "assert(math.type(v) == 'integer' and v == 2) end return sphere(1)");
+}
+
+TEST(Language, AParameterCanBeSetFromOutside) {
+  const std::string text = "return sphere(param('r', 1, {min = 0.5, max = 2}))";
+  const Scene scene = sceneOf(text);
+  ASSERT_EQ(scene.parameters.size(), 1u);
+  EXPECT_EQ(scene.parameters[0], (ParameterInfo{"r", 1.0, 0.5, 2.0}));
+  ScriptOptions options;
+  options.values = {{"r", 1.5}};
+  EXPECT_EQ(at(sceneOf(text, options).parts.at(0).shape.distance, 3, 0, 0), 1.5);
+}
+
+TEST(Language, ARangeThatIsNotGivenHoldsTheDefault) {
+  EXPECT_EQ(sceneOf("param('a', 5) return sphere(1)").parameters.at(0), (ParameterInfo{"a", 5.0, 0.0, 5.0}));
+  EXPECT_EQ(sceneOf("param('a', -2) return sphere(1)").parameters.at(0),
+            (ParameterInfo{"a", -2.0, -2.0, 1.0}));
+}
+
+TEST(Language, AskingTwiceForAParameterGivesTheSame) {
+  const Scene scene = sceneOf("local a, b = param('r', 1), param('r', 1) return sphere(a), sphere(b)");
+  EXPECT_EQ(scene.parameters.size(), 1u);
+  EXPECT_TRUE(scene.parts.at(0).shape.distance == scene.parts.at(1).shape.distance);
+}
+
+TEST(Language, TimeIsAParameterOnlyWhereItIsNamed) {
+  EXPECT_TRUE(sceneOf("return sphere(1)").parameters.empty());
+  ScriptOptions options;
+  options.time = 2.5;
+  const Scene scene = sceneOf("local a = time return sphere(1 + time)", options);
+  ASSERT_EQ(scene.parameters.size(), 1u);
+  EXPECT_EQ(scene.parameters[0].name, "time");
+  EXPECT_EQ(at(scene.parts.at(0).shape.distance, 0, 0, 0), -3.5);
+}
+
+TEST(Language, ReturnedShapesArePartsWithoutNames) {
+  const Scene scene = sceneOf("part('ball', sphere(1)) return box(1), torus()");
+  ASSERT_EQ(scene.parts.size(), 3u);
+  EXPECT_EQ(scene.parts[0].name, "ball");
+  EXPECT_EQ(scene.parts[1].name, "part 2");
+  EXPECT_EQ(scene.parts[2].name, "part 3");
+}
+
+TEST(Language, PairsGoesThroughKeysInOrder) {
+  sceneOf(R"(
+    local t, seen = {zeta = 1, alpha = 2, [3] = 3, [1.5] = 4, [-1] = 5, mid = 6}, {}
+    for k, v in pairs(t) do seen[#seen + 1] = tostring(k) end
+    assert(table.concat(seen, ' ') == '-1 1.5 3 alpha mid zeta', table.concat(seen, ' '))
+    for k in pairs(t) do t[k] = nil end
+    for k in pairs(t) do error('left ' .. k) end
+    return sphere(1))");
+}
+
+TEST(Language, RandomNumbersAreTheSameEveryTime) {
+  const std::string text = "return sphere(1 + math.random())";
+  EXPECT_TRUE(sceneOf(text).parts.at(0).shape.distance == sceneOf(text).parts.at(0).shape.distance);
+}
+
+TEST(Language, XpcallHandsTheErrorToItsHandler) {
+  sceneOf(R"(
+    local ok, text = xpcall(function(a) error('no ' .. a, 0) end, function(m) return m .. '!' end, 'way')
+    assert(ok == false and text == 'no way!')
+    local fine, a, b = xpcall(function(...) return ... end, print, 1, 2)
+    assert(fine == true and a == 1 and b == 2)
+    return sphere(1))");
+}
+
+TEST(Language, AByteOrderMarkIsNoPartOfTheScene) { sceneOf("\xEF\xBB\xBFreturn sphere(1)"); }
+
+}  // namespace
+}  // namespace sdf

@@ -1,0 +1,224 @@
+// Scripts that mean harm, or only never end: each must come back with an error, soon, and with nothing
+// gained.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "script/run.h"
+
+namespace sdf {
+namespace {
+
+ScriptOptions fewInstructions() {
+  ScriptOptions options;
+  options.instructionLimit = 1'000'000;
+  return options;
+}
+
+ScriptOptions littleMemory() {
+  ScriptOptions options;
+  options.memoryLimit = 16u << 20;
+  return options;
+}
+
+const std::string kTooMany =
+    "scene.lua:1: ran more than 1 million instructions; look for an endless loop near line 1";
+const std::string kTooMuch = "needed more than 16 MiB of memory; look for what grows without end";
+
+TEST(Sandbox, EndlessLoopsEnd) {
+  for (const char* text : {
+           "while true do end",
+           "local function f() return f() end f()",
+           "repeat until false",
+           "for i = 1, math.huge do end",
+           "goto again ::again:: goto again",
+           "local t = setmetatable({}, {__index = function(t, k) return t[k + 1] end}) for i = 1, 1e9 do "
+           "pcall(function() "
+           "return t[1] end) end",
+           "table.sort({3, 2, 1}, function(a, b) while true do end end)",
+           "field(function(x) while true do end end)",
+           "sphere(1):paint{color = function() while true do end end}",
+           "tostring(setmetatable({}, {__tostring = function() while true do end end}))",
+       })
+    EXPECT_TRUE(errorOf(text, fewInstructions()).find("ran more than 1 million instructions") !=
+                std::string::npos)
+        << text;
+}
+
+TEST(Sandbox, TheMessageNamesTheLineOfTheLoop) {
+  EXPECT_EQ(errorOf("local n = 0\n\nwhile true do n = n + 1 end", fewInstructions()),
+            "scene.lua:3: ran more than 1 million instructions; look for an endless loop near line 3");
+}
+
+TEST(Sandbox, ALimitCannotBeCaught) {
+  for (const char* text : {
+           "while true do pcall(function() while true do end end) end",
+           "pcall(pcall, pcall, function() while true do end end) while true do end",
+           "xpcall(function() while true do end end, function() while true do end end)",
+           "xpcall(function() while true do end end, xpcall) while true do end",
+           "local function f() pcall(f) while true do end end f()",
+           "local a <close> = setmetatable({}, {__close = function() while true do end end}) while true do "
+           "end",
+           "pcall(error, setmetatable({}, {__tostring = function() while true do end end})) while true do "
+           "end",
+           "pcall(function() while true do end end) return sphere(1)",
+           "pcall(table.sort, {3, 2, 1}, function() while true do end end) return sphere(1)",
+       })
+    EXPECT_EQ(errorOf(text, fewInstructions()), kTooMany) << text;
+}
+
+TEST(Sandbox, MemoryIsBounded) {
+  for (const char* text : {
+           "local t = {} while true do t[#t + 1] = {} end",
+           "local s = 'x' while true do s = s .. s end",
+           "local t = {} for i = 1, 1e9 do t[i] = i end",
+           "local t = {} for i = 1, 1e9 do t[i] = 'text ' .. i end",
+           "local t = {} for i = 1, 22 do t[i] = 'xxxxxxxxxxxxxxxx' end while true do t[1] = table.concat(t) "
+           "t[2] = t[1] end",
+           "local s = 'x' while true do s = string.format('%s%s', s, s) end",
+           "local t = {} for i = 1, 1e9 do t[i] = function() return i end end",
+       })
+    EXPECT_EQ(errorOf(text, littleMemory()), "scene.lua:1: " + kTooMuch) << text;
+}
+
+TEST(Sandbox, AScriptMaySurviveTheRefusalOfMemory) {
+  const Scene scene = sceneOf(
+      "local ok, e = pcall(function() local s = 'x' while true do s = s .. s end end)"
+      "assert(not ok) return sphere(1)",
+      littleMemory());
+  EXPECT_EQ(scene.parts.size(), 1u);
+}
+
+TEST(Sandbox, GraphsCountAsMemory) {
+  // Each of these holds little in Lua itself.
+  for (const char* text : {
+           "local s = sphere(1) for i = 1, 100 do s = s | s:translate(i, 0, 0) end return s",
+           "local e = time for i = 1, 1e9 do e = sin(e) * e end return sphere(e)",
+           "local function f(x, n) for i = 1, n do x = sin(x) + cos(x) * i end return x end "
+           "field(function(x) return f(x, "
+           "1e9) end)",
+       }) {
+    const std::string message = errorOf(text, littleMemory());
+    EXPECT_TRUE(message.find("16 MiB of memory") != std::string::npos) << message << "\n" << text;
+    EXPECT_TRUE(message.starts_with("scene.lua:1: ")) << message << "\n" << text;
+  }
+}
+
+TEST(Sandbox, GraphsThatAreDroppedCostNothing) {
+  ScriptOptions options = littleMemory();
+  const Scene scene = sceneOf("for i = 1, 3e5 do local e = sin(time + i) end return sphere(1)", options);
+  EXPECT_EQ(scene.parts.size(), 1u);
+}
+
+TEST(Sandbox, WorkThatFewInstructionsAskForIsBoundedByTime) {
+  ScriptOptions options;
+  options.timeLimit = 0.2;
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(errorOf("local t = {} for i = 1, 1e5 do t[i] = i end\nwhile true do table.insert(t, 1, 1) end",
+                    options),
+            "scene.lua:2: ran longer than 0.2 seconds; look for a loop near line 2");
+  EXPECT_EQ(
+      errorOf(
+          "local t = {} for i = 1, 1e5 do t[i] = i end\nwhile true do pcall(table.move, t, 1, 1e5, 2) end",
+          options),
+      "scene.lua:2: ran longer than 0.2 seconds; look for a loop near line 2");
+  // The clock is read every thousand instructions, some two hundred of these copies of a tenth of a
+  // millisecond.
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(passed.count(), 20.0);
+}
+
+TEST(Sandbox, DeepRecursionEndsCleanly) {
+  const std::string advice = "look for a function that calls itself without end";
+  for (const char* text : {
+           "local function f() return 1 + f() end f()",
+           "local function f() return field(function() return f() end) end f()",
+           "local function f(...) return f(1, ...) + 1 end f()",
+           "local t = setmetatable({}, {}) getmetatable(t).__index = function(t, k) return t[k] + 1 end "
+           "return t.x",
+           "local function f() local ok, e = pcall(f) error(e, 0) end f()",
+       }) {
+    const std::string message = errorOf(text);
+    EXPECT_TRUE(message.find("overflow") != std::string::npos) << message << "\n" << text;
+  }
+  EXPECT_EQ(errorOf("local function f() return 1 + f() end f()"), "scene.lua:1: stack overflow; " + advice);
+  std::string nested = "return " + std::string(100'000, '(') + "1" + std::string(100'000, ')');
+  EXPECT_TRUE(errorOf(nested).find("overflow") != std::string::npos);
+}
+
+TEST(Sandbox, WhatReachesOutsideDoesNotExist) {
+  for (const char* name : {"io", "os", "require", "load", "loadfile", "dofile", "package", "coroutine",
+                           "debug", "collectgarbage", "warn", "unpack", "loadstring"})
+    EXPECT_EQ(errorOf(std::string("local a = ") + name),
+              std::string("scene.lua:1: unknown name '") + name +
+                  "'; a scene cannot reach files, the system or other code");
+  for (const char* name : {"string.find", "string.match", "string.gmatch", "string.gsub", "string.rep",
+                           "string.dump", "string.pack"})
+    EXPECT_NE(errorOf(std::string("local a = ") + name).find("unknown name"), std::string::npos) << name;
+  EXPECT_EQ(errorOf("local a = next"), "scene.lua:1: unknown name 'next'; go through a table with pairs");
+  EXPECT_EQ(errorOf("local a = _G"),
+            "scene.lua:1: unknown name '_G'; define it above, or see the scene language");
+}
+
+// Only what is listed here can be named; whatever else a later Lua brings stays out.
+TEST(Sandbox, NothingButTheLanguageCanBeNamed) {
+  sceneOf(R"(
+    local allowed = {}
+    for _, t in ipairs{
+      {'assert', 'error', 'ipairs', 'pairs', 'pcall', 'print', 'rawequal', 'rawget', 'rawlen', 'rawset', 'select',
+       'setmetatable', 'getmetatable', 'tonumber', 'tostring', 'type', 'xpcall', 'math', 'table', 'string', 'pi'},
+      {'material', 'param', 'part', 'paint', 'camera', 'directional_light', 'point_light', 'ambient', 'background', 'fog',
+       'shadows', 'ambient_occlusion', 'reflections', 'max_distance', 'gamma', 'bounds', 'field', 'value'},
+      {'color', 'checkerboard', 'gradient', 'vertical_gradient', 'sky', 'noise'},
+      {'sin', 'cos', 'tan', 'asin', 'acos', 'atan', 'exp', 'log', 'sqrt', 'square', 'pow', 'abs', 'sign', 'floor', 'ceil',
+       'round', 'fract', 'mod', 'min', 'max', 'clamp', 'mix', 'step', 'smoothstep', 'less', 'less_equal', 'equal',
+       'length', 'dot'},
+    } do for _, name in ipairs(t) do allowed[name] = true end end
+    for name in pairs(_ENV) do
+      local shape = rawget(_ENV, name)
+      assert(allowed[name] or type(shape) == 'function', name)
+    end
+    for _, name in ipairs{'byte', 'char', 'format', 'len', 'lower', 'reverse', 'sub', 'upper'} do allowed[name] = true end
+    for name in pairs(string) do assert(allowed[name], name) end
+    return sphere(1))");
+}
+
+TEST(Sandbox, MetatablesOfTheLanguageAreOutOfReach) {
+  sceneOf(R"(
+    for _, v in ipairs{sphere(1), time, material{}, '', _ENV, math, string} do assert(getmetatable(v) == false) end
+    for _, v in ipairs{_ENV, math, string, table} do assert(not pcall(setmetatable, v, {})) end
+    assert(not pcall(setmetatable, sphere(1), {}))
+    assert(not pcall(function() sphere(1).x = 1 end))
+    assert(not pcall(function() return time() end))
+    return sphere(1))");
+  EXPECT_EQ(errorOf("getmetatable('').__index = 1"), "scene.lua:1: attempt to index a boolean value");
+}
+
+// Finalizers run where instructions are not counted.
+TEST(Sandbox, FinalizersAreRefused) {
+  const std::string message = "scene.lua:1: setmetatable: scenes cannot have finalizers; remove __gc";
+  EXPECT_EQ(errorOf("setmetatable({}, {__gc = function() while true do end end})"), message);
+  EXPECT_EQ(errorOf("setmetatable({}, {__gc = true})"), message);
+  // Set later, it has no effect.
+  sceneOf(
+      "local m = {} local t = setmetatable({}, m) m.__gc = function() while true do end end t = nil "
+      "local junk = {} for i = 1, 1e5 do junk = {junk} end return sphere(1)");
+}
+
+TEST(Sandbox, ScriptsDoNotSeeEachOther) {
+  sceneOf("leak = 1 string.leak = 1 math.sin = nil return sphere(1)");
+  EXPECT_NE(errorOf("return leak").find("unknown name 'leak'"), std::string::npos);
+  EXPECT_NE(errorOf("return string.leak").find("unknown name 'string.leak'"), std::string::npos);
+  EXPECT_EQ(numberOf("math.sin(0)"), 0.0);
+}
+
+TEST(Sandbox, TooLittleMemoryToStartIsSaidSo) {
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{100}, std::size_t{5'000}}) {
+    ScriptOptions options;
+    options.memoryLimit = bytes;
+    EXPECT_NE(errorOf("return sphere(1)", options).find("MiB of memory"), std::string::npos) << bytes;
+  }
+}
+
+}  // namespace
+}  // namespace sdf
