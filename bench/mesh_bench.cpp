@@ -1,0 +1,108 @@
+#include "mesh_bench.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "dense.h"
+#include "sdf/mesh/color.h"
+#include "sdf/mesh/narrow_band.h"
+#include "shapes.h"
+
+namespace sdf::bench {
+namespace {
+
+constexpr int kResolution = 512;
+// Shapes that are meshed by both, with a bound on the slope of their distance: S4's is |(5, 5, 5)| √2 / 8
+// < 1.54.
+constexpr int kCompared = 5;
+constexpr double kSlope[kCompared] = {1.0, 1.0, 1.0, 1.54, 1.0};
+
+// From the shape to triangles, as the mesher does it.
+std::size_t meshSparsely(const Shape& shape, const Box& bounds, double voxelSize) {
+  const auto tape = std::make_shared<const Tape>(surfaceOutputs(shape));
+  const double slope = shape.claim.region.contains(bounds) ? shape.claim.lipschitz : kInfinity;
+  Progress progress;
+  Result<NarrowBand> band = sampleNarrowBand(tape, {voxelSize, bounds, slope, kInfinity}, progress);
+  if (!band) {
+    std::fprintf(stderr, "%s\n", band.error().message.c_str());
+    std::exit(1);
+  }
+  return band->extract().triangles.size();
+}
+
+Box region() { return Box::centred(glm::dvec3(kRegion)); }
+
+std::string sparseName(int i, int n) { return "mesh/" + shapeName(i) + "/" + std::to_string(n) + "/sparse"; }
+std::string denseName(int i, int n) { return "mesh/" + shapeName(i) + "/" + std::to_string(n) + "/dense"; }
+std::string ballsName(int count) { return "mesh/" + std::to_string(count) + " balls/256"; }
+
+template <class Work>
+void add(const std::string& name, int repetitions, const Work& work) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [work](benchmark::State& state) {
+                                 std::size_t triangles = 0;
+                                 for (auto _ : state) triangles = work();
+                                 state.counters["triangles"] = static_cast<double>(triangles);
+                               })
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond)
+      ->Repetitions(repetitions)
+      ->ReportAggregatesOnly();
+}
+
+void addSparse(int i, int n, int repetitions) {
+  add(sparseName(i, n), repetitions,
+      [shape = measuringShape(i), n] { return meshSparsely(shape, region(), 2.0 * kRegion / n); });
+}
+
+}  // namespace
+
+bool meshersAgree() {
+  constexpr int kCoarse = 128;
+  // A sample within rounding of zero may lie inside for one and outside for the other: a few cells in ten
+  // thousand.
+  constexpr double kShare = 1e-3;
+  bool all = true;
+  for (int i = 0; i < kCompared; ++i) {
+    const double sparse = meshSparsely(measuringShape(i), region(), 2.0 * kRegion / kCoarse);
+    const double dense = meshDensely(handwritten(i).row, kCoarse, kSlope[i]);
+    if (sparse > 0.0 && std::abs(sparse - dense) <= kShare * dense) continue;
+    std::fprintf(stderr, "%s at N = %d: %g triangles sparsely, %g densely\n", shapeName(i).c_str(), kCoarse,
+                 sparse, dense);
+    all = false;
+  }
+  return all;
+}
+
+void registerMeshing() {
+  constexpr int kSmooth = 2, kMany = 4;
+  for (int i = 0; i < kCompared; ++i) {
+    const int repetitions = i == kSmooth || i == kMany ? 3 : 7;  // the dense ones take seconds
+    addSparse(i, kResolution, 7);
+    add(denseName(i, kResolution), repetitions,
+        [i] { return meshDensely(handwritten(i).row, kResolution, kSlope[i]); });
+  }
+  for (const int i : {0, 1, kMany}) addSparse(i, kResolution / 2, 9), addSparse(i, kResolution * 2, 5);
+  for (const auto& [count, radius] : {std::pair{10, 0.6}, {1000, 0.06}})
+    add(ballsName(count), 9,
+        [shape = balls(count, radius)] { return meshSparsely(shape, shape.bounds, 2.0 * kRegion / 256); });
+}
+
+void addMeshingFigures(const Medians& medians, std::vector<Figure>& figures) {
+  constexpr double kGrowth = 4.6, kManyBalls = 4.0;
+  for (int i = 0; i < kCompared; ++i)
+    figures.push_back(
+        {"meshing " + shapeName(i) + ", N = 512: speed, dense baseline = 1", true, i == 4 ? 10.0 : 1.0,
+         medians.seconds(denseName(i, kResolution)) / medians.seconds(sparseName(i, kResolution))});
+  for (const int i : {0, 1, 4})
+    for (const int n : {kResolution / 2, kResolution})
+      figures.push_back({"meshing " + shapeName(i) + ", N = " + std::to_string(n) + " to " +
+                             std::to_string(2 * n) + ": times the cost",
+                         false, kGrowth,
+                         medians.seconds(sparseName(i, 2 * n)) / medians.seconds(sparseName(i, n))});
+  figures.push_back({"meshing, N = 256, 10 to 1000 balls of one total area: times the cost", false,
+                     kManyBalls, medians.seconds(ballsName(1000)) / medians.seconds(ballsName(10))});
+}
+
+}  // namespace sdf::bench

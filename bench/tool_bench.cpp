@@ -1,0 +1,102 @@
+#include "tool_bench.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "handwritten.h"
+#include "shapes.h"
+
+extern char** environ;
+
+namespace sdf::bench {
+namespace {
+
+const char* const kMetals = "sdf2gltf metals.lua";
+
+// A folder that goes with this object.
+class WorkFolder {
+ public:
+  WorkFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "sdf_bench_XXXXXX").string();
+    if (::mkdtemp(name.data())) path_ = name;
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::string operator/(const std::string& file) const { return (path_ / file).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Runs the exporter to its end; true if it succeeded.
+bool run(std::vector<std::string> words) {
+  words.insert(words.begin(), SDF2GLTF);
+  std::vector<char*> arguments;
+  for (std::string& w : words) arguments.push_back(w.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  int status = -1;
+  if (::posix_spawn(&child, SDF2GLTF, nullptr, nullptr, arguments.data(), environ) != 0) return false;
+  return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+std::string sample(const std::string& name) { return SDF_SAMPLES "/" + name; }
+
+// Peak memory in MB of an export at N = 512, as the exporter reports it; NaN if it fails.
+double peakMegabytes(const std::string& scene) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const WorkFolder folder;
+  const std::string report = folder / "report.json";
+  const std::string voxel = std::to_string(2.0 * kRegion / 512);
+  if (!run({scene, "-o", folder / "out.glb", "--quiet", "--voxel-size", voxel, "--report", report}))
+    return kNone;
+  std::ifstream in(report);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  const nlohmann::json::json_pointer peak("/outputs/0/total/peak_memory_bytes");
+  return json.contains(peak) ? json[peak].get<double>() * 1e-6 : kNone;
+}
+
+// The scene in samples/bench that belongs to a shape: its name begins with the shape's.
+std::string sceneOf(int i) {
+  const std::string start = "s" + std::to_string(i + 1) + "_";
+  std::error_code ignored;
+  for (const auto& file : std::filesystem::directory_iterator(sample("bench"), ignored))
+    if (file.path().filename().string().starts_with(start)) return file.path();
+  return sample("bench/" + start);
+}
+
+}  // namespace
+
+void registerTool() {
+  benchmark::RegisterBenchmark(kMetals,
+                               [](benchmark::State& state) {
+                                 const WorkFolder folder;
+                                 for (auto _ : state)
+                                   if (!run({sample("metals.lua"), "-o", folder / "metals.glb", "--quiet"}))
+                                     state.SkipWithError("the export failed");
+                               })
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond)
+      ->Repetitions(7)
+      ->ReportAggregatesOnly();
+}
+
+void addToolFigures(const Medians& medians, std::vector<Figure>& figures) {
+  constexpr double kSeconds = 0.5, kMegabytes = 500.0;
+  for (int i = 0; i < kShapes; ++i)
+    figures.push_back({"peak memory of sdf2gltf, " + shapeName(i) + ", N = 512: MB", false, kMegabytes,
+                       peakMegabytes(sceneOf(i))});
+  figures.push_back({"sdf2gltf metals.lua: seconds", false, kSeconds, medians.seconds(kMetals)});
+}
+
+}  // namespace sdf::bench
