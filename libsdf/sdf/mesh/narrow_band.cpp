@@ -344,34 +344,19 @@ void appendQuad(const openvdb::Vec4I& q, RawSurface& surface) {
 }  // namespace
 
 RawSurface NarrowBand::extract() {
-  openvdb::tools::VolumeToMesh extractor(0.0);
-  extractor(*grid_->grid);
+  std::vector<openvdb::Vec3s> points;
+  std::vector<openvdb::Vec3I> triangles;
+  std::vector<openvdb::Vec4I> quads;
+  // The free function is compiled into OpenVDB; the VolumeToMesh class would be compiled here, at great length.
+  openvdb::tools::volumeToMesh(*grid_->grid, points, triangles, quads, 0.0, 0.0);
   grid_->grid.reset();
   RawSurface surface;
-  const std::size_t points = extractor.pointListSize();
-  surface.points.reserve(points);
-  for (std::size_t i = 0; i < points; ++i) {
-    const openvdb::Vec3s& p = extractor.pointList()[i];
-    surface.points.emplace_back(p.x(), p.y(), p.z());
-  }
-  extractor.pointList().reset();
-  std::size_t triangles = 0;
-  const std::size_t pools = extractor.polygonPoolListSize();
-  for (std::size_t n = 0; n < pools; ++n) {
-    const auto& pool = extractor.polygonPoolList()[n];
-    triangles += pool.numTriangles() + 2 * pool.numQuads();
-  }
-  surface.triangles.reserve(triangles);
-  for (std::size_t n = 0; n < pools; ++n) {
-    auto& pool = extractor.polygonPoolList()[n];
-    for (std::size_t i = 0; i < pool.numTriangles(); ++i) {
-      const openvdb::Vec3I& t = pool.triangle(i);
-      surface.triangles.emplace_back(t[0], t[1], t[2]);
-    }
-    for (std::size_t i = 0; i < pool.numQuads(); ++i) appendQuad(pool.quad(i), surface);
-    pool.clearQuads();
-    pool.clearTriangles();
-  }
+  surface.points.reserve(points.size());
+  for (const openvdb::Vec3s& p : points) surface.points.emplace_back(p.x(), p.y(), p.z());
+  std::vector<openvdb::Vec3s>().swap(points);
+  surface.triangles.reserve(triangles.size() + 2 * quads.size());
+  for (const openvdb::Vec3I& t : triangles) surface.triangles.emplace_back(t[0], t[1], t[2]);
+  for (const openvdb::Vec4I& q : quads) appendQuad(q, surface);
   return surface;
 }
 
