@@ -9,9 +9,9 @@
 namespace sdf {
 namespace {
 
-// How far a copied vertex looks into its own material's triangles for its colour, as a share of the way to
-// their centroids.
-constexpr float kBorderShift = 0.05f;
+// How far a vertex on a border looks into a triangle of its own material for its colour, as a share of the
+// way to the centroid, where the material is known: no farther than it must.
+constexpr float kBorderShifts[] = {0.05f, 0.3f, 1.0f};
 constexpr std::size_t kMaterialSamples = 64;
 
 float unit(float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f; }
@@ -48,17 +48,20 @@ SurfaceSamples sampleSurface(std::size_t count, const Point& point, const Normal
   return s;
 }
 
-// Indices of the shape's materials that occur, and each triangle's place among them.
-void assignMaterials(const Shape& shape, const std::vector<int>& ids, Mesh& mesh) {
+// The shape's materials that occur, and each triangle's place among them. Returns their ids by place.
+std::vector<int> assignMaterials(const Shape& shape, const std::vector<int>& ids, Mesh& mesh) {
   std::map<int, std::uint32_t> placeOf;
+  std::vector<int> idAt;
   for (const int id : ids) placeOf.emplace(id, 0);
   for (const MaterialPtr& m : shape.materials)
     if (const auto it = placeOf.find(m->id); it != placeOf.end()) {
       it->second = static_cast<std::uint32_t>(mesh.materials.size());
       mesh.materials.push_back({m->name, {}, {}, {}, {}, {}});
+      idAt.push_back(m->id);
     }
   mesh.triangleMaterial.resize(ids.size());
   for (std::size_t t = 0; t < ids.size(); ++t) mesh.triangleMaterial[t] = placeOf[ids[t]];
+  return idAt;
 }
 
 void orderByMaterial(Mesh& mesh) {
@@ -77,15 +80,15 @@ void orderByMaterial(Mesh& mesh) {
   mesh.triangleMaterial = std::move(materials);
 }
 
-// Where a border vertex takes its colour: a little way into the triangles of its own material.
+// A vertex where materials meet, as one of them sees it.
 struct BorderPoint {
   std::uint32_t vertex;
-  glm::vec3 sum{0.0f};
-  float count = 0.0f;
+  std::uint32_t material;
+  glm::vec3 inside;  // centroid of one of the material's triangles
 };
 
-// Gives each material its own copy of the vertices that it shares with an earlier one. Returns where all
-// vertices of borders, originals included, are to be coloured.
+// Gives each material its own copy of the vertices that it shares with an earlier one. Returns all vertices
+// of borders, originals included.
 std::vector<BorderPoint> splitBorders(Mesh& mesh) {
   constexpr std::uint32_t kNone = ~0u;
   std::vector<std::uint32_t> owner(mesh.positions.size(), kNone);
@@ -115,15 +118,29 @@ std::vector<BorderPoint> splitBorders(Mesh& mesh) {
           mesh.normals.push_back(glm::vec3(mesh.normals[v]));
           mesh.copyOf.push_back(v);
         }
-        points.push_back({place});
+        points.push_back({place, material, middle});
       }
-      BorderPoint& p = points[it->second];
-      p.sum += middle;
-      p.count += 1.0f;
-      mesh.triangles[t][k] = p.vertex;
+      mesh.triangles[t][k] = points[it->second].vertex;
     }
   }
   return points;
+}
+
+// Colours the vertices of borders, each where its own material is seen.
+void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt, const NarrowBand& band,
+                  const LocalTapes& fallback, Progress& progress, Mesh& mesh) {
+  for (const float shift : kBorderShifts) {
+    const SurfaceSamples s = sampleSurface(
+        points.size(),
+        [&](std::size_t i) { return glm::mix(mesh.positions[points[i].vertex], points[i].inside, shift); },
+        [&](std::size_t i) { return mesh.normals[points[i].vertex]; }, band, fallback, progress);
+    std::vector<BorderPoint> elsewhere;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      mesh.colors[points[i].vertex] = s.colors[i];
+      if (s.ids[i] != idAt[points[i].material]) elsewhere.push_back(points[i]);
+    }
+    points = std::move(elsewhere);
+  }
 }
 
 // Averages of the attributes that a glTF material holds as single numbers, over some of the material's
@@ -171,14 +188,16 @@ void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fal
                Mesh& mesh) {
   auto normalOf = [&](std::size_t i) { return mesh.normals[i]; };
   const Expr& id = shape.surface[static_cast<int>(Attribute::MaterialId)];
+  std::vector<int> idAt;
   if (id.isConstant()) {
-    assignMaterials(shape, std::vector<int>(mesh.triangles.size(), static_cast<int>(id.constantValue())),
-                    mesh);
+    idAt = assignMaterials(
+        shape, std::vector<int>(mesh.triangles.size(), static_cast<int>(id.constantValue())), mesh);
   } else {
     const auto atCentroids = sampleSurface(
         mesh.triangles.size(), [&](std::size_t t) { return centroid(mesh, mesh.triangles[t]); },
         [&](std::size_t t) { return mesh.normals[mesh.triangles[t].x]; }, band, fallback, progress);
-    assignMaterials(shape, atCentroids.ids, mesh);
+    if (progress.stopped()) return;  // not every triangle has a material
+    idAt = assignMaterials(shape, atCentroids.ids, mesh);
     orderByMaterial(mesh);
   }
   mesh.colors = sampleSurface(
@@ -186,16 +205,9 @@ void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fal
                     fallback, progress)
                     .colors;
   if (mesh.materials.size() > 1) {
-    const std::vector<BorderPoint> border = splitBorders(mesh);
+    std::vector<BorderPoint> border = splitBorders(mesh);
     mesh.colors.resize(mesh.positions.size());
-    auto place = [&](std::size_t i) {
-      const BorderPoint& b = border[i];
-      return glm::mix(mesh.positions[b.vertex], b.sum / b.count, kBorderShift);
-    };
-    const auto own = sampleSurface(
-        border.size(), place, [&](std::size_t i) { return normalOf(border[i].vertex); }, band, fallback,
-        progress);
-    for (std::size_t i = 0; i < border.size(); ++i) mesh.colors[border[i].vertex] = own.colors[i];
+    colorBorders(std::move(border), idAt, band, fallback, progress, mesh);
   }
   resolveMaterials(shape, mesh);
 }

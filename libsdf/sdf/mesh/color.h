@@ -13,7 +13,7 @@ std::vector<Expr> surfaceOutputs(const Shape& shape);
 
 /// Fills colors, triangleMaterial and materials, orders the triangles by material, and repeats vertices where
 /// materials meet (copyOf), each copy coloured on its own side of the border. positions, normals, triangles
-/// and welded are given.
+/// and welded are given. Once progress is stopped the mesh may be left unfinished.
 void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
                Mesh& mesh);
 

@@ -18,12 +18,13 @@ namespace {
 constexpr double kDefaultResolution = 200.0;  // voxels along the longest side
 constexpr double kPadding = 2.0;              // voxels between the bounds and the first sample beyond
 
+// "y", "x and z", "x, y and z".
 std::string unboundedAxes(const Box& b) {
-  std::string axes;
-  for (int axis = 0; axis < 3; ++axis)
+  std::string text;
+  for (int axis = 2, left = 0; axis >= 0; --axis)
     if (std::isinf(b.min[axis]) || std::isinf(b.max[axis]))
-      axes += (axes.empty() ? "" : axes.size() == 1 ? " and " : ", ") + std::string(1, "xyz"[axis]);
-  return axes;
+      text = "xyz"[axis] + std::string(left == 0 ? "" : left == 1 ? " and " : ", ") + text, ++left;
+  return text;
 }
 
 Error sceneError(const std::string& name, const std::string& what) {

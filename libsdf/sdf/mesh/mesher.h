@@ -15,7 +15,7 @@ namespace sdf {
 
 struct MeshOptions {
   double voxelSize = 0.0;                  ///< scene units; 0 takes 1/200 of the longest side of the bounds
-  std::optional<Box> bounds;               ///< clips the shape, closed and watertight
+  std::optional<Box> bounds{};             ///< clips the shape, closed and watertight
   double maxMemory = 16.0 * (1ull << 30);  ///< bytes; refused (ErrorKind::Limits) if the estimate is above
 };
 

@@ -56,11 +56,13 @@ struct CoordHash {
   std::size_t operator()(const openvdb::Coord& c) const { return c.hash<20>(); }
 };
 
-std::string gigabytes(double bytes) {
+std::string shown(double number) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", bytes / (1ull << 30));
+  std::snprintf(text, sizeof text, "%.3g", number);
   return text;
 }
+
+std::string gigabytes(double bytes) { return shown(bytes / (1ull << 30)); }
 
 }  // namespace
 
@@ -116,9 +118,8 @@ class BandSampler {
   }
 
   Status tooLarge(double bytes) const {
-    return Error{ErrorKind::Limits, "a voxel size of " + std::to_string(h_) + " needs about " +
-                                        gigabytes(bytes) + " GiB, more than the limit of " +
-                                        gigabytes(options_.maxMemory) +
+    return Error{ErrorKind::Limits, "a voxel size of " + shown(h_) + " needs about " + gigabytes(bytes) +
+                                        " GiB, more than the limit of " + gigabytes(options_.maxMemory) +
                                         " GiB; take a larger voxel size, smaller bounds or a higher limit"};
   }
 
@@ -347,7 +348,8 @@ RawSurface NarrowBand::extract() {
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
   std::vector<openvdb::Vec4I> quads;
-  // The free function is compiled into OpenVDB; the VolumeToMesh class would be compiled here, at great length.
+  // The free function is compiled into OpenVDB; the VolumeToMesh class would be compiled here, at great
+  // length.
   openvdb::tools::volumeToMesh(*grid_->grid, points, triangles, quads, 0.0, 0.0);
   grid_->grid.reset();
   RawSurface surface;

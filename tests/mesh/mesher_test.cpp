@@ -1,0 +1,267 @@
+#include "sdf/mesh/mesher.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <cstring>
+
+#include "mesh/scenes.h"
+#include "sdf/eval/batch.h"
+
+namespace sdf::test {
+namespace {
+
+const std::vector<std::string> kStages{"bounds",     "sampling",  "extraction",
+                                       "projection", "measuring", "colouring"};
+
+Result<MeshedShape> tryMesh(const Shape& shape, const MeshOptions& options) {
+  Progress progress;
+  return meshShape(shape, "floor", options, progress);
+}
+MeshedShape meshed(const Shape& shape, const MeshOptions& options) { return tryMesh(shape, options).value(); }
+
+Shape ground() { return plane({0.0, 1.0, 0.0}, 0.0); }
+
+Shape paintedPair() {
+  return translate(sphere(0.5), {-0.3, 0.0, 0.0}).paint({.color = {1.0, 0.0, 0.0}}) |
+         translate(sphere(0.4), {0.3, 0.1, 0.0}).paint({.color = {0.0, 0.0, 1.0}});
+}
+
+TEST(FindBounds, KeepsWhatAShapeKnows) {
+  const Box b = findBounds(translate(box({1.0, 2.0, 3.0}), {5.0, 0.0, 0.0}));
+  EXPECT_EQ(b.min, glm::dvec3(4.0, -2.0, -3.0));
+  EXPECT_EQ(b.max, glm::dvec3(6.0, 2.0, 3.0));
+}
+
+TEST(FindBounds, FindsAFieldsExtentByIntervals) {
+  const Box b = findBounds(latticeBall());
+  ASSERT_TRUE(b.finite());
+  // The search ends at the power of two beyond, 2; then each side is bisected eight times over at most 4.
+  const double step = 4.0 / 256;
+  EXPECT_TRUE(region(1.5 + step).contains(b));
+  // The lattice reaches the ball somewhere near each axis: samples of the solid must lie within.
+  const Tape tape(latticeBall().distance);
+  BatchEvaluator batch;
+  Box seen;
+  const int n = 100;
+  std::vector<float> x(n), y(n), z(n), f(n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      auto at = [](int k) { return static_cast<float>(-1.6 + 3.2 * (k + 0.5) / n); };
+      for (int k = 0; k < n; ++k) x[k] = at(i), y[k] = at(j), z[k] = at(k);
+      batch.evaluate(tape, {.x = x.data(), .y = y.data(), .z = z.data()}, n, f.data());
+      for (int k = 0; k < n; ++k)
+        if (f[k] < 0.0f) seen = unite(seen, {{x[k], y[k], z[k]}, {x[k], y[k], z[k]}});
+    }
+  ASSERT_FALSE(seen.empty());
+  EXPECT_TRUE(b.contains(seen));
+}
+
+TEST(FindBounds, FindsAFieldFarFromTheOrigin) {
+  const Vec3E p = position() - Vec3E(300.0, -7.0, 0.0);
+  const Box b = findBounds(field(dot(p, p) - 1.0));
+  const Box truth{{299.0, -8.0, -1.0}, {301.0, -6.0, 1.0}};
+  ASSERT_TRUE(b.finite());
+  EXPECT_TRUE(b.contains(truth));
+}
+
+TEST(FindBounds, LeavesOpenSidesOpen) {
+  const Box half = findBounds(ground());
+  EXPECT_EQ(half.min, glm::dvec3(-kInfinity));
+  EXPECT_EQ(half.max.x, kInfinity);
+  EXPECT_EQ(half.max.z, kInfinity);
+  EXPECT_FALSE(findBounds(gyroid(1.0, 0.1)).finite());
+  const Vec3E p = position();
+  const Box column = findBounds(field(length(p.x, p.z) - 1.0));
+  EXPECT_TRUE(std::isinf(column.min.y) && std::isinf(column.max.y));
+  EXPECT_TRUE(std::isfinite(column.min.x) && std::isfinite(column.max.z));
+}
+
+TEST(FindBounds, AnIntersectionIsAsSmallAsItsParts) {
+  EXPECT_TRUE(region(1.0).contains(findBounds(gyroid(1.0, 0.1) & box(Vec3E(1.0)))));
+  EXPECT_TRUE(region(1.0).contains(findBounds(ground() & sphere(1.0))));
+}
+
+TEST(MeshShape, MeasuresWhatItMade) {
+  const double r = 1.0;
+  const MeshedShape m = meshed(sphere(r), {});
+  const MeshStats& s = m.stats;
+  EXPECT_DOUBLE_EQ(s.voxelSize, 2.0 * r / 200.0) << "the longest side in 200 voxels";
+  EXPECT_EQ(s.triangles, m.mesh.triangles.size());
+  EXPECT_EQ(s.vertices, m.mesh.welded);
+  EXPECT_EQ(m.mesh.triangleMaterial.size(), m.mesh.triangles.size());
+  EXPECT_TRUE(s.watertight && s.manifold);
+  EXPECT_EQ(s.components, 1);
+  EXPECT_EQ(s.eulerCharacteristic, 2);
+  EXPECT_GT(s.voxels, s.vertices);
+  // Vertices lie on the sphere; triangles, with corners up to 3h apart, sag by no more than 3/2 h² / r.
+  const double sag = 1.5 * s.voxelSize * s.voxelSize / r, rounding = 16.0 * kRoundoff;
+  EXPECT_LE(s.maxDistance, sag + rounding);
+  EXPECT_LE(s.rmsDistance, s.maxDistance);
+  // A triangle of n on an area of 4 pi r² has its centroid below the sphere by about its area / (3 sqrt(3) r)
+  // or more, which an equilateral one attains; half of it allows for the samples nearer to the corners.
+  const double area = 4.0 * kPi * r * r / static_cast<double>(s.triangles);
+  EXPECT_GE(s.maxDistance, 0.5 * area / (3.0 * std::sqrt(3.0) * r));
+  EXPECT_NEAR(signedVolume(m.mesh.positions, m.mesh.triangles), 4.0 / 3.0 * kPi, 4.0 * kPi * sag);
+}
+
+TEST(MeshShape, TellsItsStagesAndTheirTimes) {
+  struct Recorder : Progress {
+    std::vector<std::string> stages;
+    std::atomic<bool> sound{true};
+    void beginStage(std::string_view name) override { stages.emplace_back(name); }
+    void update(double f) override {
+      if (!(f >= 0.0 && f <= 1.0)) sound = false;
+    }
+  } progress;
+  const auto start = std::chrono::steady_clock::now();
+  const auto m = meshShape(paintedPair(), "part", {.voxelSize = 1.0 / 32}, progress);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  ASSERT_TRUE(m.ok());
+  EXPECT_EQ(progress.stages, kStages);
+  EXPECT_TRUE(progress.sound);
+  double sum = 0.0;
+  std::vector<std::string> names;
+  for (const auto& [name, seconds] : m->stageSeconds) {
+    names.push_back(name);
+    EXPECT_GE(seconds, 0.0);
+    sum += seconds;
+  }
+  EXPECT_EQ(names, kStages);
+  EXPECT_LE(sum, wall.count());
+}
+
+TEST(MeshShape, RefusesAnUnboundedShapeAndNamesItsAxes) {
+  struct Case {
+    Shape shape;
+    const char* axes;
+  };
+  for (const Case& c :
+       {Case{ground(), "unbounded in x, y and z"}, Case{infiniteCylinder(1.0), "unbounded in y;"},
+        Case{repeatGrid(sphere(0.3), {1.0, 0.0, 1.0}), "unbounded in x and z;"}}) {
+    const auto m = tryMesh(c.shape, {});
+    ASSERT_FALSE(m.ok());
+    EXPECT_EQ(m.error().kind, ErrorKind::Scene);
+    EXPECT_NE(m.error().message.find("part 'floor'"), std::string::npos) << m.error().message;
+    EXPECT_NE(m.error().message.find(c.axes), std::string::npos) << m.error().message;
+  }
+}
+
+TEST(MeshShape, ClipsToTheBoundsClosedAndWatertight) {
+  const Box clip{{-1.03, -0.71, -0.9}, {0.97, 0.8, 1.0}};
+  const glm::dvec3 size = clip.size();
+  const double h = 1.0 / 32, whole = size.x * size.y * size.z;
+  const double balls = 4.0 / 3.0 * kPi * 0.2 * 0.2 * 0.2;
+  struct Case {
+    const char* name;
+    Shape shape;
+    double volume;
+    int components;
+  };
+  // Lattice of balls: those at x, z in {-0.5, 0, 0.5}, y in {-0.5, 0, 0.5}, and at x = -1, z = 1 in part.
+  for (const Case& c : {Case{"plane", ground(), size.x * 0.71 * size.z, 1},
+                        Case{"sphere around it all", sphere(9.0), whole, 1},
+                        Case{"endless lattice", repeatGrid(sphere(0.2), Vec3E(0.5)), 0.0, 0}}) {
+    SCOPED_TRACE(c.name);
+    const MeshedShape m = meshed(c.shape, {.voxelSize = h, .bounds = clip});
+    EXPECT_TRUE(m.stats.watertight && m.stats.manifold);
+    if (c.components > 0) {
+      EXPECT_EQ(m.stats.components, c.components);
+      EXPECT_EQ(m.stats.eulerCharacteristic, 2);
+      // Only what lies within two voxels of an edge may be missing.
+      const double edges = 4.0 * (size.x + size.y + size.z) * 4.0 * h * h;
+      EXPECT_NEAR(signedVolume(m.mesh.positions, m.mesh.triangles), c.volume, edges);
+    } else {
+      EXPECT_GE(m.stats.components, 27);
+      EXPECT_GT(signedVolume(m.mesh.positions, m.mesh.triangles), 27 * balls * 0.9);
+    }
+    const double rounding = 16.0 * kRoundoff;
+    for (const glm::vec3& p : m.mesh.positions) ASSERT_TRUE(clip.grown(rounding).contains({p, p}));
+  }
+}
+
+TEST(MeshShape, BoundsThatHoldTheShapeLeaveItAlone) {
+  const MeshOptions free{.voxelSize = 1.0 / 16};
+  MeshOptions held = free;
+  held.bounds = region(3.0);
+  const Mesh a = meshed(sphere(1.0), free).mesh, b = meshed(sphere(1.0), held).mesh;
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(MeshShape, SaysWhenThereIsNothingToMesh) {
+  const Vec3E p = position();
+  struct Case {
+    Shape shape;
+    std::optional<Box> bounds;
+    const char* says;
+  };
+  for (const Case& c :
+       {Case{field(dot(p, p) + 1.0), {}, "no surface"},
+        Case{field(dot(p, p) + 1.0), region(1.0), "no surface"},
+        Case{translate(sphere(1.0), {9.0, 0.0, 0.0}), region(1.0), "nothing inside the bounds"},
+        Case{sphere(-1.0), {}, "radius must be positive"}}) {
+    const auto m = tryMesh(c.shape, {.voxelSize = 0.1, .bounds = c.bounds});
+    ASSERT_FALSE(m.ok());
+    EXPECT_EQ(m.error().kind, ErrorKind::Scene);
+    EXPECT_NE(m.error().message.find(c.says), std::string::npos) << m.error().message;
+    EXPECT_NE(m.error().message.find("part 'floor'"), std::string::npos) << m.error().message;
+    EXPECT_EQ(m.error().message.find('\n'), std::string::npos);
+  }
+}
+
+TEST(MeshShape, RefusesWhatWouldNotFit) {
+  const auto m = tryMesh(sphere(1.0), {.voxelSize = 1e-4, .maxMemory = double(1 << 28)});
+  ASSERT_FALSE(m.ok());
+  EXPECT_EQ(m.error().kind, ErrorKind::Limits);
+  EXPECT_NE(m.error().message.find("voxel size of 0.0001 "), std::string::npos) << m.error().message;
+}
+
+TEST(MeshShape, StopsInEveryStage) {
+  struct Stopper : Progress {
+    std::string at;
+    void beginStage(std::string_view name) override {
+      if (name == at) stop();
+    }
+  };
+  for (const std::string& stage : kStages) {
+    SCOPED_TRACE(stage);
+    Stopper progress;
+    progress.at = stage;
+    const auto m = meshShape(paintedPair(), "part", {.voxelSize = 1.0 / 32}, progress);
+    ASSERT_FALSE(m.ok());
+    EXPECT_EQ(m.error().kind, ErrorKind::Interrupted);
+  }
+}
+
+template <class T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+TEST(MeshShape, MakesTheSameBytesForAnyNumberOfThreads) {
+  const Shape shapes[] = {strewn(100, 0.2, true), melt(), paintedPair()};
+  for (const Shape& shape : shapes) {
+    auto run = [&](int threads) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+      return meshed(shape, {.voxelSize = 1.0 / 24});
+    };
+    const MeshedShape one = run(1);
+    for (const int threads : {2, 2, 5}) {
+      const MeshedShape other = run(threads);
+      EXPECT_TRUE(sameBytes(one.mesh.positions, other.mesh.positions));
+      EXPECT_TRUE(sameBytes(one.mesh.normals, other.mesh.normals));
+      EXPECT_TRUE(sameBytes(one.mesh.colors, other.mesh.colors));
+      EXPECT_TRUE(sameBytes(one.mesh.triangles, other.mesh.triangles));
+      EXPECT_TRUE(sameBytes(one.mesh.triangleMaterial, other.mesh.triangleMaterial));
+      EXPECT_TRUE(sameBytes(one.mesh.copyOf, other.mesh.copyOf));
+      EXPECT_EQ(one.stats.rmsDistance, other.stats.rmsDistance);
+      EXPECT_EQ(one.stats.maxDistance, other.stats.maxDistance);
+      EXPECT_EQ(one.stats.voxels, other.stats.voxels);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sdf::test

@@ -1,0 +1,259 @@
+#include "sdf/mesh/surface_points.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <mutex>
+#include <random>
+
+#include "mesh/scenes.h"
+#include "sdf/mesh/refine.h"
+
+namespace sdf::test {
+namespace {
+
+// Points in clusters, each larger than a batch, within a voxel of the vertices that they surround.
+std::vector<glm::vec3> clusters(const RawSurface& surface, double h, std::size_t count, unsigned seed) {
+  constexpr std::size_t kCluster = 2 * kBatchPoints + 100;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> offset(static_cast<float>(-h), static_cast<float>(h));
+  std::vector<glm::vec3> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t v = i / kCluster * 97 % surface.points.size();
+    points.push_back(surface.points[v] + glm::vec3(offset(random), offset(random), offset(random)));
+  }
+  return points;
+}
+
+struct SeenRun {
+  std::size_t first, count;
+  const Tape* tape;
+  auto operator<=>(const SeenRun&) const = default;
+};
+
+struct ManyBalls {
+  double h = 1.0 / 32;
+  TapePtr tape = tapeOf(strewn(300, 0.12, true));
+  LocalTapes whole = wholeTapes(tape);
+  NarrowBand band;
+  std::vector<glm::vec3> points;
+
+  explicit ManyBalls(std::size_t count) {
+    Progress progress;
+    band = sampleNarrowBand(tape, {h, region(2.0), 1.0, kPlentyOfMemory}, progress).value();
+    const RawSurface surface = band.extract();
+    points = surface.points;
+    const auto more = clusters(surface, h, count, 7);
+    points.insert(points.end(), more.begin(), more.end());
+  }
+  std::vector<SeenRun> runs() const {
+    std::vector<SeenRun> seen;
+    std::mutex guard;
+    Progress progress;
+    forEachRun(
+        points.size(), [&](std::size_t i) { return points[i]; }, band, whole, progress,
+        [&](const PointRun& run) {
+          const std::lock_guard lock(guard);
+          seen.push_back({run.first, run.count, run.tapes.surface.get()});
+        });
+    return seen;
+  }
+};
+
+TEST(ForEachRun, LocalTapesSayWhatTheWholeSceneSays) {
+  const ManyBalls scene(20000);
+  constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
+  std::mutex guard;
+  std::size_t wrong = 0, fullRuns = 0, instructions = 0, runs = 0;
+  Progress progress;
+  forEachRun(
+      scene.points.size(), [&](std::size_t i) { return scene.points[i]; }, scene.band, scene.whole, progress,
+      [&](const PointRun& run) {
+        float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints];
+        float local[kOutputs + 1][kBatchPoints], whole[kOutputs + 1][kBatchPoints];
+        for (std::size_t i = 0; i < run.count; ++i) {
+          const glm::vec3& p = scene.points[run.first + i];
+          x[i] = p.x, y[i] = p.y, z[i] = p.z;
+        }
+        const Rows rows{.x = x, .y = y, .z = z};
+        float* const l[] = {local[0], local[1], local[2], local[3], local[4]};
+        float* const w[] = {whole[0], whole[1], whole[2], whole[3], whole[4]};
+        run.batch.evaluate(*run.tapes.surface, rows, run.count, l);
+        run.batch.evaluate(*run.tapes.distance, rows, run.count, local[kOutputs]);
+        run.batch.evaluate(*scene.tape, rows, run.count, w);
+        std::copy_n(whole[0], run.count, whole[kOutputs]);
+        const std::lock_guard lock(guard);
+        for (int k = 0; k <= kOutputs; ++k)
+          for (std::size_t i = 0; i < run.count; ++i) wrong += local[k][i] != whole[k][i];
+        fullRuns += run.count == kBatchPoints;
+        instructions += run.tapes.distance->instructions().size();
+        ++runs;
+      });
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_GT(fullRuns, 5u) << "no run was cut at the size of a batch";
+  // A leaf of 8 voxels, a quarter wide, feels a few of the 300 balls.
+  EXPECT_LT(instructions, runs * scene.tape->instructions().size() / 10);
+}
+
+TEST(ForEachRun, VisitsEveryPointOnceInChunksThatKeepTheirOrder) {
+  const ManyBalls scene(10000);
+  std::vector<int> visits(scene.points.size());
+  std::vector<std::size_t> reached((scene.points.size() + kRunChunk - 1) / kRunChunk);
+  for (const SeenRun& run : scene.runs()) {
+    ASSERT_GE(run.count, 1u);
+    ASSERT_LE(run.count, kBatchPoints);
+    const std::size_t chunk = run.first / kRunChunk, last = run.first + run.count - 1;
+    ASSERT_EQ(last / kRunChunk, chunk);
+    ASSERT_EQ(run.first, chunk * kRunChunk + reached[chunk]);
+    reached[chunk] += run.count;
+    for (std::size_t i = run.first; i <= last; ++i) ++visits[i];
+  }
+  EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<std::ptrdiff_t>(visits.size()));
+}
+
+TEST(ForEachRun, RunsDoNotDependOnTheNumberOfThreads) {
+  const ManyBalls scene(20000);
+  auto runsWith = [&](int threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    auto runs = scene.runs();
+    std::sort(runs.begin(), runs.end());
+    return runs;
+  };
+  EXPECT_EQ(runsWith(1), runsWith(4));
+}
+
+TEST(ForEachRun, FarFromEveryLeafTheFallbackServes) {
+  const TapePtr tape = tapeOf(sphere(1.0));
+  const LocalTapes whole = wholeTapes(tape);
+  const NarrowBand band = bandOf(sphere(1.0), region(1.0), 1.0 / 32);
+  const std::vector<glm::vec3> points{{0, 0, 0}, {100, 0, 0}, {1, 0, 0}, {-1e9f, 0, 0}};
+  std::vector<const LocalTapes*> used(points.size());
+  Progress progress;
+  forEachRun(
+      points.size(), [&](std::size_t i) { return points[i]; }, band, whole, progress,
+      [&](const PointRun& run) {
+        for (std::size_t i = 0; i < run.count; ++i) used[run.first + i] = &run.tapes;
+      });
+  EXPECT_EQ(used[0], &whole);
+  EXPECT_EQ(used[1], &whole);
+  EXPECT_NE(used[2], &whole);
+  EXPECT_EQ(used[3], &whole);
+}
+
+TEST(ForEachRun, DoesNothingOnceStopped) {
+  const ManyBalls scene(0);
+  Progress progress;
+  progress.stop();
+  int runs = 0;
+  forEachRun(
+      scene.points.size(), [&](std::size_t i) { return scene.points[i]; }, scene.band, scene.whole, progress,
+      [&](const PointRun&) { ++runs; });
+  EXPECT_EQ(runs, 0);
+}
+
+struct Refined {
+  std::vector<glm::vec3> positions, normals;
+};
+
+Refined refined(const Shape& shape, double h) {
+  NarrowBand band = bandOf(shape, shape.bounds, h);
+  const LocalTapes whole = wholeTapes(tapeOf(shape));
+  Progress progress;
+  Refined r{band.extract().points, {}};
+  refineVertices(r.positions, r.normals, band, whole, progress);
+  return r;
+}
+
+// Rounding of a point's three coordinates, and of a distance computed in some ten operations on numbers of
+// size m.
+double pointRounding(double m) { return (std::sqrt(3.0) + 10.0) * m * kRoundoff; }
+
+TEST(RefineVertices, PutsVerticesOnASphereWithItsNormals) {
+  const double r = 0.8, h = 1.0 / 16;
+  const glm::dvec3 c(1.1, -0.3, 0.2);
+  const double rounding = pointRounding(r + glm::length(c));
+  const Refined s = refined(translate(sphere(r), c), h);
+  ASSERT_GT(s.positions.size(), 500u);
+  for (std::size_t i = 0; i < s.positions.size(); ++i) {
+    const glm::dvec3 d = glm::dvec3(s.positions[i]) - c;
+    ASSERT_NEAR(glm::length(d), r, rounding);
+    ASSERT_LT(glm::length(glm::dvec3(s.normals[i]) - d / glm::length(d)), rounding / r + 8.0 * kRoundoff);
+  }
+}
+
+TEST(RefineVertices, PutsVerticesOnATorusWithItsNormals) {
+  const double major = 0.8, minor = 0.3;
+  const double rounding = pointRounding(major + minor);
+  const Refined s = refined(torus(major, minor), 1.0 / 32);
+  for (std::size_t i = 0; i < s.positions.size(); ++i) {
+    const glm::dvec3 p(s.positions[i]);
+    const double across = std::hypot(p.x, p.z);
+    const glm::dvec3 ring = glm::dvec3(p.x, 0.0, p.z) * (major / across), d = p - ring;
+    ASSERT_NEAR(glm::length(d), minor, rounding);
+    ASSERT_LT(glm::length(glm::dvec3(s.normals[i]) - d / glm::length(d)), rounding / minor + 8.0 * kRoundoff);
+  }
+}
+
+TEST(RefineVertices, GivesABoxTheExactNormalsOfItsFaces) {
+  const glm::dvec3 half(0.5, 0.41, 0.3);
+  const double h = 1.0 / 32;
+  const Refined s = refined(box(half), h);
+  std::size_t onFaces = 0;
+  for (std::size_t i = 0; i < s.positions.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const glm::dvec3 p = glm::abs(glm::dvec3(s.positions[i]));
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      if (p[u] > half[u] - 2.0 * h || p[v] > half[v] - 2.0 * h) continue;
+      glm::vec3 face(0.0f);
+      face[axis] = std::copysign(1.0f, s.positions[i][axis]);
+      ASSERT_EQ(s.normals[i], face);
+      ASSERT_NEAR(p[axis], half[axis], pointRounding(half[axis]));
+      ++onFaces;
+    }
+  EXPECT_GT(onFaces, s.positions.size() / 2);
+}
+
+TEST(RefineVertices, LeavesPointsThatLieExactlyOnAFaceWithItsNormal) {
+  const glm::vec3 half(0.5f, 0.41f, 0.3f);
+  const Shape shape = box(glm::dvec3(half));
+  const NarrowBand band = bandOf(shape, shape.bounds, 1.0 / 32);
+  std::vector<glm::vec3> positions, expected, normals;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {1.0f, -1.0f})
+      for (const float u : {0.0f, 0.25f, -0.77f})
+        for (const float v : {0.0f, -0.5f}) {
+          glm::vec3 p, n(0.0f);
+          p[axis] = side * half[axis];
+          p[(axis + 1) % 3] = u * half[(axis + 1) % 3];
+          p[(axis + 2) % 3] = v * half[(axis + 2) % 3];
+          n[axis] = side;
+          positions.push_back(p);
+          expected.push_back(n);
+        }
+  const std::vector<glm::vec3> before = positions;
+  Progress progress;
+  refineVertices(positions, normals, band, wholeTapes(tapeOf(shape)), progress);
+  EXPECT_EQ(positions, before);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    EXPECT_EQ(normals[i], expected[i]) << before[i].x << ' ' << before[i].y << ' ' << before[i].z;
+}
+
+TEST(RefineVertices, MovesNoVertexFartherThanAVoxel) {
+  // |f| / |grad f| overshoots by far where the slope is small: near the middle of a flat-bottomed field.
+  const Vec3E p = position();
+  const Shape shape = field(pow(dot(p, p), 4.0) - 0.01, region(1.0));
+  const double h = 1.0 / 16;
+  NarrowBand band = bandOf(shape, shape.bounds, h);
+  std::vector<glm::vec3> positions = band.extract().points, normals;
+  for (int i = 1; i <= 20; ++i) positions.emplace_back(0.03f * i, 0.0f, 0.0f);
+  const auto before = positions;
+  Progress progress;
+  refineVertices(positions, normals, band, wholeTapes(tapeOf(shape)), progress);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    ASSERT_LE(glm::distance(positions[i], before[i]), h * (1.0 + 4.0 * kRoundoff));
+    ASSERT_NEAR(glm::length(normals[i]), 1.0, 4.0 * kRoundoff);
+  }
+}
+
+}  // namespace
+}  // namespace sdf::test
