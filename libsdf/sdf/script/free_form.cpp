@@ -13,7 +13,7 @@ int freeForm(lua_State* L) {
   expectArguments(L, 1, 2);
   const FunctionInfo& f = runningFunction(L);
   const Expr distance = readFormula(L, 1, f.name + ": the formula");
-  const Options o(L, 2, f);
+  const FieldReader o(L, 2, f);
   const Box bounds = o.box("bounds").value_or(Box::everything());
   const double lipschitz = o.plain("lipschitz", kInfinity, Rule::Positive);
   Shape shape = field(distance, bounds, lipschitz);

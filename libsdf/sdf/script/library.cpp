@@ -35,7 +35,7 @@ std::vector<std::string> namesOf(const std::vector<FieldInfo>& fields) {
 
 }  // namespace
 
-Options::Options(lua_State* L, int index, const FunctionInfo& function)
+FieldReader::FieldReader(lua_State* L, int index, const FunctionInfo& function)
     : L_(L), index_(index), function_(function) {
   if (lua_isnoneornil(L, index)) {
     index_ = 0;
@@ -56,22 +56,22 @@ Options::Options(lua_State* L, int index, const FunctionInfo& function)
   }
 }
 
-std::string Options::what(const char* field) const { return function_.name + ": '" + field + "'"; }
+std::string FieldReader::what(const char* field) const { return function_.name + ": '" + field + "'"; }
 
-int Options::push(const char* field) const {
+int FieldReader::push(const char* field) const {
   if (!index_) return 0;
   luaL_checkstack(L_, 4, nullptr);
   if (lua_getfield(L_, index_, field) == LUA_TNIL) return lua_pop(L_, 1), 0;
   return lua_gettop(L_);
 }
 
-bool Options::has(const char* field) const {
+bool FieldReader::has(const char* field) const {
   const int at = push(field);
   if (at) lua_pop(L_, 1);
   return at;
 }
 
-void Options::checkRule(const char* field, const Expr& e, Rule rule) const {
+void FieldReader::checkRule(const char* field, const Expr& e, Rule rule) const {
   if (rule == Rule::Any || dependsOnSpace(e)) return;
   const double v = uniformValue(e);
   const char* wanted = rule == Rule::Positive && !(v > 0.0)       ? "positive"
@@ -83,7 +83,7 @@ void Options::checkRule(const char* field, const Expr& e, Rule rule) const {
   raise(L_, what(field) + " must be " + wanted + ", got " + lua_tostring(L_, -1));
 }
 
-Expr Options::number(const char* field, const Expr& fallback, Rule rule) const {
+Expr FieldReader::number(const char* field, const Expr& fallback, Rule rule) const {
   const int at = push(field);
   if (!at) return fallback;
   const Expr e = readNumber(L_, at, what(field), Depends::OnParameters);
@@ -92,7 +92,7 @@ Expr Options::number(const char* field, const Expr& fallback, Rule rule) const {
   return e;
 }
 
-double Options::plain(const char* field, double fallback, Rule rule) const {
+double FieldReader::plain(const char* field, double fallback, Rule rule) const {
   const int at = push(field);
   if (!at) return fallback;
   const double v = readPlainNumber(L_, at, what(field));
@@ -101,7 +101,7 @@ double Options::plain(const char* field, double fallback, Rule rule) const {
   return v;
 }
 
-int Options::integer(const char* field, int fallback, int least) const {
+int FieldReader::integer(const char* field, int fallback, int least) const {
   const int at = push(field);
   if (!at) return fallback;
   const int v = readInteger(L_, at, what(field));
@@ -111,7 +111,7 @@ int Options::integer(const char* field, int fallback, int least) const {
   return v;
 }
 
-bool Options::flag(const char* field, bool fallback) const {
+bool FieldReader::flag(const char* field, bool fallback) const {
   const int at = push(field);
   if (!at) return fallback;
   const bool v = readFlag(L_, at, what(field));
@@ -119,7 +119,7 @@ bool Options::flag(const char* field, bool fallback) const {
   return v;
 }
 
-std::string Options::text(const char* field, const std::string& fallback) const {
+std::string FieldReader::text(const char* field, const std::string& fallback) const {
   const int at = push(field);
   if (!at) return fallback;
   std::string v = readText(L_, at, what(field));
@@ -127,7 +127,7 @@ std::string Options::text(const char* field, const std::string& fallback) const 
   return v;
 }
 
-int Options::choice(const char* field, const std::vector<std::string>& choices, int fallback) const {
+int FieldReader::choice(const char* field, const std::vector<std::string>& choices, int fallback) const {
   const int at = push(field);
   if (!at) return fallback;
   const int v = readChoice(L_, at, what(field), choices);
@@ -135,7 +135,7 @@ int Options::choice(const char* field, const std::vector<std::string>& choices, 
   return v;
 }
 
-Vec3E Options::vector(const char* field, const Vec3E& fallback) const {
+Vec3E FieldReader::vector(const char* field, const Vec3E& fallback) const {
   const int at = push(field);
   if (!at) return fallback;
   Vec3E v = readVector(L_, at, what(field), 3, Depends::OnParameters);
@@ -143,7 +143,7 @@ Vec3E Options::vector(const char* field, const Vec3E& fallback) const {
   return v;
 }
 
-Vec3E Options::color(const char* field, const Vec3E& fallback, Depends depends) const {
+Vec3E FieldReader::color(const char* field, const Vec3E& fallback, Depends depends) const {
   const int at = push(field);
   if (!at) return fallback;
   Vec3E v = readColor(L_, at, what(field), depends);
@@ -151,7 +151,7 @@ Vec3E Options::color(const char* field, const Vec3E& fallback, Depends depends) 
   return v;
 }
 
-Expr Options::surfaceNumber(const char* field, const Expr& fallback, Rule rule) const {
+Expr FieldReader::surfaceNumber(const char* field, const Expr& fallback, Rule rule) const {
   const int at = push(field);
   if (!at) return fallback;
   Expr e = readSurfaceNumber(L_, at, what(field));
@@ -160,7 +160,7 @@ Expr Options::surfaceNumber(const char* field, const Expr& fallback, Rule rule) 
   return e;
 }
 
-std::optional<Box> Options::box(const char* field) const {
+std::optional<Box> FieldReader::box(const char* field) const {
   const int at = push(field);
   if (!at) return std::nullopt;
   if (!lua_istable(L_, at) || lua_rawlen(L_, at) != 2)

@@ -49,10 +49,10 @@ void openFormulaOperators(lua_State* L);
 int openLanguage(lua_State* L);
 
 /// A table of named fields: "camera{fov = 40}". Unknown names are refused.
-class Options {
+class FieldReader {
  public:
   /// The table at `index`, or no fields at all where nothing is there. `context` starts messages ("camera").
-  Options(lua_State* L, int index, const FunctionInfo& function);
+  FieldReader(lua_State* L, int index, const FunctionInfo& function);
 
   bool has(const char* field) const;
   Expr number(const char* field, const Expr& fallback, Rule rule = Rule::Any) const;

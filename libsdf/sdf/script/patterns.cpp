@@ -26,7 +26,7 @@ int makeColor(lua_State* L) {
 int makeCheckerboard(lua_State* L) {
   expectArguments(L, 2, 3);
   const Vec3E a = colorArgument(L, 1), b = colorArgument(L, 2);
-  const Expr scale = Options(L, 3, runningFunction(L)).number("scale", 1.0, Rule::Positive);
+  const Expr scale = FieldReader(L, 3, runningFunction(L)).number("scale", 1.0, Rule::Positive);
   return pushVector(L, checkerboard(a, b, scale)), 1;
 }
 
@@ -40,7 +40,7 @@ int makeGradient(lua_State* L) {
   else
     along = dot(p, readVector(L, 1, axisName, 3, Depends::OnParameters));
   const Vec3E a = colorArgument(L, 2), b = colorArgument(L, 3);
-  const Options options(L, 4, runningFunction(L));
+  const FieldReader options(L, 4, runningFunction(L));
   const Expr from = options.number("from", 0.0), to = options.number("to", 1.0);
   if (uniformValue(to - from) == 0.0) raise(L, "gradient: 'from' and 'to' must be different");
   return pushVector(L, gradient(along, a, b, from, to)), 1;
@@ -58,14 +58,14 @@ int makeNoise(lua_State* L) {
   for (int i = 0; i < 3; ++i)
     p[i] = readNumber(L, i + 1, "noise: coordinate " + std::to_string(i + 1), Depends::OnPosition);
   constexpr int kMostOctaves = 8;  // the ninth would be weaker than a step of an 8-bit colour
-  const int octaves = Options(L, 4, runningFunction(L)).integer("octaves", 1, 1);
+  const int octaves = FieldReader(L, 4, runningFunction(L)).integer("octaves", 1, 1);
   if (octaves > kMostOctaves) raise(L, "noise: 'octaves' must be 8 or less, got " + std::to_string(octaves));
   return pushExpr(L, noise({p[0], p[1], p[2]}, octaves)), 1;
 }
 
 int makeSky(lua_State* L) {
   expectArguments(L, 0, 1);
-  const Options o(L, 1, runningFunction(L));
+  const FieldReader o(L, 1, runningFunction(L));
   Sky sky;
   sky.horizon = o.color("horizon", sky.horizon, Depends::OnParameters);
   sky.zenith = o.color("zenith", sky.zenith, Depends::OnParameters);

@@ -24,7 +24,7 @@ int setCamera(lua_State* L) {
   once(L);
   expectArguments(L, 1, 1);
   Camera& c = contextOf(L).scene.camera;
-  const Options o(L, 1, runningFunction(L));
+  const FieldReader o(L, 1, runningFunction(L));
   c.from = o.vector("from", c.from);
   c.to = o.vector("to", c.to);
   c.up = o.vector("up", c.up);
@@ -38,7 +38,7 @@ int setCamera(lua_State* L) {
 
 int addLight(lua_State* L, Light::Kind kind, const char* vectorName) {
   expectArguments(L, 0, 1);
-  const Options o(L, 1, runningFunction(L));
+  const FieldReader o(L, 1, runningFunction(L));
   Light light;
   light.kind = kind;
   light.vector = o.vector(vectorName, light.vector);
@@ -71,7 +71,7 @@ int setFog(lua_State* L) {
   once(L);
   expectArguments(L, 1, 1);
   Fog& fog = contextOf(L).scene.fog;
-  const Options o(L, 1, runningFunction(L));
+  const FieldReader o(L, 1, runningFunction(L));
   fog.color = o.color("color", fog.color, Depends::OnParameters);
   fog.density = o.number("density", fog.density, Rule::NotNegative);
   return 0;
@@ -81,7 +81,7 @@ int setShadows(lua_State* L) {
   once(L);
   expectArguments(L, 0, 1);
   Shadow& s = contextOf(L).scene.shadow;
-  const Options o(L, 1, runningFunction(L));
+  const FieldReader o(L, 1, runningFunction(L));
   s.kind = static_cast<Shadow::Kind>(
       o.choice("kind", {"none", "hard", "soft", "improved", "signed"}, static_cast<int>(Shadow::Kind::Soft)));
   s.sharpness = o.number("sharpness", s.sharpness, Rule::Positive);
@@ -95,7 +95,7 @@ int setAmbientOcclusion(lua_State* L) {
   once(L);
   expectArguments(L, 0, 1);
   AmbientOcclusion& a = contextOf(L).scene.ambientOcclusion;
-  const Options o(L, 1, runningFunction(L));
+  const FieldReader o(L, 1, runningFunction(L));
   a.kind = static_cast<AmbientOcclusion::Kind>(
       o.choice("kind", {"none", "taps", "steps"}, static_cast<int>(AmbientOcclusion::Kind::Taps)));
   a.spacing = o.plain("spacing", a.spacing, Rule::Positive);
@@ -107,7 +107,7 @@ int setAmbientOcclusion(lua_State* L) {
 int setReflections(lua_State* L) {
   once(L);
   expectArguments(L, 1, 1);
-  contextOf(L).scene.reflectionBounces = Options(L, 1, runningFunction(L)).integer("bounces", 1, 0);
+  contextOf(L).scene.reflectionBounces = FieldReader(L, 1, runningFunction(L)).integer("bounces", 1, 0);
   return 0;
 }
 
@@ -160,7 +160,7 @@ const FunctionInfo& materialFunction() {
 }
 
 MaterialPtr materialFrom(lua_State* L, int index) {
-  const Options o(L, index, materialFunction());
+  const FieldReader o(L, index, materialFunction());
   Material m;
   m.name = o.text("name", m.name);
   m.color = o.color("color", m.color, Depends::OnPosition);
@@ -223,7 +223,7 @@ int newParameter(lua_State* L) {
   if (p.name == "time") raise(L, "param: 'time' is the scene's clock; give the parameter another name");
   const std::string what = "param '" + p.name + "'";
   const double usual = readPlainNumber(L, 2, what + ": the default");
-  const Options o(L, 3, runningFunction(L));
+  const FieldReader o(L, 3, runningFunction(L));
   p.min = o.plain("min", std::min(0.0, usual));
   p.max = o.plain("max", std::max({1.0, usual, p.min}));
   if (!(p.min <= usual && usual <= p.max))
