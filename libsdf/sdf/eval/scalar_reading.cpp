@@ -54,8 +54,12 @@ ValueAndGradient evaluateGradient(const Tape& tape, const glm::dvec3& p) {
 
 Interval evaluate(const Tape& tape, const Box& box) {
   ScalarReading<Interval> reading;
-  reading.run(tape, variables(box));
-  return reading.output();
+  return evaluate(tape, box, reading);
+}
+
+Interval evaluate(const Tape& tape, const Box& box, ScalarReading<Interval>& workspace) {
+  workspace.run(tape, variables(box));
+  return workspace.output();
 }
 
 Interval evaluate(const Tape& tape, const Box& box, ScalarReading<Interval>& workspace,

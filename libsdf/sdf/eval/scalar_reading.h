@@ -64,6 +64,8 @@ ValueAndGradient evaluateGradient(const Tape& tape, const glm::dvec3& p);
 /// The interval reading of output 0 over a box, whose sides may be infinite. Variables of the normal range
 /// over [-1, 1].
 Interval evaluate(const Tape& tape, const Box& box);
+/// The same without allocating, once the workspace has grown.
+Interval evaluate(const Tape& tape, const Box& box, ScalarReading<Interval>& workspace);
 /// The same, and what the box decides of every min, max, select and comparison, in tape order.
 Interval evaluate(const Tape& tape, const Box& box, ScalarReading<Interval>& workspace,
                   std::vector<Decision>& decisions);

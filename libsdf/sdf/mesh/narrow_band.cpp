@@ -174,7 +174,7 @@ class BandSampler {
     for (int k = 0; k < count; ++k) {
       const Decision* decisions = w.decisions.data() + k;
       std::size_t stride = count;
-      if (!mayMeet(tape, origin[k], size, value[k], margin)) continue;
+      if (!mayMeet(tape, origin[k], size, value[k], margin, w)) continue;
       if (!tape.hasSlopes()) decisions = refineDecisions(tape, origin[k], size, decisions, stride, w);
       const TapePtr special = tape.specialised(decisions, stride);
       visit(origin[k], special ? special : cell.tape);
@@ -183,16 +183,18 @@ class BandSampler {
 
   // Can the zero set meet the cell (and a voxel around it)? First by the slope bound, then, where that is
   // loose, by interval derivatives and interval values.
-  bool mayMeet(const Tape& tape, const openvdb::Coord& origin, int size, double value, double margin) const {
+  bool mayMeet(const Tape& tape, const openvdb::Coord& origin, int size, double value, double margin,
+               Workspace& w) const {
     const double radius = kSqrt3 * reach(size, 1);
     const double slope = std::min<double>(tape.lipschitz(), options_.lipschitz);
     if (std::abs(value) > slope * radius + margin) return false;
     if (slope <= 1.0 || !std::isfinite(value)) return true;
     const glm::dvec3 c = centre(origin, size), half(reach(size, 1));
     const Box box{c - half, c + half};
-    if (std::abs(value) > lipschitzOver(tape, box) * radius + margin) return false;
-    const Interval range = evaluate(tape, box);
-    return range.nan || (range.lo <= margin && range.hi >= -margin);
+    const Interval range = evaluate(tape, box, w.intervals);
+    if (!range.nan && (range.lo > margin || range.hi < -margin)) return false;
+    // Sampling a leaf costs less than the interval derivatives that might spare it.
+    return size == kLeaf || std::abs(value) <= lipschitzOver(tape, box) * radius + margin;
   }
 
   // Adds to what the slopes decided what intervals decide.
