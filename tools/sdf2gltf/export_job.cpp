@@ -124,6 +124,7 @@ class FrameExport {
       line.peakMemory = peakMemory();
       report.parts.push_back(std::move(line));
       parts_.push_back({part.name, std::move(meshed->mesh), meshed->stats});
+      releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
     }
     return interrupted();
   }

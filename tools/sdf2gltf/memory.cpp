@@ -1,5 +1,6 @@
 #include "memory.h"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -19,6 +20,12 @@ double peakMemory() {
     if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024.0;
   }
   return 0.0;
+}
+
+void releaseFreedMemory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 }  // namespace sdf

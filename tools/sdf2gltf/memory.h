@@ -9,4 +9,7 @@ double physicalMemory();
 /// Most bytes that this process ever had in memory (VmHWM, proc(5)); 0 where the system does not tell.
 double peakMemory();
 
+/// Gives freed memory back to the system, which the allocator keeps where it was freed in small pieces.
+void releaseFreedMemory();
+
 }  // namespace sdf

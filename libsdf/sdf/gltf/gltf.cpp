@@ -8,9 +8,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "sdf/base/version.h"
 #include "sdf/gltf/formats.h"
+#include "sdf/gltf/glb.h"
 #include "sdf/gltf/pbr.h"
 #include "sdf/gltf/primitive.h"
 #include "sdf/gltf/view.h"
@@ -22,7 +25,7 @@ using tinygltf::Value;
 
 /// 3.7.2.1: 65535 is the restart value of 16-bit indices, so 65,535 vertices are the most.
 constexpr std::size_t kMostShortVertices = 65535;
-/// The container's length is a 32-bit number (4.4.2); the rest is left for the JSON chunk.
+/// The length of a .glb is a 32-bit number; the rest is left for the JSON chunk.
 constexpr std::uint64_t kMostBinaryBytes = (1ull << 32) - (1ull << 26);
 
 /// JSON is UTF-8 (RFC 8259): bytes of a name that are not become U+FFFD.
@@ -94,7 +97,9 @@ class GltfBuilder {
     if (!part.mesh.triangles.empty()) {
       tinygltf::Mesh mesh;
       mesh.name = node.name;
-      for (const Primitive& primitive : splitByMaterial(part.mesh)) {
+      const std::vector<Primitive> primitives = splitByMaterial(part.mesh);
+      reserveFor(primitives);
+      for (const Primitive& primitive : primitives) {
         mesh.primitives.push_back(addPrimitive(part.mesh, primitive));
       }
       node.mesh = static_cast<int>(model_.meshes.size());
@@ -139,20 +144,38 @@ class GltfBuilder {
 
   void setExtras(const MeshStats& stats) { model_.asset.extras = extrasOf(stats); }
 
+  /// Writes what was built, which is gone then.
   Status write(std::ostream& out, GltfContainer container) {
-    const std::uint64_t size = bytes().size();
-    if (size == 0) model_.buffers.clear();
-    if (container == GltfContainer::Binary && size > kMostBinaryBytes) {
-      return Error{ErrorKind::Limits,
-                   "the meshes take " + std::to_string(size >> 20) +
-                       " MiB and a .glb holds 4096; use larger voxels, or write .gltf or .ply"};
-    }
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, true, container == GltfContainer::Binary);
+    if (bytes().empty()) model_.buffers.clear();
+    if (container == GltfContainer::Binary) return writeBinary(out);
+    constexpr bool kPretty = true, kBinary = false;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, kPretty, kBinary);
     return okStatus();
   }
 
  private:
   std::vector<unsigned char>& bytes() { return model_.buffers[0].data; }
+
+  /// tinygltf's own binary writer copies all data once more, so it writes the JSON alone, without the buffer.
+  Status writeBinary(std::ostream& out) {
+    const std::vector<tinygltf::Buffer> buffers = std::exchange(model_.buffers, {});
+    const std::vector<unsigned char> none;
+    const std::vector<unsigned char>& data = buffers.empty() ? none : buffers[0].data;
+    if (data.size() > kMostBinaryBytes) {
+      return Error{ErrorKind::Limits,
+                   "the meshes take " + std::to_string(data.size() >> 20) +
+                       " MiB and a .glb holds 4096; use larger voxels, or write .gltf or .ply"};
+    }
+    std::ostringstream text;
+    constexpr bool kPretty = false, kBinary = false;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, text, kPretty, kBinary);
+    std::string json = std::move(text).str();
+    if (!data.empty()) {
+      json.insert(json.rfind('}'), ",\"buffers\":[{\"byteLength\":" + std::to_string(data.size()) + "}]");
+    }
+    writeGlb(out, json, data);
+    return okStatus();
+  }
 
   void addNode(tinygltf::Node node) {
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
@@ -172,47 +195,63 @@ class GltfBuilder {
     if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
   }
 
-  /// Appends the elements and returns the index of an accessor for them. Their sizes are multiples of four
-  /// except for 16-bit indices, so the next view is aligned by padding.
-  template <class T>
-  int addAccessor(const std::vector<T>& elements, int target, int componentType, int type) {
+  /// Makes room for all that a part's primitives will add, so that the data is never moved.
+  void reserveFor(const std::vector<Primitive>& primitives) {
+    std::size_t size = bytes().size();
+    for (const Primitive& primitive : primitives) {
+      const std::size_t perIndex = primitive.vertices.size() > kMostShortVertices ? 4 : 2;
+      const std::size_t perVertex = 2 * sizeof(glm::vec3) + sizeof(ColorValue);
+      constexpr std::size_t kPadding = 4;
+      size += primitive.indices.size() * perIndex + primitive.vertices.size() * perVertex + kPadding;
+    }
+    bytes().reserve(size);
+  }
+
+  /// Appends elementAt(0) … elementAt(count - 1) and returns the index of an accessor for them. Their sizes
+  /// are multiples of four except for 16-bit indices, so the next view is aligned by padding.
+  template <class ElementAt>
+  int addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt) {
+    using Element = decltype(elementAt(0));
     std::vector<unsigned char>& data = bytes();
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = data.size();
-    view.byteLength = elements.size() * sizeof(T);
+    view.byteLength = count * sizeof(Element);
     view.target = target;
     data.resize((data.size() + view.byteLength + 3) / 4 * 4);
-    std::memcpy(data.data() + view.byteOffset, elements.data(), view.byteLength);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Element element = elementAt(i);
+      std::memcpy(data.data() + view.byteOffset + i * sizeof(Element), &element, sizeof(Element));
+    }
 
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(model_.bufferViews.size());
     accessor.componentType = componentType;
     accessor.type = type;
-    accessor.count = elements.size();
+    accessor.count = count;
     model_.bufferViews.push_back(std::move(view));
     model_.accessors.push_back(std::move(accessor));
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
-  template <class T>
-  int addAttribute(const std::vector<T>& elements, int componentType, int type) {
-    return addAccessor(elements, TINYGLTF_TARGET_ARRAY_BUFFER, componentType, type);
+  /// The same with an element for each vertex of the primitive, made from the mesh's vertex.
+  template <class ElementOf>
+  int addAttribute(const Primitive& primitive, int componentType, int type, ElementOf elementOf) {
+    return addAccessor(primitive.vertices.size(), TINYGLTF_TARGET_ARRAY_BUFFER, componentType, type,
+                       [&](std::size_t i) { return elementOf(primitive.vertices[i]); });
   }
 
   int addPositions(const Mesh& mesh, const Primitive& primitive) {
     glm::vec3 low(std::numeric_limits<float>::infinity());
     glm::vec3 high = -low;
-    std::vector<glm::vec3> positions;
-    positions.reserve(primitive.vertices.size());
-    for (const std::uint32_t vertex : primitive.vertices) {
-      positions.push_back(mesh.positions[vertex]);
-      low = glm::min(low, positions.back());
-      high = glm::max(high, positions.back());
-    }
+    const int index =
+        addAttribute(primitive, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, [&](std::uint32_t vertex) {
+          low = glm::min(low, mesh.positions[vertex]);
+          high = glm::max(high, mesh.positions[vertex]);
+          return mesh.positions[vertex];
+        });
     low_ = glm::min(low_, low);
     high_ = glm::max(high_, high);
-    const int index = addAttribute(positions, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
     model_.accessors[index].minValues = numbers(low);
     model_.accessors[index].maxValues = numbers(high);
     return index;
@@ -220,40 +259,37 @@ class GltfBuilder {
 
   int addIndices(const Primitive& primitive) {
     const int target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+    const std::vector<std::uint32_t>& indices = primitive.indices;
     if (primitive.vertices.size() > kMostShortVertices) {
-      return addAccessor(primitive.indices, target, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                         TINYGLTF_TYPE_SCALAR);
+      return addAccessor(indices.size(), target, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                         [&](std::size_t i) { return indices[i]; });
     }
-    const std::vector<std::uint16_t> narrow(primitive.indices.begin(), primitive.indices.end());
-    return addAccessor(narrow, target, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR);
+    return addAccessor(indices.size(), target, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR,
+                       [&](std::size_t i) { return static_cast<std::uint16_t>(indices[i]); });
   }
 
   tinygltf::Primitive addPrimitive(const Mesh& mesh, const Primitive& primitive) {
     const MeshMaterial& material = mesh.materials[primitive.material];
     const PbrMaterial pbr = toMetallicRoughness(material);
-    std::vector<glm::vec3> normals;
-    std::vector<ColorValue> colors;
-    normals.reserve(primitive.vertices.size());
-    colors.reserve(primitive.vertices.size());
-    for (const std::uint32_t vertex : primitive.vertices) {
-      normals.push_back(unit(mesh.normals[vertex]));
-      colors.push_back(quantized(pbr.baseColor(mesh.colors[vertex])));
-    }
-    const bool plain =
-        std::all_of(colors.begin(), colors.end(), [&](const ColorValue& c) { return c == colors[0]; });
+    const auto colorOf = [&](std::uint32_t vertex) { return pbr.baseColor(mesh.colors[vertex]); };
+    const std::uint32_t first = primitive.vertices[0];
+    const bool plain = std::all_of(
+        primitive.vertices.begin(), primitive.vertices.end(),
+        [&, color = quantized(colorOf(first))](std::uint32_t v) { return quantized(colorOf(v)) == color; });
 
     tinygltf::Primitive out;
     out.mode = TINYGLTF_MODE_TRIANGLES;
     out.indices = addIndices(primitive);
     out.attributes["POSITION"] = addPositions(mesh, primitive);
-    out.attributes["NORMAL"] = addAttribute(normals, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+    out.attributes["NORMAL"] = addAttribute(primitive, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
+                                            [&](std::uint32_t vertex) { return unit(mesh.normals[vertex]); });
     if (!plain) {
-      const int index = addAttribute(colors, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4);
+      const int index = addAttribute(primitive, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                                     [&](std::uint32_t vertex) { return quantized(colorOf(vertex)); });
       model_.accessors[index].normalized = true;
       out.attributes["COLOR_0"] = index;
     }
-    const glm::vec3 factor = plain ? pbr.baseColor(mesh.colors[primitive.vertices[0]]) : glm::vec3(1.0f);
-    out.material = addMaterial(material.name, pbr, factor);
+    out.material = addMaterial(material.name, pbr, plain ? colorOf(first) : glm::vec3(1.0f));
     return out;
   }
 
