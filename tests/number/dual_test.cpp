@@ -82,12 +82,12 @@ TEST(Dual, TakesTheDeclaredSlopeAtKinks) {
     EXPECT_EQ(along(op, {2.0, 2.0}, {1.0, 0.0}).d[0], 0.0) << info(op).name;
 }
 
-TEST(Dual, MinAndMaxFollowTheArgumentThatGivesTheValueAndOnATieTheSecond) {
+TEST(Dual, MinAndMaxFollowTheArgumentThatGivesTheValueAndOnATieTheFirst) {
   for (const Op op : {Op::Min, Op::Max}) {
     const bool isMin = op == Op::Min;
     EXPECT_EQ(along(op, {1.0, 2.0}, {10.0, 20.0}).d[0], isMin ? 10.0 : 20.0);
     EXPECT_EQ(along(op, {2.0, 1.0}, {10.0, 20.0}).d[0], isMin ? 20.0 : 10.0);
-    EXPECT_EQ(along(op, {1.0, 1.0}, {10.0, 20.0}).d[0], 20.0);
+    EXPECT_EQ(along(op, {1.0, 1.0}, {10.0, 20.0}).d[0], 10.0);
     EXPECT_EQ(along(op, {kNaN, 1.0}, {10.0, 20.0}).d[0], 20.0);
   }
 }

@@ -2,10 +2,10 @@
 // 1964).
 //
 // T is double, Interval, or a SIMD vector of lanes. At a crease one side's derivative is taken: for abs at 0
-// the right one, for min and max that of the argument which gives the value, on a tie the second. Where the
-// tangent is vertical (sqrt and powers below 1 at 0, asin and acos at 1) the derivative is defined as 0, so
-// length(max(q, 0)) has a gradient everywhere. Over intervals the derivative encloses every derivative and
-// every difference quotient, jumps included.
+// the right one, for min and max that of the argument which gives the value, on a tie the first (so that
+// max(distance, 0) keeps the distance's on its surface). Where the tangent is vertical (sqrt and powers below
+// 1 at 0, asin and acos at 1) the derivative is defined as 0, so length(max(q, 0)) has a gradient everywhere.
+// Over intervals the derivative encloses every derivative and every difference quotient, jumps included.
 //
 // Re-included once per SIMD target by Highway's foreach_target.
 #if defined(SDF_NUMBER_DUAL_INL_H) == defined(HWY_TARGET_TOGGLE)
