@@ -37,9 +37,26 @@ std::unique_ptr<Leaf> makeLeaf(const float* samples, int stride, const openvdb::
   return leaf;
 }
 
+RawSurface extract(const openvdb::FloatGrid& grid) {
+  std::vector<openvdb::Vec3s> points;
+  std::vector<openvdb::Vec3I> triangles;
+  std::vector<openvdb::Vec4I> quads;
+  openvdb::tools::volumeToMesh(grid, points, triangles, quads, 0.0, 0.0);
+  RawSurface surface;
+  surface.points.reserve(points.size());
+  for (const auto& p : points) surface.points.emplace_back(p.x(), p.y(), p.z());
+  surface.triangles.reserve(triangles.size() + 2 * quads.size());
+  for (const auto& t : triangles) surface.triangles.emplace_back(t[0], t[1], t[2]);
+  for (const auto& q : quads) {
+    surface.triangles.emplace_back(q[0], q[1], q[2]);
+    surface.triangles.emplace_back(q[0], q[2], q[3]);
+  }
+  return surface;
+}
+
 }  // namespace
 
-std::size_t meshDensely(RowLoop row, int n, double slope) {
+RawSurface meshDensely(RowLoop row, int n, double slope) {
   openvdb::initialize();
   const double h = 2.0 * kRegion / n;
   const float band = static_cast<float>(slope * h * (1.0 + 0x1p-18));  // a voxel, and the samples' rounding
@@ -68,11 +85,7 @@ std::size_t meshDensely(RowLoop row, int n, double slope) {
     for (auto& leaf : column) grid->tree().addLeaf(leaf.release());
   openvdb::tools::signedFloodFillWithValues(grid->tree(), static_cast<float>(3 * h),
                                             static_cast<float>(-3 * h));
-  std::vector<openvdb::Vec3s> points;
-  std::vector<openvdb::Vec3I> triangles;
-  std::vector<openvdb::Vec4I> quads;
-  openvdb::tools::volumeToMesh(*grid, points, triangles, quads, 0.0, 0.0);
-  return triangles.size() + 2 * quads.size();
+  return extract(*grid);
 }
 
 }  // namespace sdf::bench

@@ -66,7 +66,7 @@ bool meshersAgree() {
   bool all = true;
   for (int i = 0; i < kCompared; ++i) {
     const double sparse = meshSparsely(measuringShape(i), region(), 2.0 * kRegion / kCoarse);
-    const double dense = meshDensely(handwritten(i).row, kCoarse, kSlope[i]);
+    const double dense = meshDensely(handwritten(i).row, kCoarse, kSlope[i]).triangles.size();
     if (sparse > 0.0 && std::abs(sparse - dense) <= kShare * dense) continue;
     std::fprintf(stderr, "%s at N = %d: %g triangles sparsely, %g densely\n", shapeName(i).c_str(), kCoarse,
                  sparse, dense);
@@ -81,7 +81,7 @@ void registerMeshing() {
     const int repetitions = i == kSmooth || i == kMany ? 3 : 7;  // the dense ones take seconds
     addSparse(i, kResolution, 7);
     add(denseName(i, kResolution), repetitions,
-        [i] { return meshDensely(handwritten(i).row, kResolution, kSlope[i]); });
+        [i] { return meshDensely(handwritten(i).row, kResolution, kSlope[i]).triangles.size(); });
   }
   for (const int i : {0, 1, kMany}) addSparse(i, kResolution / 2, 9), addSparse(i, kResolution * 2, 5);
   for (const auto& [count, radius] : {std::pair{10, 0.6}, {1000, 0.06}})
