@@ -237,7 +237,7 @@ TEST(MeshShape, StopsInEveryStage) {
 
 template <class T>
 bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 TEST(MeshShape, MakesTheSameBytesForAnyNumberOfThreads) {
@@ -245,10 +245,10 @@ TEST(MeshShape, MakesTheSameBytesForAnyNumberOfThreads) {
   for (const Shape& shape : shapes) {
     auto run = [&](int threads) {
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-      return meshed(shape, {.voxelSize = 1.0 / 24});
+      return meshed(shape, {.voxelSize = 1.0 / 16});
     };
     const MeshedShape one = run(1);
-    for (const int threads : {2, 2, 5}) {
+    for (const int threads : {2, 5}) {
       const MeshedShape other = run(threads);
       EXPECT_TRUE(sameBytes(one.mesh.positions, other.mesh.positions));
       EXPECT_TRUE(sameBytes(one.mesh.normals, other.mesh.normals));

@@ -85,7 +85,7 @@ struct PointScene {
   }
 };
 
-Shape manyBalls() { return strewn(300, 0.12, true); }
+Shape manyBalls() { return strewn(300, 0.09, true); }
 
 // A local tape leaves out the parts of a length that are nothing, and with them a square root, which the
 // batch reading takes to within 4 ulp: of lengths below 4 here.
@@ -176,7 +176,7 @@ TEST(ForEachRun, FarFromEveryLeafTheFallbackServes) {
   const TapePtr tape = tapeOf(sphere(1.0));
   const LocalTapes whole = wholeTapes(tape);
   const NarrowBand band = bandOf(sphere(1.0), region(1.0), 1.0 / 32);
-  const std::vector<glm::vec3> points{{0, 0, 0}, {100, 0, 0}, {1, 0, 0}, {-1e9f, 0, 0}};
+  const std::vector<glm::vec3> points{{0, 0, 0}, {100, 0, 0}, {1, 0, 0}, {-1e12f, 0, 0}, {NAN, 0, 0}};
   std::vector<const LocalTapes*> used(points.size());
   Progress progress;
   forEachRun(
@@ -188,6 +188,7 @@ TEST(ForEachRun, FarFromEveryLeafTheFallbackServes) {
   EXPECT_EQ(used[1], &whole);
   EXPECT_NE(used[2], &whole);
   EXPECT_EQ(used[3], &whole);
+  EXPECT_EQ(used[4], &whole);
 }
 
 TEST(ForEachRun, DoesNothingOnceStopped) {

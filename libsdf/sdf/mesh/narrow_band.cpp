@@ -312,6 +312,8 @@ std::uint64_t NarrowBand::sampleCount() const { return grid_->samples; }
 
 const LocalTapes* NarrowBand::Finder::at(const glm::vec3& p) {
   const glm::dvec3 q = glm::floor(glm::dvec3(p) / band_.voxelSize());
+  constexpr double kLast = 1 << 30;  // lattice coordinates beyond, and those that are no numbers, fit no int
+  if (!(std::abs(q.x) < kLast && std::abs(q.y) < kLast && std::abs(q.z) < kLast)) return nullptr;
   const glm::ivec3 voxel(q), leaf(voxel.x & ~(kLeaf - 1), voxel.y & ~(kLeaf - 1), voxel.z & ~(kLeaf - 1));
   if (last_ && leaf == lastLeaf_) return last_;
   const auto& tapes = band_.grid_->tapes;
