@@ -44,12 +44,14 @@ Channel openChannel(bool terminal) {
     const rlimit limit{bytes, bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  // Opened first: nobody may not be let into the folders above the program, such as root's home.
+  const int program = ::open(command.words[0].c_str(), O_RDONLY | O_CLOEXEC);
   if (command.asNobody && ::geteuid() == 0 && ::setuid(kNobody) != 0) ::_exit(126);
   ::signal(SIGINT, SIG_DFL);  // ignored in what a shell starts in the background
   std::vector<char*> words;
   for (const std::string& word : command.words) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  ::execv(words[0], words.data());
+  ::fexecve(program, words.data(), environ);
   ::_exit(127);
 }
 
@@ -67,6 +69,7 @@ Outcome Command::run() const {
   Channel out = openChannel(false), err = openChannel(terminal);
   auto start = Clock::now(), firstWords = start;
   const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no process for the program");
   if (child == 0) becomeProgram(*this, out.write, err.write);
   ::close(out.write);
   ::close(err.write);
