@@ -6,9 +6,11 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <unordered_map>
 
 #include "sdf/eval/batch.h"
@@ -29,6 +31,9 @@ constexpr double kSqrt3 = 1.7320508075688772;
 
 // Float values differ from the true ones by some tens of roundings of numbers of the size of the coordinates.
 constexpr double kRoundingSlack = 0x1p-18;
+
+// Leaves with a sample nearer than this, in voxels, are kept without asking for a sharper slope bound.
+constexpr double kSurelyNear = 0.5;
 
 // What a surface voxel costs in the end: its share of a leaf, extraction's buffers, vertices, triangles and
 // measuring.
@@ -51,6 +56,19 @@ struct Workspace {
   std::vector<Decision> decisions;
   std::vector<Decision> decisionsOfOne;
 };
+
+// Independent minima, which the compiler turns into vector code. A NaN is passed over.
+float smallestMagnitude(const float* values) {
+  constexpr int kLanes = 16;
+  float least[kLanes];
+  std::fill_n(least, kLanes, std::numeric_limits<float>::infinity());
+  for (int i = 0; i < kLeafVoxels; i += kLanes)
+    for (int k = 0; k < kLanes; ++k) {
+      const float v = std::abs(values[i + k]);
+      least[k] = v < least[k] ? v : least[k];
+    }
+  return *std::min_element(least, least + kLanes);
+}
 
 struct CoordHash {
   std::size_t operator()(const openvdb::Coord& c) const { return c.hash<20>(); }
@@ -252,10 +270,13 @@ class BandSampler {
   // surface.
   BandLeaf sampleLeaf(const openvdb::Coord& origin, TapePtr tape, Workspace& w) const {
     float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels];
+    float along[3][kLeaf];
+    for (int k = 0; k < kLeaf; ++k)
+      for (int axis = 0; axis < 3; ++axis) along[axis][k] = static_cast<float>((origin[axis] + k) * h_);
     for (int i = 0; i < kLeafVoxels; ++i) {  // OpenVDB's order: z runs fastest
-      x[i] = static_cast<float>((origin.x() + i / (kLeaf * kLeaf)) * h_);
-      y[i] = static_cast<float>((origin.y() + i / kLeaf % kLeaf) * h_);
-      z[i] = static_cast<float>((origin.z() + i % kLeaf) * h_);
+      x[i] = along[0][i / (kLeaf * kLeaf)];
+      y[i] = along[1][i / kLeaf % kLeaf];
+      z[i] = along[2][i % kLeaf];
     }
     TapePtr distance = tape->firstOutputOnly();
     if (distance->instructions().size() == tape->instructions().size())
@@ -263,11 +284,18 @@ class BandSampler {
     auto leaf = std::make_unique<Leaf>(origin, 0.0f, true);
     float* values = leaf->buffer().data();
     w.batch.evaluate(*distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
-    float nearest = std::abs(values[0]);
-    for (int i = 1; i < kLeafVoxels; ++i) nearest = std::min(nearest, std::abs(values[i]));
-    const double slope = std::min<double>(distance->lipschitz(), options_.lipschitz);
-    if (nearest > slope * h_ + slack(centre(origin, kLeaf))) return {};
+    if (!mayCross(*distance, origin, smallestMagnitude(values))) return {};
     return {std::move(leaf), {std::move(tape), std::move(distance)}};
+  }
+
+  // Can an edge of the lattice that starts or ends in the leaf cross the surface, its samples being no
+  // smaller than `nearest`? Both of its ends are within a voxel's slope of zero then.
+  bool mayCross(const Tape& distance, const openvdb::Coord& origin, float nearest) const {
+    const glm::dvec3 c = centre(origin, kLeaf), half(reach(kLeaf, 1));
+    const double margin = slack(c), slope = std::min<double>(distance.lipschitz(), options_.lipschitz);
+    if (nearest > slope * h_ + margin) return false;
+    if (slope <= 1.0 || !(nearest > kSurelyNear * h_ + margin)) return true;
+    return nearest <= lipschitzOver(distance, Box{c - half, c + half}) * h_ + margin;
   }
 
   // Hands the leaves to a grid and spreads the sign to the tiles between them.
@@ -335,14 +363,13 @@ const LocalTapes* NarrowBand::Finder::at(const glm::vec3& p) {
 namespace {
 
 // A quad as two triangles, cut along its shorter diagonal.
-void appendQuad(const openvdb::Vec4I& q, RawSurface& surface) {
-  const auto& p = surface.points;
+void cutQuad(const openvdb::Vec4I& q, const std::vector<glm::vec3>& p, glm::uvec3* triangles) {
   if (glm::distance(p[q[0]], p[q[2]]) <= glm::distance(p[q[1]], p[q[3]])) {
-    surface.triangles.emplace_back(q[0], q[1], q[2]);
-    surface.triangles.emplace_back(q[0], q[2], q[3]);
+    triangles[0] = {q[0], q[1], q[2]};
+    triangles[1] = {q[0], q[2], q[3]};
   } else {
-    surface.triangles.emplace_back(q[1], q[2], q[3]);
-    surface.triangles.emplace_back(q[1], q[3], q[0]);
+    triangles[0] = {q[1], q[2], q[3]};
+    triangles[1] = {q[1], q[3], q[0]};
   }
 }
 
@@ -357,12 +384,17 @@ RawSurface NarrowBand::extract() {
   openvdb::tools::volumeToMesh(*grid_->grid, points, triangles, quads, 0.0, 0.0);
   grid_->grid.reset();
   RawSurface surface;
-  surface.points.reserve(points.size());
-  for (const openvdb::Vec3s& p : points) surface.points.emplace_back(p.x(), p.y(), p.z());
+  surface.points.resize(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    surface.points[i] = {points[i].x(), points[i].y(), points[i].z()};
+  });
   std::vector<openvdb::Vec3s>().swap(points);
-  surface.triangles.reserve(triangles.size() + 2 * quads.size());
-  for (const openvdb::Vec3I& t : triangles) surface.triangles.emplace_back(t[0], t[1], t[2]);
-  for (const openvdb::Vec4I& q : quads) appendQuad(q, surface);
+  surface.triangles.resize(triangles.size() + 2 * quads.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    surface.triangles[i] = {triangles[i][0], triangles[i][1], triangles[i][2]};
+  glm::uvec3* cut = surface.triangles.data() + triangles.size();
+  tbb::parallel_for(std::size_t{0}, quads.size(),
+                    [&](std::size_t i) { cutQuad(quads[i], surface.points, cut + 2 * i); });
   return surface;
 }
 
