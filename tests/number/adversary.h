@@ -133,9 +133,11 @@ class Adversary {
       case 5:
         x = std::isfinite(i.width()) ? uniform(i.lo, i.hi) : x;
         break;
-      default:
-        x = ofRank(rank(i.lo) + static_cast<std::int64_t>(
-                                    bits() % (static_cast<std::uint64_t>(rank(i.hi) - rank(i.lo)) + 1)));
+      default: {  // the ranks of everything span more than a signed integer
+        const auto first = static_cast<std::uint64_t>(rank(i.lo)),
+                   last = static_cast<std::uint64_t>(rank(i.hi));
+        x = ofRank(static_cast<std::int64_t>(first + bits() % (last - first + 1)));
+      }
     }
     return i.lo <= x && x <= i.hi ? x : i.lo;
   }

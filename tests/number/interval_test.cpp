@@ -38,6 +38,7 @@ TEST(Interval, ContainsTheValueOfEverySample) {
       Adversary adversary(trial);
       const auto box = arguments(op, [&] { return adversary.hostileInterval(); });
       const Interval range = rangeOf(op, box);
+      ASSERT_LE(range.lo, range.hi) << "trial " << trial << ": " << text(op, box) << " = " << text(range);
       for (int sample = 0; sample < kSamples; ++sample) {
         std::vector<double> x;
         for (const Interval& a : box) x.push_back(adversary.inside(a));

@@ -284,6 +284,7 @@ Interval atan2(const Interval& y, const Interval& x) {
 }
 
 Interval mod(const Interval& a, const Interval& b) {
+  if (isZero(b)) return {0.0, 0.0, true};
   // Within one period of a fixed divisor the remainder is a - b * floor(a / b) with the floor known.
   const Interval turns = floor(div(a, b));
   const Interval plain = sub(a, mul(b, turns));
