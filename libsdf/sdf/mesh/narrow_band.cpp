@@ -55,6 +55,7 @@ struct Workspace {
   ScalarReading<Interval> intervals;
   std::vector<Decision> decisions;
   std::vector<Decision> decisionsOfOne;
+  LocalTapes last;  // neighbouring leaves often share their tape
 };
 
 // Independent minima, which the compiler turns into vector code. A NaN is passed over.
@@ -278,14 +279,18 @@ class BandSampler {
       y[i] = along[1][i / kLeaf % kLeaf];
       z[i] = along[2][i % kLeaf];
     }
-    TapePtr distance = tape->firstOutputOnly();
-    if (distance->instructions().size() == tape->instructions().size())
-      distance = tape;  // no need to keep both
+    if (w.last.surface != tape) {
+      TapePtr distance = tape->firstOutputOnly();
+      if (distance->instructions().size() == tape->instructions().size())
+        distance = tape;  // no need to keep both
+      w.last = {std::move(tape), std::move(distance)};
+    }
+    const Tape& distance = *w.last.distance;
     auto leaf = std::make_unique<Leaf>(origin, 0.0f, true);
     float* values = leaf->buffer().data();
-    w.batch.evaluate(*distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
-    if (!mayCross(*distance, origin, smallestMagnitude(values))) return {};
-    return {std::move(leaf), {std::move(tape), std::move(distance)}};
+    w.batch.evaluate(distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
+    if (!mayCross(distance, origin, smallestMagnitude(values))) return {};
+    return {std::move(leaf), w.last};
   }
 
   // Can an edge of the lattice that starts or ends in the leaf cross the surface, its samples being no
