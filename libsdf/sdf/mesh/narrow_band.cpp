@@ -32,9 +32,6 @@ constexpr double kSqrt3 = 1.7320508075688772;
 // Float values differ from the true ones by some tens of roundings of numbers of the size of the coordinates.
 constexpr double kRoundingSlack = 0x1p-18;
 
-// Leaves with a sample nearer than this, in voxels, are kept without asking for a sharper slope bound.
-constexpr double kSurelyNear = 0.5;
-
 // What a surface voxel costs in the end: its share of a leaf, extraction's buffers, vertices, triangles and
 // measuring.
 constexpr double kBytesPerSurfaceVoxel = 300.0;
@@ -43,6 +40,7 @@ constexpr double kSurfaceVoxelsPerLeaf = 64.0;
 struct Cell {
   openvdb::Coord origin;
   TapePtr tape;
+  double slope;  // bound of the distance's slope over the cell and its margin
 };
 
 struct BandLeaf {
@@ -126,7 +124,7 @@ class BandSampler {
     const openvdb::Coord span = high_ - first;
     size_ = kLeaf * kBranch;
     while (size_ <= std::max({span.x(), span.y(), span.z()})) size_ *= kBranch;
-    cells_ = {{first, std::move(tape)}};
+    cells_ = {{first, std::move(tape), options_.lipschitz}};
     return okStatus();
   }
 
@@ -167,7 +165,7 @@ class BandSampler {
            o.y() + size > low_.y() && o.z() + size > low_.z();
   }
 
-  // Calls visit(child origin, its tape) for each child of the cell that the surface may meet.
+  // Calls visit(child) for each child of the cell that the surface may meet.
   template <class Visit>
   void forSurvivingChildren(const Cell& cell, Workspace& w, const Visit& visit) const {
     const int size = size_ / kBranch;
@@ -193,27 +191,30 @@ class BandSampler {
     for (int k = 0; k < count; ++k) {
       const Decision* decisions = w.decisions.data() + k;
       std::size_t stride = count;
-      if (!mayMeet(tape, origin[k], size, value[k], margin, w)) continue;
+      double slope = std::min<double>(tape.lipschitz(), cell.slope);
+      if (!mayMeet(tape, origin[k], size, value[k], margin, slope, w)) continue;
       if (!tape.hasSlopes()) decisions = refineDecisions(tape, origin[k], size, decisions, stride, w);
       const TapePtr special = tape.specialised(decisions, stride);
-      visit(origin[k], special ? special : cell.tape);
+      visit(Cell{origin[k], special ? special : cell.tape, slope});
     }
   }
 
-  // Can the zero set meet the cell (and a voxel around it)? First by the slope bound, then, where that is
-  // loose, by interval derivatives and interval values.
+  // Can the zero set meet the cell (and a voxel around it)? First by the slope bound; then, where that is
+  // loose, by interval values and by interval derivatives, which sharpen the bound for all that lies in the
+  // cell.
   bool mayMeet(const Tape& tape, const openvdb::Coord& origin, int size, double value, double margin,
-               Workspace& w) const {
+               double& slope, Workspace& w) const {
     const double radius = kSqrt3 * reach(size, 1);
-    const double slope = std::min<double>(tape.lipschitz(), options_.lipschitz);
     if (std::abs(value) > slope * radius + margin) return false;
     if (slope <= 1.0 || !std::isfinite(value)) return true;
-    const glm::dvec3 c = centre(origin, size), half(reach(size, 1));
+    // Sampling a leaf costs less than intervals that might spare it.
+    if (size == kLeaf && std::isfinite(slope)) return true;
+    const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
     const Box box{c - half, c + half};
     const Interval range = evaluate(tape, box, w.intervals);
     if (!range.nan && (range.lo > margin || range.hi < -margin)) return false;
-    // Sampling a leaf costs less than the interval derivatives that might spare it.
-    return size == kLeaf || std::abs(value) <= lipschitzOver(tape, box) * radius + margin;
+    slope = std::min(slope, lipschitzOver(tape, box));
+    return std::abs(value) <= slope * radius + margin;
   }
 
   // Adds to what the slopes decided what intervals decide.
@@ -241,9 +242,7 @@ class BandSampler {
   void subdivide() {
     std::vector<std::vector<Cell>> children(cells_.size());
     forEachCell([&](std::size_t i, Workspace& w) {
-      forSurvivingChildren(cells_[i], w, [&](const openvdb::Coord& origin, TapePtr tape) {
-        children[i].push_back({origin, std::move(tape)});
-      });
+      forSurvivingChildren(cells_[i], w, [&](Cell child) { children[i].push_back(std::move(child)); });
       samples_ += kChildren;
     });
     cells_.clear();
@@ -254,8 +253,8 @@ class BandSampler {
   void sampleLeaves() {
     std::vector<std::vector<BandLeaf>> leaves(cells_.size());
     forEachCell([&](std::size_t i, Workspace& w) {
-      forSurvivingChildren(cells_[i], w, [&](const openvdb::Coord& origin, TapePtr tape) {
-        BandLeaf leaf = sampleLeaf(origin, std::move(tape), w);
+      forSurvivingChildren(cells_[i], w, [&](const Cell& cell) {
+        BandLeaf leaf = sampleLeaf(cell, w);
         if (leaf.leaf) leaves[i].push_back(std::move(leaf));
         samples_ += kLeafVoxels;
       });
@@ -269,7 +268,8 @@ class BandSampler {
 
   // The samples of a leaf; empty where no edge of the lattice that starts or ends in it can cross the
   // surface.
-  BandLeaf sampleLeaf(const openvdb::Coord& origin, TapePtr tape, Workspace& w) const {
+  BandLeaf sampleLeaf(const Cell& cell, Workspace& w) const {
+    const openvdb::Coord& origin = cell.origin;
     float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels];
     float along[3][kLeaf];
     for (int k = 0; k < kLeaf; ++k)
@@ -279,28 +279,20 @@ class BandSampler {
       y[i] = along[1][i / kLeaf % kLeaf];
       z[i] = along[2][i % kLeaf];
     }
-    if (w.last.surface != tape) {
-      TapePtr distance = tape->firstOutputOnly();
-      if (distance->instructions().size() == tape->instructions().size())
-        distance = tape;  // no need to keep both
-      w.last = {std::move(tape), std::move(distance)};
+    if (w.last.surface != cell.tape) {
+      TapePtr distance = cell.tape->firstOutputOnly();
+      if (distance->instructions().size() == cell.tape->instructions().size())
+        distance = cell.tape;  // no need to keep both
+      w.last = {cell.tape, std::move(distance)};
     }
     const Tape& distance = *w.last.distance;
     auto leaf = std::make_unique<Leaf>(origin, 0.0f, true);
     float* values = leaf->buffer().data();
     w.batch.evaluate(distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
-    if (!mayCross(distance, origin, smallestMagnitude(values))) return {};
+    // An edge of the lattice that crosses the surface has both ends within a voxel's slope of zero.
+    const double slope = std::min<double>(distance.lipschitz(), cell.slope);
+    if (smallestMagnitude(values) > slope * h_ + slack(centre(origin, kLeaf))) return {};
     return {std::move(leaf), w.last};
-  }
-
-  // Can an edge of the lattice that starts or ends in the leaf cross the surface, its samples being no
-  // smaller than `nearest`? Both of its ends are within a voxel's slope of zero then.
-  bool mayCross(const Tape& distance, const openvdb::Coord& origin, float nearest) const {
-    const glm::dvec3 c = centre(origin, kLeaf), half(reach(kLeaf, 1));
-    const double margin = slack(c), slope = std::min<double>(distance.lipschitz(), options_.lipschitz);
-    if (nearest > slope * h_ + margin) return false;
-    if (slope <= 1.0 || !(nearest > kSurelyNear * h_ + margin)) return true;
-    return nearest <= lipschitzOver(distance, Box{c - half, c + half}) * h_ + margin;
   }
 
   // Hands the leaves to a grid and spreads the sign to the tiles between them.
