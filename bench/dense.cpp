@@ -43,14 +43,19 @@ RawSurface extract(const openvdb::FloatGrid& grid) {
   std::vector<openvdb::Vec4I> quads;
   openvdb::tools::volumeToMesh(grid, points, triangles, quads, 0.0, 0.0);
   RawSurface surface;
-  surface.points.reserve(points.size());
-  for (const auto& p : points) surface.points.emplace_back(p.x(), p.y(), p.z());
-  surface.triangles.reserve(triangles.size() + 2 * quads.size());
-  for (const auto& t : triangles) surface.triangles.emplace_back(t[0], t[1], t[2]);
-  for (const auto& q : quads) {
-    surface.triangles.emplace_back(q[0], q[1], q[2]);
-    surface.triangles.emplace_back(q[0], q[2], q[3]);
-  }
+  surface.points.resize(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    surface.points[i] = {points[i].x(), points[i].y(), points[i].z()};
+  });
+  surface.triangles.resize(triangles.size() + 2 * quads.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    surface.triangles[i] = {triangles[i][0], triangles[i][1], triangles[i][2]};
+  glm::uvec3* cut = surface.triangles.data() + triangles.size();
+  tbb::parallel_for(std::size_t{0}, quads.size(), [&](std::size_t i) {
+    const openvdb::Vec4I& q = quads[i];
+    cut[2 * i] = {q[0], q[1], q[2]};
+    cut[2 * i + 1] = {q[0], q[2], q[3]};
+  });
   return surface;
 }
 
