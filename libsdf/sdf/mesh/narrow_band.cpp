@@ -37,6 +37,9 @@ constexpr double kRoundingSlack = 0x1p-18;
 constexpr double kBytesPerSurfaceVoxel = 300.0;
 constexpr double kSurfaceVoxelsPerLeaf = 64.0;
 
+// Running so many instructions over a leaf takes no longer than making it a tape of its own.
+constexpr std::size_t kShortTape = 64;
+
 struct Cell {
   openvdb::Coord origin;
   TapePtr tape;
@@ -193,6 +196,10 @@ class BandSampler {
       std::size_t stride = count;
       double slope = std::min<double>(tape.lipschitz(), cell.slope);
       if (!mayMeet(tape, origin[k], size, value[k], margin, slope, w)) continue;
+      if (size == kLeaf && tape.instructions().size() <= kShortTape) {
+        visit(Cell{origin[k], cell.tape, slope});
+        continue;
+      }
       if (!tape.hasSlopes()) decisions = refineDecisions(tape, origin[k], size, decisions, stride, w);
       const TapePtr special = tape.specialised(decisions, stride);
       visit(Cell{origin[k], special ? special : cell.tape, slope});
@@ -207,12 +214,12 @@ class BandSampler {
     const double radius = kSqrt3 * reach(size, 1);
     if (std::abs(value) > slope * radius + margin) return false;
     if (slope <= 1.0 || !std::isfinite(value)) return true;
-    // Sampling a leaf costs less than intervals that might spare it.
-    if (size == kLeaf && std::isfinite(slope)) return true;
     const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
     const Box box{c - half, c + half};
     const Interval range = evaluate(tape, box, w.intervals);
     if (!range.nan && (range.lo > margin || range.hi < -margin)) return false;
+    // Sampling a leaf costs less than the interval derivatives that might spare it.
+    if (size == kLeaf && std::isfinite(slope)) return true;
     slope = std::min(slope, lipschitzOver(tape, box));
     return std::abs(value) <= slope * radius + margin;
   }
@@ -274,10 +281,10 @@ class BandSampler {
     float along[3][kLeaf];
     for (int k = 0; k < kLeaf; ++k)
       for (int axis = 0; axis < 3; ++axis) along[axis][k] = static_cast<float>((origin[axis] + k) * h_);
-    for (int i = 0; i < kLeafVoxels; ++i) {  // OpenVDB's order: z runs fastest
-      x[i] = along[0][i / (kLeaf * kLeaf)];
-      y[i] = along[1][i / kLeaf % kLeaf];
-      z[i] = along[2][i % kLeaf];
+    for (int row = 0; row < kLeaf * kLeaf; ++row) {  // OpenVDB's order: z runs fastest
+      std::fill_n(x + row * kLeaf, kLeaf, along[0][row / kLeaf]);
+      std::fill_n(y + row * kLeaf, kLeaf, along[1][row % kLeaf]);
+      std::copy_n(along[2], kLeaf, z + row * kLeaf);
     }
     if (w.last.surface != cell.tape) {
       TapePtr distance = cell.tape->firstOutputOnly();
@@ -286,12 +293,13 @@ class BandSampler {
       w.last = {cell.tape, std::move(distance)};
     }
     const Tape& distance = *w.last.distance;
-    auto leaf = std::make_unique<Leaf>(origin, 0.0f, true);
-    float* values = leaf->buffer().data();
+    float values[kLeafVoxels];
     w.batch.evaluate(distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
     // An edge of the lattice that crosses the surface has both ends within a voxel's slope of zero.
     const double slope = std::min<double>(distance.lipschitz(), cell.slope);
     if (smallestMagnitude(values) > slope * h_ + slack(centre(origin, kLeaf))) return {};
+    auto leaf = std::make_unique<Leaf>(origin, 0.0f, true);
+    std::copy_n(values, kLeafVoxels, leaf->buffer().data());
     return {std::move(leaf), w.last};
   }
 
