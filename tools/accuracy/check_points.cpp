@@ -1,0 +1,149 @@
+#include "check_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sdf::accuracy {
+namespace {
+
+using Random = PointMaker::Random;
+
+std::size_t below(Random& random, std::size_t count) { return random() % count; }
+
+glm::dvec3 asFloats(const glm::dvec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+Box boxOf(const TriangleMesh& mesh) {
+  Box box;
+  for (const glm::dvec3& p : mesh.points) box = unite(box, {p, p});
+  return box;
+}
+
+}  // namespace
+
+double uniform(Random& random, double lo, double hi) {
+  return lo + (hi - lo) * (static_cast<double>(random() >> 11) * 0x1p-53);
+}
+
+glm::dvec3 randomDirection(Random& random) {
+  while (true) {
+    const glm::dvec3 v(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+    const double length = glm::length(v);
+    if (length > 0.01 && length <= 1.0) return v / length;
+  }
+}
+
+PointMaker::PointMaker(const ReferenceCase& c, const Reference& reference)
+    : case_(c), reference_(reference), box_(intersect(boxOf(c.mesh), c.region)) {
+  size_ = box_.longestSide();
+  for (int i = 0; i < 3; ++i)
+    reach_ = std::max(reach_, std::max(std::abs(box_.min[i]), std::abs(box_.max[i])));
+  double sum = 0.0;
+  for (const glm::ivec3& t : c.mesh.triangles) {
+    const glm::dvec3 a = c.mesh.points[t.x], b = c.mesh.points[t.y], d = c.mesh.points[t.z];
+    areas_.push_back(sum += 0.5 * glm::length(glm::cross(b - a, d - a)));
+  }
+}
+
+glm::dvec3 PointMaker::operator()(std::uint64_t k, Random& random) const {
+  // The medial axis takes many queries a point, hence its small share.
+  constexpr int kKinds = 64;
+  const int kind = static_cast<int>(k % kKinds);
+  const glm::dvec3 p = kind < 26   ? nearSurface(random)
+                       : kind < 34 ? nearSpecial(random)
+                       : kind < 46 ? around(random)
+                       : kind < 56 ? onSymmetry(random)
+                       : kind < 63 ? far(random)
+                                   : onMedialAxis(random);
+  return asFloats(glm::clamp(p, case_.region.min, case_.region.max));
+}
+
+// Half of them by area; half by triangle, since small triangles stand where the surface bends. Some on
+// vertices and edges.
+PointMaker::OnSurface PointMaker::onSurface(Random& random) const {
+  std::size_t i = below(random, areas_.size());
+  if (below(random, 2)) {
+    const double share = uniform(random, 0.0, areas_.back());
+    i = std::min<std::size_t>(std::upper_bound(areas_.begin(), areas_.end(), share) - areas_.begin(),
+                              areas_.size() - 1);
+  }
+  const glm::ivec3& t = case_.mesh.triangles[i];
+  const glm::dvec3 a = case_.mesh.points[t.x], b = case_.mesh.points[t.y], c = case_.mesh.points[t.z];
+  double u = uniform(random, 0.0, 1.0), v = uniform(random, 0.0, 1.0);
+  if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+  const std::size_t place = below(random, 8);
+  if (place == 0) u = v = 0.0;
+  if (place == 1) v = 0.0;
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double length = glm::length(normal);
+  return {a + u * (b - a) + v * (c - a), length > 0.0 ? normal / length : glm::dvec3(0, 1, 0)};
+}
+
+double PointMaker::offset(Random& random) const { return size_ * std::pow(10.0, uniform(random, -6.0, 0.0)); }
+
+glm::dvec3 PointMaker::nearSurface(Random& random) const {
+  const glm::dvec3 at = onSurface(random).at;
+  return at + offset(random) * randomDirection(random);
+}
+
+glm::dvec3 PointMaker::nearSpecial(Random& random) const {
+  if (case_.special.empty()) return onSymmetry(random);
+  const glm::dvec3 at = case_.special[below(random, case_.special.size())];
+  return below(random, 8) ? at + offset(random) * randomDirection(random) : at;
+}
+
+glm::dvec3 PointMaker::around(Random& random) const {
+  const Box box = below(random, 2) ? box_ : box_.grown(0.5 * size_);
+  glm::dvec3 p;
+  for (int i = 0; i < 3; ++i) p[i] = uniform(random, box.min[i], box.max[i]);
+  return p;
+}
+
+// Onto the coordinate planes and axes, the planes through the middle of the solid, and the diagonals.
+glm::dvec3 PointMaker::onSymmetry(Random& random) const {
+  glm::dvec3 p = around(random);
+  const int i = static_cast<int>(below(random, 3)), j = (i + 1 + static_cast<int>(below(random, 2))) % 3;
+  const glm::dvec3 middle = box_.centre();
+  switch (below(random, 6)) {
+    case 0:
+      p[i] = 0.0;
+      break;
+    case 1:
+      p[i] = middle[i];
+      break;
+    case 2:
+      p[i] = p[j] = 0.0;
+      break;
+    case 3:
+      p[i] = middle[i], p[j] = middle[j];
+      break;
+    case 4:
+      p[i] = p[j];
+      break;
+    default:
+      p[i] = -p[j];
+  }
+  return p;
+}
+
+glm::dvec3 PointMaker::far(Random& random) const {
+  return box_.centre() + size_ * std::pow(10.0, uniform(random, 0.0, 2.0)) * randomDirection(random);
+}
+
+// From a point of the surface inward or outward, as far as that point stays the nearest.
+glm::dvec3 PointMaker::onMedialAxis(Random& random) const {
+  const OnSurface s = onSurface(random);
+  const glm::dvec3 way = below(random, 4) ? -s.normal : s.normal;
+  // Above the chord, for a mesh's own edges have a medial axis too.
+  const double tolerance = case_.chord + 1e-6 * size_;
+  double stays = 0.0, leaves = size_;
+  for (int step = 0; step < 20; ++step) {
+    const double t = 0.5 * (stays + leaves);
+    (reference_.distance(s.at + t * way) > t - tolerance ? stays : leaves) = t;
+  }
+  return s.at + stays * way;
+}
+
+}  // namespace sdf::accuracy
