@@ -1,0 +1,39 @@
+// Every known failure: the naive method shows it, ours does not.
+#include <gtest/gtest.h>
+
+#include <cctype>
+
+#include "accuracy/failures/failure_case.h"
+
+namespace sdf::accuracy {
+
+void PrintTo(const FailureCase& c, std::ostream* out) { *out << c.name; }
+
+namespace {
+
+class Failure : public testing::TestWithParam<FailureCase> {};
+
+std::string testName(const testing::TestParamInfo<FailureCase>& info) {
+  std::string name;
+  bool start = true;
+  for (const unsigned char c : info.param.name) {
+    if (std::isalnum(c)) name += start ? static_cast<char>(std::toupper(c)) : static_cast<char>(c);
+    start = !std::isalnum(c);
+  }
+  return name;
+}
+
+TEST_P(Failure, IsRealForTheNaiveMethodAndHeldByOurs) {
+  const FailureCase& c = GetParam();
+  const Figures figures = c.run();
+  // Written so that NaN is bad on both sides.
+  EXPECT_FALSE(figures.naive < c.naiveAtLeast)
+      << c.naive << ": " << figures.naive << " " << c.figure << "; " << c.reason;
+  EXPECT_TRUE(figures.ours <= c.oursAtMost)
+      << c.ours << ": " << figures.ours << " " << c.figure << "; " << c.reason;
+}
+
+INSTANTIATE_TEST_SUITE_P(Known, Failure, testing::ValuesIn(failureCases()), testName);
+
+}  // namespace
+}  // namespace sdf::accuracy

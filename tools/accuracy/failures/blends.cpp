@@ -1,0 +1,142 @@
+// Failures of smooth minima, and of the colours they mix.
+#include <cmath>
+
+#include "failure_case.h"
+#include "probe.h"
+#include "sdf/eval/batch.h"
+#include "sdf/shape/operators.h"
+#include "sdf/shape/solids.h"
+
+namespace sdf::accuracy {
+namespace {
+
+/// The float batch reading at one point.
+float batchAt(const Shape& s, float x) {
+  const float zero = 0.0f;
+  float value;
+  BatchEvaluator().evaluate(Tape(s.distance), {.x = &x, .y = &zero, .z = &zero}, 1, &value);
+  return value;
+}
+
+FailureCase exponentialCase(const char* where, double distance) {
+  // Two planes x <= -distance: both distances are `distance` at the origin.
+  return {
+      std::string("exponential blend of distances of ") + where,
+      "values that are not finite, of 1",
+      "-log(exp(-32 a) + exp(-32 b)) / 32 in float",
+      "least distance taken out of the exponents first",
+      1.0,
+      0.0,
+      "32 * 4.1 > log(FLT_MAX) = 88.7, and exp(-32 * 4.7) is 0 in float; ours must be within 4 float ulps of "
+      "min - k log 2",
+      [distance] {
+        const float a = static_cast<float>(distance);
+        const float naive = -std::log(std::exp(-32.0f * a) + std::exp(-32.0f * a)) / 32.0f;
+        const Shape one = plane({1, 0, 0}, -distance), other = plane({1, 0, 0.0}, -distance);
+        const double expected = distance - std::log(2.0) / 32.0;
+        const double ours = batchAt(unite(one, other, Blend::exponential(1.0 / 32.0)), 0.0f);
+        const bool sound = std::abs(ours - expected) <= 4.0 * 0x1p-23 * std::abs(expected);
+        return Figures{std::isfinite(naive) ? 0.0 : 1.0, sound ? 0.0 : 1.0};
+      }};
+}
+
+FailureCase powerCase() {
+  return {"power blend inside",
+          "values that are not numbers, of 1",
+          "power smooth minimum (a^k b^k / (a^k + b^k))^(1/k)",
+          "not offered; the four blends that are, are finite inside",
+          1.0,
+          0.0,
+          "a negative number to a fractional power",
+          [] {
+            const double a = std::pow(-0.5, 2.5), b = std::pow(-0.25, 2.5);
+            const double naive = std::pow(a * b / (a + b), 1.0 / 2.5);
+            bool sound = true;
+            for (const Blend& blend :
+                 {Blend::quadratic(0.3), Blend::cubic(0.3), Blend::exponential(0.3), Blend::chamfer(0.3)}) {
+              const double f =
+                  Distance(unite(sphere(0.5), translate(sphere(0.25), {0.1, 0, 0}), blend))(0.0, 0.0, 0.0);
+              sound &= std::isfinite(f) && f < 0.0;
+            }
+            return Figures{std::isnan(naive) ? 1.0 : 0.0, sound ? 0.0 : 1.0};
+          }};
+}
+
+// Depth of the blend's solid in the middle of the gap between two balls, 0 where the gap is open.
+double closed(double gap, double k) {
+  const Shape left = translate(sphere(1.0), {-1.0 - gap / 2, 0, 0}),
+              right = translate(sphere(1.0), {1.0 + gap / 2, 0, 0});
+  return std::max(0.0, -Distance(unite(left, right, Blend::quadratic(k)))(0, 0, 0));
+}
+
+FailureCase gapCase() {
+  return {"a blend that closes a gap",
+          "depth of solid in the middle of a gap of 0.1",
+          "quadratic blend, k = 0.4",
+          "k chosen by the documented limit, twice the gap",
+          0.05 - kRounding,
+          0.0,
+          "a blend lowers equal distances by k / 4: 0.05 - 0.1; at k = 2 gap by just half the gap",
+          [] {
+            return Figures{closed(0.1, 0.4), closed(0.1, 0.2 - 1e-9)};
+          }};
+}
+
+// Height of the field over 0 in the middle of a wall that a blended cut comes near: 0 where the wall stands.
+double pierced(double half, double k) {
+  const Shape wall = intersect(plane({1, 0, 0}, half), plane({-1, 0, 0}, half));
+  const Shape cutter = plane({1, 0, 0}, -half);  // leaves all of the wall, and ends at its face
+  return std::max(0.0, Distance(subtract(wall, cutter, Blend::quadratic(k)))(0, 0, 0));
+}
+
+FailureCase wallCase() {
+  return {"a blended cut that eats a wall",
+          "height of the field in the middle of a wall of 0.1",
+          "quadratic cut, k = 0.4",
+          "k chosen by the documented limit, four times half the wall",
+          0.05 - kRounding,
+          0.0,
+          "a cut raises equal distances by k / 4: -0.05 + 0.1",
+          [] {
+            return Figures{pierced(0.05, 0.4), pierced(0.05, 0.2 - 1e-9)};
+          }};
+}
+
+FailureCase colourJumpCase() {
+  return {"colour of a blend",
+          "greatest jump of a colour over a step of 1e-3",
+          "the nearer shape's colour",
+          "colours mixed by the weight that mixes the distances",
+          1.0,
+          2.0 * 1e-3 / 0.4 + kRounding,
+          "black and white; the weight 1/2 + (b - a) / (2 k), k = 0.4, changes by at most 2 / (2 k) a unit",
+          [] {
+            const Shape black = translate(sphere(1.0), {-0.8, 0, 0}).paint({.color = Vec3E(0.0)});
+            const Shape white = translate(sphere(1.0), {0.8, 0, 0}).paint({.color = Vec3E(1.0)});
+            const Tape hard(unite(black, white).surface[0]),
+                soft(unite(black, white, Blend::quadratic(0.4)).surface[0]);
+            constexpr double kStep = 1e-3;
+            Figures figures;
+            for (double x = -1.0005; x < 1.0; x += kStep) {
+              const auto jump = [&](const Tape& t) {
+                return std::abs(evaluate(t, {x + kStep, 0, 0}) - evaluate(t, {x, 0, 0}));
+              };
+              figures.naive = std::max(figures.naive, jump(hard)),
+              figures.ours = std::max(figures.ours, jump(soft));
+            }
+            return figures;
+          }};
+}
+
+}  // namespace
+
+std::vector<FailureCase> blendFailures() {
+  return {exponentialCase("-4.1", -4.1),
+          exponentialCase("4.7", 4.7),
+          powerCase(),
+          gapCase(),
+          wallCase(),
+          colourJumpCase()};
+}
+
+}  // namespace sdf::accuracy

@@ -1,0 +1,41 @@
+// Known ways in which signed distance methods fail: each a scene, the naive method's figure, and ours.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sdf::accuracy {
+
+/// What both methods measured on one scene; 0 is perfect, larger is worse. NaN counts as infinitely bad.
+struct Figures {
+  double naive = 0.0;
+  double ours = 0.0;
+};
+
+struct FailureCase {
+  std::string name;              ///< the case in a few words: "two boxes share a face"
+  std::string figure;            ///< what is measured, with its unit: "extra components"
+  std::string naive;             ///< the naive method: "minimum of the distances, dense samples"
+  std::string ours;              ///< what ours does instead
+  double naiveAtLeast;           ///< the naive figure reaches this, or the case would not be real
+  double oursAtMost;             ///< what ours must hold to
+  std::string reason;            ///< where the two limits come from
+  std::function<Figures()> run;  ///< deterministic, a few seconds at most
+};
+
+/// Cases of formulas, of warped and repeated space, of blends, of marching and shading, and of meshing.
+std::vector<FailureCase> formulaFailures();
+std::vector<FailureCase> warpFailures();
+std::vector<FailureCase> blendFailures();
+std::vector<FailureCase> marchingFailures();
+std::vector<FailureCase> meshingFailures();
+
+/// All of them.
+inline std::vector<FailureCase> failureCases() {
+  std::vector<FailureCase> all = formulaFailures();
+  for (auto list : {warpFailures(), blendFailures(), marchingFailures(), meshingFailures()})
+    all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+}  // namespace sdf::accuracy

@@ -1,0 +1,165 @@
+// Failures of warped and repeated space.
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+#include "failure_case.h"
+#include "probe.h"
+#include "sdf/shape/operators.h"
+#include "sdf/shape/solids.h"
+
+namespace sdf::accuracy {
+namespace {
+
+FailureCase stretchCase() {
+  return {"sphere flattened to a tenth",
+          "greatest f / d on the short axis, less 1",
+          "f(p / s)",
+          "scale(): multiplied by the least factor",
+          9.0 - kRounding,
+          kRounding,
+          "p / s moves ten times as fast as p",
+          [] {
+            const auto naive = [](double z) { return z / 0.1 - 1.0; };
+            const Distance ours(scale(sphere(1.0), {1, 1, 0.1}));
+            Figures figures;
+            for (double z = 0.2; z < 3.0; z += 0.1) {
+              figures.naive = std::max(figures.naive, naive(z) / (z - 0.1) - 1.0);
+              figures.ours = std::max(figures.ours, ours(0, 0, z) / (z - 0.1) - 1.0);
+            }
+            return figures;
+          }};
+}
+
+FailureCase twistCase() {
+  constexpr double kRate = 3.0, kHalf = 0.53;
+  return {
+      "slope of a twisted box",
+      "steepest difference quotient, less 1",
+      "f of the turned position",
+      "divided by the largest singular value of the shear",
+      0.9 * (std::hypot(1.0, kRate * kHalf) - 1.0),
+      1e-9,
+      "at a face's edge, half = 0.53 off its middle, the face also moves by rate half along y: slope "
+      "sqrt(1 + (3 * 0.53)^2), of which the lattice finds nine tenths; quotients over 1e-4 round by 1e-12",
+      [] {
+        const Shape column = box(Vec3E(kHalf, 1.0, kHalf));
+        const Distance straight(column), ours(twist(column, kRate));
+        const auto naive = [&](const glm::dvec3& p) {
+          const double c = std::cos(kRate * p.y), s = std::sin(kRate * p.y);
+          return straight(c * p.x - s * p.z, p.y, s * p.x + c * p.z);
+        };
+        return Figures{steepest(naive, 0.75, 41) - 1.0, steepest(ours, 0.75, 41) - 1.0};
+      }};
+}
+
+FailureCase bendCase() {
+  return {"slope of a bent bar",
+          "steepest difference quotient, less 1",
+          "f of the turned position (Quilez 2008)",
+          "lengths along the bar kept, and divided by the greatest stretch",
+          1.0,
+          1e-9,
+          "the turn by k x, k = 2, shears by k r, which is 1 + k r - 1 = 1 or more at the bar's end",
+          [] {
+            const Shape bar = box(Vec3E(1.0, 0.2, 0.2));
+            const Distance straight(bar), ours(bend(bar, 1.0));
+            const auto naive = [&](const glm::dvec3& p) {
+              const double c = std::cos(2.0 * p.x), s = std::sin(2.0 * p.x);
+              return straight(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+            };
+            return Figures{steepest(naive, 1.0, 41) - 1.0, steepest(ours, 1.0, 41) - 1.0};
+          }};
+}
+
+FailureCase foldingBendCase() {
+  return {"a bend that folds space",
+          "points above the fold that count as solid, of 1",
+          "f of the position in the bent frame",
+          "refused, with the curvature that would do",
+          1.0,
+          0.0,
+          "material at y = 0.6 > 1 / 2 passes the centre of curvature",
+          [] {
+            // In the bent frame the centre of curvature is (any x, 1/2): one point stands for a whole line.
+            const Distance bar(box(Vec3E(1.0, 0.6, 0.2)));
+            const double naive = bar(0.0, 0.5, 0.0) < 0.0 && bar(0.9, 0.5, 0.0) < 0.0 ? 1.0 : 0.0;
+            return Figures{naive, bend(box(Vec3E(1.0, 0.6, 0.2)), 2.0).ok() ? 1.0 : 0.0};
+          }};
+}
+
+FailureCase waveCase() {
+  return {"slope of a displaced sphere",
+          "steepest difference quotient, less 1",
+          "sphere + 0.1 sin 20x sin 20y sin 20z",
+          "displace(): divided by 1 + amplitude w",
+          1.6,
+          1e-9,
+          "the gradient's length reaches 1 + 0.1 * 20 = 3 where wave and sphere climb together, of which the "
+          "lattice "
+          "finds 2.6 or more",
+          [] {
+            const auto naive = [](const glm::dvec3& p) {
+              const glm::dvec3 s = glm::sin(20.0 * p);
+              return glm::length(p) - 1.0 + 0.1 * s.x * s.y * s.z;
+            };
+            const Distance ours(displace(sphere(1.0), 0.1, 20.0));
+            return Figures{steepest(naive, 1.2, 61) - 1.0, steepest(ours, 1.2, 61) - 1.0};
+          }};
+}
+
+FailureCase offCentreRepeatCase() {
+  return {"sphere near the wall of its cell",
+          "greatest excess over the distance",
+          "one look into the point's own cell",
+          "neighbouring cells looked at where the shape can be nearest",
+          0.8 - kRounding,
+          kRounding,
+          "cell 2, radius 0.5, offset 0.4: at the wall 0.9 where the next copy is 0.1 away",
+          [] {
+            const Distance one(translate(sphere(0.5), {0.4, 0, 0}));
+            const Distance ours(repeatGrid(translate(sphere(0.5), {0.4, 0, 0}), {2, 0, 0}));
+            Figures figures;
+            for (double x = -1.0; x <= 1.0; x += 1.0 / 64) {
+              const double d = std::min({std::abs(x - 0.4), std::abs(x + 1.6), std::abs(x - 2.4)}) - 0.5;
+              figures.naive = std::max(figures.naive, one(x - 2.0 * std::round(x / 2.0), 0, 0) - d);
+              figures.ours = std::max(figures.ours, std::abs(ours(x, 0, 0) - d));
+            }
+            return figures;
+          }};
+}
+
+FailureCase pokingRepeatCase() {
+  return {"turned box that pokes through its cell's walls",
+          "greatest jump across a wall",
+          "one look into the point's own cell",
+          "neighbouring cells looked at",
+          0.1,
+          1e-6 + kRounding,
+          "half length 1.5 in cells of 2 turned by 30 degrees sticks out; a slope of at most 1 over a step "
+          "of 1e-6",
+          [] {
+            const Shape bar = rotate(box(Vec3E(1.5, 0.2, 0.2)), {0, 0, kPi / 6});
+            const Distance one(bar), ours(repeatGrid(bar, {2, 2, 0}));
+            const auto naive = [&](double x, double y) {
+              return one(x - 2.0 * std::round(x / 2.0), y - 2.0 * std::round(y / 2.0), 0.0);
+            };
+            constexpr double kGap = 1e-6;
+            Figures figures;
+            for (double y = -0.99; y < 1.0; y += 0.01) {
+              figures.naive =
+                  std::max(figures.naive, std::abs(naive(1 - kGap / 2, y) - naive(1 + kGap / 2, y)));
+              figures.ours =
+                  std::max(figures.ours, std::abs(ours(1 - kGap / 2, y, 0) - ours(1 + kGap / 2, y, 0)));
+            }
+            return figures;
+          }};
+}
+
+}  // namespace
+
+std::vector<FailureCase> warpFailures() {
+  return {stretchCase(), twistCase(),           bendCase(),        foldingBendCase(),
+          waveCase(),    offCentreRepeatCase(), pokingRepeatCase()};
+}
+
+}  // namespace sdf::accuracy
