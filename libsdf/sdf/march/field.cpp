@@ -1,0 +1,64 @@
+#include "sdf/march/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+
+namespace sdf {
+namespace {
+
+constexpr double kUnitLength = 1e-6;        // how far from 1 a direction normalised in float may be
+constexpr double kConstantSlope = 0x1p-64;  // stands for 0: a distance that is the same everywhere
+
+bool isEverything(const Box& b) { return b.contains(Box::everything()); }
+
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool sameLength(const Vectors& v, std::size_t count) {
+  return v.x.size() == count && v.y.size() == count && v.z.size() == count;
+}
+
+// What is wrong with ray i; "" where nothing is.
+std::string fault(const Rays& rays, std::size_t i) {
+  const double length = glm::length(rays.direction[i]);
+  if (!finite(rays.origin[i])) return "its origin is not finite";
+  if (!(std::abs(length - 1.0) <= kUnitLength))
+    return "its direction has length " + std::to_string(length) + "; normalise it";
+  if (!std::isfinite(rays.tMin[i]) || !std::isfinite(rays.tMax[i])) return "tMin and tMax must be finite";
+  if (!(0.0 <= rays.tMin[i] && rays.tMin[i] <= rays.tMax[i])) return "0 <= tMin <= tMax must hold";
+  return {};
+}
+
+}  // namespace
+
+Result<MarchField> marchField(const Shape& shape) {
+  if (!shape.ok()) return Error{ErrorKind::Scene, *shape.error};
+  if (shape.dimension != 3) return Error{ErrorKind::Scene, "the shape is flat; extrude or revolve it"};
+  MarchField field{std::make_shared<const Tape>(shape.distance)};
+  const Claim& claim = shape.claim;
+  field.lipschitz = isEverything(claim.region) ? claim.lipschitz : field.distance->lipschitz();
+  field.lipschitz = std::max(field.lipschitz, kConstantSlope);
+  return field;
+}
+
+Status checkSlope(const MarchField& field, const char* user) {
+  if (field.lipschitz > 0.0 && field.hasSlope()) return okStatus();
+  const char* what = field.hasSlope() ? ": the Lipschitz constant must be positive"
+                                      : ": the shape's slope has no known bound; state one with "
+                                        "field's lipschitz, or march by segments or bisection";
+  return Error{ErrorKind::Scene, std::string(user) + what};
+}
+
+Status checkRays(const Rays& rays, const char* user) {
+  const std::size_t count = rays.size();
+  const std::string subject(user);
+  if (!sameLength(rays.origin, count) || !sameLength(rays.direction, count) || rays.tMax.size() != count)
+    return Error{ErrorKind::Usage, subject + ": the rows of the rays differ in length"};
+  for (std::size_t i = 0; i < count; ++i)
+    if (const std::string what = fault(rays, i); !what.empty())
+      return Error{ErrorKind::Usage, subject + ": ray " + std::to_string(i) + ": " + what};
+  return okStatus();
+}
+
+}  // namespace sdf

@@ -1,0 +1,103 @@
+// Sphere tracing and its relatives: where rays first meet a shape. This is the reference that a GPU's shaders
+// are tested against, and a bench on which the methods can be compared.
+//
+// All methods see g = f / L, the distance divided by its Lipschitz constant, so that the ball of radius g
+// around a point (its unbounding sphere) is free of the solid. Written for one ray, with
+// threshold(t) = epsilon + footprint * t, the first four are
+//
+//   t = tMin; r = g(tMin);
+//   loop: if (r <= threshold(t)) Hit at t;
+//         if (t + r >= tMax) Miss;
+//         z = min(relaxed step, tMax - t);             // at least r
+//         R = g(t + z);
+//         if (z > r && z > r + R) z = r; R = g(t + r);  // the balls do not overlap: something may lie
+//                                                      // between them, so the plain step is taken
+//         t += z; r = R;
+//
+// and differ in the relaxed step:
+//
+//   Plain        r                                                               (Hart 1996)
+//   OverRelaxed  overRelaxation * r, after the first failure r  (Keinert, Schaefer, Korndoerfer, Ganse and
+//                Stamminger 2014)
+//   Accelerated  r + acceleration * r (1 + m) / (1 - m), m = (r - r') / z' being the slope over the last
+//   step:
+//                the balls just touch if that slope goes on                      (Balint, Valasek 2018)
+//   AutoRelaxed  2 r / (1 - m), m the slope averaged: m += smoothing * ((r - r') / z' - m), and -1 at the
+//   start
+//                and after a failure                                             (Ban, Valasek 2023)
+//
+// Segment steps by min(g / s, l), s being the steepest fall of g along the next l of the ray by interval
+// derivatives (and at most 1), l = growth times the last step (Galin, Guerin, Paris, Peytavie 2020).
+// Bisection halves the ray until intervals prove a piece free of the solid, nearest piece first, or the piece
+// is no longer than the threshold (Mitchell 1990): it cannot miss.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sdf/base/result.h"
+#include "sdf/march/field.h"
+#include "sdf/march/rays.h"
+
+namespace sdf {
+
+enum class MarchMethod { Plain, OverRelaxed, Accelerated, AutoRelaxed, Segment, Bisection };
+
+/// How a ray ended. Of all but Undefined, the ray is free of the solid from tMin to t, unless it is thinner
+/// than float rounding.
+enum class RayStatus : std::uint8_t {
+  Hit,       ///< g(t) <= threshold(t); Bisection: the solid begins in [t, t + threshold(t)], or comes so near
+             ///< to it that intervals cannot tell
+  Miss,      ///< no solid up to t = tMax
+  Budget,    ///< maxSteps were not enough; t is how far it came
+  Undefined  ///< f is not a number at t
+};
+
+struct MarchOptions {
+  MarchMethod method = MarchMethod::Plain;
+  double epsilon = 1e-4;   ///< a hit where g <= epsilon + footprint * t; scene units, > 0
+  double footprint = 0.0;  ///< radius of a pixel's cone at t = 1, >= 0. About tan(fov / 2) / (height / 2) / 2
+  int maxSteps = 512;      ///< readings of the field a ray may take, > 0
+  int refinements = 0;     ///< secant steps after a hit, >= 0; they move t on by at most 4 threshold(t)
+  double overRelaxation = 1.6;  ///< OverRelaxed: in [1, 2)
+  double acceleration = 0.9;    ///< Accelerated: in [0, 1]
+  double smoothing = 0.3;       ///< AutoRelaxed: in (0, 1]
+  double growth = 2.0;          ///< Segment: > 1
+};
+
+/// What became of each ray, in the rays' order.
+struct Hits {
+  std::vector<double> t;
+  std::vector<int> steps;  ///< readings of the field: at a point or over a segment
+  std::vector<RayStatus> status;
+};
+
+/// Marches batches of rays through one field. A ray that starts in the solid hits at tMin. The first four
+/// methods read the field in float SIMD batches of up to 512 rays, and again in double where the value is so
+/// close to 0 that float could not tell (within 2^-16 of the largest coordinate); t is kept in double, so
+/// that t + g == t cannot happen. Segment and Bisection work ray by ray in double and intervals. Rays do not
+/// depend on each other. Not thread-safe: one a thread.
+class Marcher {
+ public:
+  /// Errors: Usage (an option out of range), Scene (no known Lipschitz constant, which all methods but
+  /// Segment and Bisection need).
+  static Result<Marcher> make(MarchField field, const MarchOptions& options);
+  /// The same, from marchField(shape).
+  static Result<Marcher> make(const Shape& shape, const MarchOptions& options);
+
+  /// Marches the rays. Errors: Usage, where checkRays finds one or a ray is so long that double does not
+  /// resolve epsilon at its end. Cost: at most maxSteps readings a ray, and 2 + refinements more for each hit
+  /// that is refined.
+  Result<Hits> trace(const Rays& rays);
+
+  Marcher(Marcher&&) noexcept;
+  Marcher& operator=(Marcher&&) noexcept;
+  ~Marcher();
+
+ private:
+  struct State;
+  explicit Marcher(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sdf

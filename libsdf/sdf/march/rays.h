@@ -1,0 +1,39 @@
+// Rows of vectors and rays: how marching takes many at once.
+#pragma once
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace sdf {
+
+/// Vectors in rows, one row a component. All three rows have one length.
+struct Vectors {
+  std::vector<double> x, y, z;
+
+  std::size_t size() const { return x.size(); }
+  glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void add(const glm::dvec3& v) {
+    x.push_back(v.x);
+    y.push_back(v.y);
+    z.push_back(v.z);
+  }
+};
+
+/// Points origin + t direction for t in [tMin, tMax], in scene units. In double, so that a ray may start far
+/// from what it meets: at t = 1e5 a float t moves in steps of 0.008.
+struct Rays {
+  Vectors origin;
+  Vectors direction;  ///< of length 1 (within 1e-6)
+  std::vector<double> tMin, tMax;
+
+  std::size_t size() const { return tMin.size(); }
+  glm::dvec3 at(std::size_t i, double t) const { return origin[i] + t * direction[i]; }
+  void add(const glm::dvec3& from, const glm::dvec3& along, double first, double last) {
+    origin.add(from);
+    direction.add(along);
+    tMin.push_back(first);
+    tMax.push_back(last);
+  }
+};
+
+}  // namespace sdf
