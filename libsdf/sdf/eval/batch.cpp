@@ -265,10 +265,15 @@ void copyOutput(const Tape& tape, std::size_t i, float* const* registers, std::s
     std::memcpy(out, registers[o.isValue() ? o.index() + kVariableCount : o.index()], count * sizeof(float));
 }
 
+// The lanes beyond the last point repeat it: sin and pow take another way when any lane asks for it, so what
+// an earlier call left there would show in the values.
 void copyInputs(const Rows& in, std::size_t first, std::size_t count, float* const* registers) {
   const auto rows = rowsOf(in);
-  for (int v = 0; v < kVariableCount; ++v)
-    if (rows[v]) std::memcpy(registers[v], rows[v] + first, count * sizeof(float));
+  for (int v = 0; v < kVariableCount; ++v) {
+    if (!rows[v] || count == 0) continue;
+    std::memcpy(registers[v], rows[v] + first, count * sizeof(float));
+    std::fill(registers[v] + count, registers[v] + wholeVectors(count), rows[v][first + count - 1]);
+  }
 }
 
 }  // namespace
