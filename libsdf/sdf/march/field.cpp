@@ -8,7 +8,6 @@
 namespace sdf {
 namespace {
 
-constexpr double kUnitLength = 1e-6;        // how far from 1 a direction normalised in float may be
 constexpr double kConstantSlope = 0x1p-64;  // stands for 0: a distance that is the same everywhere
 
 bool isEverything(const Box& b) { return b.contains(Box::everything()); }
@@ -21,10 +20,9 @@ bool sameLength(const Vectors& v, std::size_t count) {
 
 // What is wrong with ray i; "" where nothing is.
 std::string fault(const Rays& rays, std::size_t i) {
-  const double length = glm::length(rays.direction[i]);
   if (!finite(rays.origin[i])) return "its origin is not finite";
-  if (!(std::abs(length - 1.0) <= kUnitLength))
-    return "its direction has length " + std::to_string(length) + "; normalise it";
+  if (!isUnit(rays.direction[i]))
+    return "its direction has length " + std::to_string(glm::length(rays.direction[i])) + "; normalise it";
   if (!std::isfinite(rays.tMin[i]) || !std::isfinite(rays.tMax[i])) return "tMin and tMax must be finite";
   if (!(0.0 <= rays.tMin[i] && rays.tMin[i] <= rays.tMax[i])) return "0 <= tMin <= tMax must hold";
   return {};

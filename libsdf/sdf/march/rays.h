@@ -1,6 +1,8 @@
 // Rows of vectors and rays: how marching takes many at once.
 #pragma once
+#include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -19,11 +21,14 @@ struct Vectors {
   }
 };
 
+/// Has v length 1, as far as normalising in float goes (1e-6)?
+inline bool isUnit(const glm::dvec3& v) { return std::abs(glm::length(v) - 1.0) <= 1e-6; }
+
 /// Points origin + t direction for t in [tMin, tMax], in scene units. In double, so that a ray may start far
 /// from what it meets: at t = 1e5 a float t moves in steps of 0.008.
 struct Rays {
   Vectors origin;
-  Vectors direction;  ///< of length 1 (within 1e-6)
+  Vectors direction;  ///< each isUnit
   std::vector<double> tMin, tMax;
 
   std::size_t size() const { return tMin.size(); }

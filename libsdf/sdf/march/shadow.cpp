@@ -1,0 +1,116 @@
+#include "sdf/march/shadow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "sdf/march/sampler.h"
+
+namespace sdf {
+namespace {
+
+constexpr const char* kUser = "shadows";
+
+Error wrong(const std::string& what) { return {ErrorKind::Usage, std::string(kUser) + ": " + what}; }
+
+Status check(const Rays& rays, const ShadowOptions& o) {
+  if (!(o.sharpness > 0.0 && std::isfinite(o.sharpness)))
+    return wrong("sharpness must be positive and finite");
+  if (!(o.epsilon > 0.0 && std::isfinite(o.epsilon))) return wrong("epsilon must be positive and finite");
+  if (o.maxSteps < 1) return wrong("maxSteps must be at least 1");
+  if (const Status s = checkRays(rays, kUser); !s) return s.error();
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (o.method != ShadowMethod::Hard && rays.tMin[i] == 0.0)
+      return wrong("ray " + std::to_string(i) + ": soft shadows divide by t; start above 0");
+  return okStatus();
+}
+
+class ShadowWalker {
+ public:
+  struct State {
+    double at;      // where g is read next
+    double step;    // from the sample before, 0 at the first
+    double before;  // g at the sample before
+    double least;   // least k g / t so far
+    int steps;
+    std::size_t ray;
+  };
+
+  ShadowWalker(const ShadowOptions& options, const Rays& rays, Shade& shade)
+      : options_(options), rays_(rays), shade_(shade) {}
+
+  State start(std::size_t ray) const { return {rays_.tMin[ray], 0.0, 0.0, 1.0, 0, ray}; }
+
+  bool advance(State& s, double g) {
+    ++s.steps;
+    if (std::isnan(g)) return finish(s, 0.0, RayStatus::Undefined);
+    const bool crosses = options_.method == ShadowMethod::Signed;
+    if (!crosses && g <= options_.epsilon) return finish(s, 0.0, RayStatus::Hit);
+    s.least = std::min(s.least, ratio(s, g));
+    if (s.least <= -1.0) return finish(s, 0.0, RayStatus::Hit);
+    s.step = std::max(std::abs(g), options_.epsilon);
+    s.before = g;
+    if (s.at + s.step >= rays_.tMax[s.ray]) return finish(s, lightOf(s), RayStatus::Miss);
+    s.at += s.step;
+    return s.steps < options_.maxSteps || finish(s, lightOf(s), RayStatus::Budget);
+  }
+
+ private:
+  // k times the tangent of the angle between the ray and what is nearest to it here.
+  double ratio(const State& s, double g) const {
+    if (options_.method == ShadowMethod::Hard) return 1.0;
+    if (options_.method != ShadowMethod::Improved || s.step == 0.0) return options_.sharpness * g / s.at;
+    const double y = (s.step * s.step + g * g - s.before * s.before) / (2.0 * s.step);
+    const double d = std::sqrt(std::max(0.0, g * g - y * y));
+    const double along = s.at - y;
+    return along > 0.0 ? options_.sharpness * d / along : 1.0;
+  }
+
+  double lightOf(const State& s) const {
+    const double x = s.least;
+    return options_.method == ShadowMethod::Signed ? 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x) : x;
+  }
+
+  bool finish(const State& s, double light, RayStatus status) {
+    shade_.light[s.ray] = light;
+    shade_.status[s.ray] = status;
+    return false;
+  }
+
+  const ShadowOptions& options_;
+  const Rays& rays_;
+  Shade& shade_;
+};
+
+}  // namespace
+
+Rays raysTowards(const Vectors& points, const glm::dvec3& towards, double start, double reach) {
+  Rays rays;
+  const glm::dvec3 direction = glm::normalize(towards);
+  for (std::size_t i = 0; i < points.size(); ++i) rays.add(points[i], direction, start, reach);
+  return rays;
+}
+
+Rays raysToPoint(const Vectors& points, const glm::dvec3& position, double start) {
+  Rays rays;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 way = position - points[i];
+    const double length = glm::length(way);
+    const glm::dvec3 direction = length > 0.0 ? way / length : glm::dvec3(0.0, 1.0, 0.0);
+    rays.add(points[i], direction, start, std::max(start, length));
+  }
+  return rays;
+}
+
+Result<Shade> shadows(const MarchField& field, const Rays& rays, const ShadowOptions& options) {
+  if (const Status s = check(rays, options); !s) return s.error();
+  if (const Status s = checkSlope(field, kUser); !s) return s.error();
+  Shade shade{std::vector<double>(rays.size()), std::vector<RayStatus>(rays.size())};
+  Sampler sampler(field);
+  ShadowWalker walker(options, rays, shade);
+  marchTogether(rays, sampler, walker);
+  return shade;
+}
+
+}  // namespace sdf
