@@ -223,6 +223,8 @@ TEST(Twist, OfAnUnboundedShapeIsAField) {
   const Shape s = twist(plane(Vec3E(1.0, 0.0, 0.0), 0.0), 1.0);
   EXPECT_EQ(s.claim.kind, ClaimKind::Field);
   EXPECT_EQ(s.claim.lipschitz, kInfinity);
+  EXPECT_EQ(s.bounds.min, glm::dvec3(-kInfinity));
+  EXPECT_EQ(s.bounds.max, glm::dvec3(kInfinity));
   const Shape column = twist(box(Vec3E(0.3, 1.0, 0.2)), 0.0);
   EXPECT_EQ(column.claim.kind, ClaimKind::Exact) << "no twist at all changes nothing";
 }

@@ -39,15 +39,16 @@ Interval timesRange(const Interval& a, double lo, double hi) {
   return {least, most};
 }
 
+// In pairs: libstdc++'s hypot of three makes NaN of two infinities.
 double radiusOf(const Box& b) {
   const glm::dvec3 far = glm::max(glm::abs(b.min), glm::abs(b.max));
-  return std::hypot(far.x, far.y, far.z);
+  return std::hypot(std::hypot(far.x, far.y), far.z);
 }
 
 double radiusAbout(const Box& b, int axis) {
   glm::dvec3 far = glm::max(glm::abs(b.min), glm::abs(b.max));
   far[axis] = 0.0;
-  return std::hypot(far.x, far.y, far.z);
+  return std::hypot(std::hypot(far.x, far.y), far.z);
 }
 
 Expr outsideSlab(const Expr& x, double lo, double hi) {
