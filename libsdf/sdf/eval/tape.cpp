@@ -121,6 +121,10 @@ class TapeCompiler {
   Match matchLength(const Expr& root, double offset) const {
     std::vector<Expr> terms;
     if (!isOp(root, Op::Sqrt) || !collectSquares(root.arg(0), terms)) return {};
+    // The fused operations add the first square last, as a² + (b² + c²) does. (a² + b²) + c² rounds
+    // otherwise.
+    if (isOp(root.arg(0), Op::Add) && isOp(root.arg(0).arg(0), Op::Add))
+      std::rotate(terms.begin(), terms.end() - 1, terms.end());
     if (terms.size() == 2) return {Op::Length2, terms, {offset}};
     if (terms.size() != 3) return {};
     Match m{Op::Distance3, {}, {}};
