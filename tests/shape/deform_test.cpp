@@ -185,6 +185,15 @@ TEST(Revolve, IsExactAcrossTheAxisOnlyForAMirrorImage) {
   expectClaim(skew, cube(2.0), 22);
 }
 
+TEST(Revolve, OfWhatStandsOnTheAxisIsExactOnlyOutside) {
+  // The flat shape's edge along the axis lies within the solid: from near it, the surface is farther than that
+  // edge.
+  const Shape s = revolve(translate(rectangle(0.5, 0.5), Vec3E(0.5, 0.0, 0.0)));
+  EXPECT_EQ(s.claim.kind, ClaimKind::ExactOutside);
+  EXPECT_NEAR(Probe(s.distance)(0.1, 0.0, 0.0), -0.1, kRounding);
+  expectClaim(s, cube(2.0), 31);
+}
+
 TEST(Twist, TurnsWithHeight) {
   const double rate = 1.3;
   const Shape s = twist(post(), rate);

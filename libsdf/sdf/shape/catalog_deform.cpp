@@ -49,7 +49,8 @@ std::vector<CatalogEntry> deformEntries() {
       {"revolve",
        Group::Deform,
        "A flat shape swept around the y axis. What lies at x < 0, after the offset, is dropped.",
-       "as the flat shape if it keeps to x >= 0 or is symmetric about it, else bound",
+       "as the flat shape if it keeps clear of the axis or is symmetric about it; exact outside if exact and "
+       "touching the axis; else bound",
        {shape("flat", "a flat shape"),
         number("offset", "moves the flat shape along x first, scene units", Rule::Any, "0")},
        [](const Arguments& a) { return revolve(a.shape(0), a.number(1)); }},

@@ -36,7 +36,9 @@ Shape displace(const Shape& shape, const Expr& amplitude, const Expr& frequency)
 Shape extrude(const Shape& flat, const Expr& halfHeight);
 
 /// The flat shape, moved by `offset` along x, swept around the y axis. What lies at x < 0 is dropped. As
-/// exact as the flat shape if it keeps to x >= 0, else a bound. Fails if all of it lies at x < 0.
+/// exact as the flat shape if that keeps to x > 0 or is its own mirror image; at most exact outside if it
+/// touches the axis, where it may have an edge that the solid has not; else a bound. Fails if all of it lies
+/// at x < 0.
 Shape revolve(const Shape& flat, const Expr& offset = 0.0);
 
 /// Turned about the y axis by `rate` radians for each unit of y. The constant is (a + sqrt(a^2 + 4)) / 2 for

@@ -47,10 +47,13 @@ Shape revolve(const Shape& flat, const Expr& offset) {
   result.dimension = 3;
   result.bounds = {{-right, flat.bounds.min.y, -right}, {right, flat.bounds.max.y, right}};
   // A flat shape across the axis, unless it is its own mirror image, may owe its nearest point to the side
-  // that is dropped.
+  // that is dropped. One that touches the axis may have an edge there, which the solid has not.
   result.claim = withoutRegion(flat.claim);
-  const bool oneSided = left >= 0.0 || (offset.isConstant(0.0) && isEven(flat.distance, 0));
-  if (!oneSided) result.claim.kind = weaker(flat.claim.kind, ClaimKind::Bound);
+  const bool even = offset.isConstant(0.0) && isEven(flat.distance, 0);
+  const ClaimKind best = even || left > 0.0 ? ClaimKind::Exact
+                         : left == 0.0      ? ClaimKind::ExactOutside
+                                            : ClaimKind::Bound;
+  result.claim.kind = weaker(flat.claim.kind, best);
   result.claim.growth = growthOf(flat.claim);
   return settled(std::move(result));
 }
