@@ -135,6 +135,16 @@ TEST(Scale, ByASliderThroughZeroHasNoNaN) {
   EXPECT_EQ(Probe(s.distance, {{"s", -1.0}})(2.0, 0.0, 0.0), 1.0);
 }
 
+// A false fact about z itself would outlive the shape.
+TEST(Scale, OfAFlatShapeLeavesZAsSteepAsItIs) {
+  Material striped;
+  striped.color = Vec3E(kZ);
+  const Shape s = scale(circle(1.0).paint(std::move(striped)), 3.0);
+  EXPECT_EQ(s.claim.kind, ClaimKind::Exact);
+  EXPECT_EQ(s.distance.lipschitz(), 1.0);
+  EXPECT_EQ(kZ.lipschitz(), 1.0);
+}
+
 TEST(Mirror, UnitesTheShapeWithItsImage) {
   const Shape s = odd();
   const Probe f(s.distance);

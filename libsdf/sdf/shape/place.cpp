@@ -203,7 +203,8 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
     most = max(most, abs(by.z));
   }
   const Vec3E p = position();
-  const double stretch = 1.0 / least.range().lo;
+  // A flat shape's z stays as it is, in its colours too.
+  const double stretch = 1.0 / (axes == 3 ? least.range().lo : std::min(least.range().lo, 1.0));
   Shape result = movedTo(shape, {p.x * (1.0 / by.x), p.y * (1.0 / by.y), p.z * (1.0 / by.z)}, stretch);
   result.distance = result.distance * least;
   for (int i = 0; i < 3; ++i) {
