@@ -1,0 +1,289 @@
+// Failures of what is shown at a hit: normals, soft shadows, detail finer than a pixel.
+#include <random>
+
+#include "marching.h"
+#include "sdf/eval/batch.h"
+#include "sdf/march/normals.h"
+#include "sdf/march/shadow.h"
+#include "sdf/shape/operators.h"
+#include "sdf/shape/solids.h"
+
+namespace sdf::accuracy {
+namespace {
+
+MarchField fieldOf(const Shape& shape) {
+  Result<MarchField> field = marchField(shape);
+  if (!field) throw std::runtime_error(field.error().message);
+  return *field;
+}
+
+// Points of the unit sphere around a centre, with their normals.
+struct SpherePoints {
+  Vectors points, normals;
+  explicit SpherePoints(const glm::dvec3& centre) {
+    constexpr int kPoints = 1000;
+    constexpr double kGoldenAngle = 2.399963229728653;
+    for (int i = 0; i < kPoints; ++i) {
+      const double y = 1.0 - (2.0 * i + 1.0) / kPoints, r = std::sqrt(1.0 - y * y);
+      normals.add({r * std::cos(kGoldenAngle * i), y, r * std::sin(kGoldenAngle * i)});
+      points.add(centre + normals[i]);
+    }
+  }
+};
+
+double worstDegrees(const Vectors& found, const Vectors& right) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double half = std::min(1.0, 0.5 * glm::length(found[i] - right[i]));
+    worst = std::max(worst, 2.0 * std::asin(half) * 180.0 / kPi);
+  }
+  return worst;
+}
+
+// Central differences in float, taken as they come.
+Vectors naiveNormals(const Shape& shape, const Vectors& points, float h) {
+  const Tape tape(shape.distance);
+  BatchEvaluator batch;
+  Vectors found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::vec3 p(points[i]);
+    glm::dvec3 g(0.0);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const float side : {1.0f, -1.0f}) {
+        glm::vec3 q = p;
+        q[axis] += side * h;
+        float f = 0.0f;
+        batch.evaluate(tape, {&q.x, &q.y, &q.z}, 1, &f);
+        g[axis] += side * f;
+      }
+    found.add(glm::normalize(g));
+  }
+  return found;
+}
+
+Figures normalFigures(const glm::dvec3& centre, float h) {
+  const Shape ball = translate(sphere(1.0), Vec3E(centre));
+  const SpherePoints at(centre);
+  const Vectors ours = normals(fieldOf(ball), at.points, at.points, {}).value();
+  return {worstDegrees(naiveNormals(ball, at.points, h), at.normals), worstDegrees(ours, at.normals)};
+}
+
+FailureCase farNormalCase() {
+  return {"normals of a ball 1e5 from the origin",
+          "worst angle, degrees",
+          "central differences in float, h = 2^-10",
+          "exact derivatives in float",
+          45.0,
+          1.1e5 * 0x1p-24 * 180.0 / kPi,
+          "h along x is an eighth of a rounding there; derivatives feel only that x is rounded",
+          [] {
+            return normalFigures({1e5, 0, 0}, 0x1p-10f);
+          }};
+}
+
+FailureCase smallStepCase() {
+  return {"normals by too small a step",
+          "worst angle, degrees",
+          "central differences in float, h = 1e-6",
+          "exact derivatives in float",
+          3.0,
+          8.0 * 0x1p-24 * 180.0 / kPi,
+          "two values near 1 differ by some roundings of 6e-8, against 2e-6; derivatives by eight roundings",
+          [] {
+            return normalFigures({0, 0, 0}, 1e-6f);
+          }};
+}
+
+// Shadow rays past a box towards a light overhead.
+Rays raysPastBox() {
+  std::mt19937 random(1);
+  Rays rays;
+  const auto near = [&] { return 2.4 * (static_cast<double>(random()) * 0x1p-32 - 0.5); };
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 from(near(), -3.0, near());
+    rays.add(from, glm::normalize(glm::dvec3(near(), 3.0, near()) - from), 0.5, 6.0);
+  }
+  return rays;
+}
+
+constexpr double kSharpness = 8.0;
+
+// Aaltonen's shadow with the steps held to [0.01, 0.1], as shaders do: then the step is not the last
+// distance.
+template <class F>
+double clampedShadow(const F& f, const Rays& rays, std::size_t i) {
+  double light = 1.0, before = 1e20;
+  for (double t = rays.tMin[i]; t < rays.tMax[i];) {
+    const double g = f(rays.at(i, t));
+    if (g < kEpsilon) return 0.0;
+    const double y = g * g / (2.0 * before), d = std::sqrt(g * g - y * y);
+    light = std::min(light, kSharpness * d / std::max(0.0, t - y));
+    if (std::isnan(d)) return d;
+    before = g;
+    t += std::clamp(g, 0.01, 0.1);
+  }
+  return light;
+}
+
+double countNaN(const std::vector<double>& light) {
+  double count = 0.0;
+  for (const double l : light) count += std::isnan(l);
+  return count;
+}
+
+FailureCase clampedShadowCase() {
+  return {"improved soft shadow with clamped steps",
+          "rays of 20000 that are NaN",
+          "sqrt(g^2 - y^2) with the last g for the step",
+          "the true step, and max(0, ...)",
+          10.0,
+          0.0,
+          "y > g where g is over twice the g before, which a step of g before cannot reach, but 0.01 can",
+          [] {
+            const Shape solid = box(Vec3E(0.8, 0.5, 0.3));
+            const Distance f(solid);
+            const Rays rays = raysPastBox();
+            std::vector<double> naive;
+            for (std::size_t i = 0; i < rays.size(); ++i) naive.push_back(clampedShadow(f, rays, i));
+            const Shade ours = shadows(fieldOf(solid), rays, {ShadowMethod::Improved, kSharpness}).value();
+            return Figures{countNaN(naive), countNaN(ours.light)};
+          }};
+}
+
+FailureCase bandCase() {
+  return {"bands in a soft shadow",
+          "how much too light",
+          "least k g / t of the readings (Quilez 2010)",
+          "closest approach between readings (Aaltonen 2018)",
+          0.05,
+          0.02,
+          "a ray past an edge of the box is nearest to it between two readings; the dense march that both "
+          "are held to "
+          "reads every 2e-3, worth k 1e-3 / t = 0.016 at most",
+          [] {
+            const Shape solid = box(Vec3E(0.8, 0.5, 0.3));
+            const Distance f(solid);
+            Rays all = raysPastBox(), rays;
+            for (std::size_t i = 0; i < 400; ++i)
+              rays.add(all.origin[i], all.direction[i], all.tMin[i], all.tMax[i]);
+            const auto soft = shadows(fieldOf(solid), rays, {ShadowMethod::Soft, kSharpness}).value().light;
+            const auto improved =
+                shadows(fieldOf(solid), rays, {ShadowMethod::Improved, kSharpness}).value().light;
+            Figures figures;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+              double least = 1.0;
+              for (double t = rays.tMin[i]; t < rays.tMax[i]; t += 2e-3)
+                least = std::clamp(kSharpness * f(rays.at(i, t)) / t, 0.0, least);
+              figures.naive = std::max(figures.naive, soft[i] - least);
+              figures.ours = std::max(figures.ours, improved[i] - least);
+            }
+            return figures;
+          }};
+}
+
+// Points under the edge of a bar, across the penumbra of a lamp of 5 degrees, and the share of it that each
+// sees past a straight edge.
+FailureCase penumbraCase() {
+  return {"penumbra of a lamp",
+          "mean error of the light",
+          "least k g / t, down to 0",
+          "least k g / t, down to -1 in the solid",
+          0.2,
+          0.045 + 0.044,
+          "shadows by k g / t put all of the penumbra outside: 1/4; the smooth curve is at most 0.045 off a "
+          "disc's, "
+          "and the bar bulges by 0.044 of the penumbra",
+          [] {
+            constexpr double kHeight = 2.0;
+            const double slope = std::tan(5.0 * kPi / 180.0);
+            const Shape bar = capsule(Vec3E(-2.0, kHeight, -20.0), Vec3E(-2.0, kHeight, 20.0), 2.0);
+            Vectors points;
+            for (int i = -100; i <= 100; ++i) points.add({0.01 * i * kHeight * slope, 0.0, 0.0});
+            const Rays rays = raysTowards(points, {0, 1, 0}, 0.05, 10.0);
+            const auto meanError = [&](ShadowMethod method) {
+              const auto light = shadows(fieldOf(bar), rays, {method, 1.0 / slope}).value().light;
+              double sum = 0.0;
+              for (int i = -100; i <= 100; ++i) {
+                const double x = 0.01 * i, disc = 1.0 - (std::acos(x) - x * std::sqrt(1.0 - x * x)) / kPi;
+                sum += std::abs(light[i + 100] - disc) / 201.0;
+              }
+              return sum;
+            };
+            return Figures{meanError(ShadowMethod::Soft), meanError(ShadowMethod::Signed)};
+          }};
+}
+
+// Menger's sponge in the cube from -1 to 1: the cube less crosses, each a third as large as the one before.
+// Each fold moves as fast as the position.
+Shape menger(int levels) {
+  const Vec3E p = position();
+  Expr distance = box(Vec3E(1.0)).distance;
+  double scale = 1.0;
+  for (int i = 0; i < levels; ++i) {
+    const auto fold = [&](const Expr& x) { return abs(1.0 - 3.0 * abs(mod(x * scale, Expr(2.0)) - 1.0)); };
+    const Expr x = fold(p.x), y = fold(p.y), z = fold(p.z);
+    scale *= 3.0;
+    distance = max(distance, (min(min(max(x, y), max(y, z)), max(z, x)) - 1.0) / scale);
+  }
+  return field(distance, Box::centred(glm::dvec3(1.0)), 1.0);
+}
+
+// Mean of 1 - |mean normal| over the pixels of 2 x 2 rays whose four rays hit: 0 where each shows one plane.
+double normalVariance(const Vectors& n, const std::vector<double>& t) {
+  double sum = 0.0, count = 0.0;
+  for (int y = 0; y < 200; y += 2)
+    for (int x = 0; x < 320; x += 2) {
+      const int block[] = {y * 320 + x, y * 320 + x + 1, (y + 1) * 320 + x, (y + 1) * 320 + x + 1};
+      glm::dvec3 mean(0.0);
+      bool all = true;
+      for (const int i : block) {
+        mean += 0.25 * n[i];
+        all = all && t[i] < kInf;
+      }
+      if (!all) continue;
+      sum += 1.0 - glm::length(mean);
+      count += 1.0;
+    }
+  return sum / count;
+}
+
+FailureCase spongeCase() {
+  return {"Menger sponge of eight levels, far away",
+          "mean variance of the normals in a pixel",
+          "hits within 1e-4, exact normals",
+          "hits within a pixel's cone, normals over its width",
+          0.2,
+          0.05,
+          "of normals along the axes, a pixel that shows two has 0.2 to 0.3 and one that shows three 0.4; "
+          "differences over the "
+          "pixel leave a fifth at most",
+          [] {
+            const Shape sponge = menger(8);
+            const Rays rays = cameraRays({2.0, 3.0, 6.0}, {0, 0, 0}, 0.25);
+            const MarchField field = fieldOf(sponge);
+            const auto variance = [&](double footprint, const NormalOptions& options) {
+              MarchOptions march;
+              march.footprint = footprint;
+              march.maxSteps = 4000;
+              const Hits hits = trace(sponge, rays, march);
+              Vectors at, back;
+              std::vector<double> t;
+              for (std::size_t i = 0; i < rays.size(); ++i) {
+                at.add(rays.at(i, hits.t[i]));
+                back.add(-rays.direction[i]);
+                t.push_back(hits.status[i] == RayStatus::Hit ? hits.t[i] : kInf);
+              }
+              return normalVariance(normals(field, at, back, options).value(), t);
+            };
+            const double pixel = 0.25 / 50.0;  // width at distance 1; the sponge is 7 away
+            return Figures{variance(0.0, {}), variance(0.5 * pixel, {NormalMethod::Central, 7.0 * pixel})};
+          }};
+}
+
+}  // namespace
+
+std::vector<FailureCase> shadingFailures() {
+  return {farNormalCase(), smallStepCase(), clampedShadowCase(), bandCase(), penumbraCase(), spongeCase()};
+}
+
+}  // namespace sdf::accuracy
