@@ -192,7 +192,7 @@ class BandSampler {
                           static_cast<float>(kSqrt3 * reach(size, kMargin)), static_cast<float>(margin),
                           value, w.decisions);
     for (int k = 0; k < count; ++k) {
-      const Decision* decisions = w.decisions.data() + k;
+      const Decision* decisions = w.decisions.empty() ? nullptr : &w.decisions[k];
       std::size_t stride = count;
       double slope = std::min<double>(tape.lipschitz(), cell.slope);
       if (!mayMeet(tape, origin[k], size, value[k], margin, slope, w)) continue;
