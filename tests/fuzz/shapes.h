@@ -1,0 +1,12 @@
+// Shapes decoded from bytes: trees of catalog entries, mostly with arguments that they accept.
+#pragma once
+#include "fuzz/bytes.h"
+#include "sdf/shape/catalog.h"
+
+namespace sdf::fuzz {
+
+/// Up to `most` entries, each over those before; in the end all are united. Entries that refuse their
+/// arguments are left out. A failed shape means that none was left.
+Shape readShape(Bytes& bytes, int most);
+
+}  // namespace sdf::fuzz
