@@ -65,6 +65,8 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   b.stats.voxels = 5;
   b.stats.maxDistance = 2.0;
   b.stats.manifold = false;
+  b.stats.unresolved = 2;
+  b.stats.firstUnresolved = {1, 2, 3};
   const MeshStats all = combined({a, b});
   EXPECT_EQ(all.voxels, 15u);
   EXPECT_EQ(all.triangles, a.stats.triangles + b.stats.triangles);
@@ -74,6 +76,8 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   EXPECT_EQ(all.maxDistance, 2.0);
   EXPECT_TRUE(all.watertight);
   EXPECT_FALSE(all.manifold);
+  EXPECT_EQ(all.unresolved, 2u);
+  EXPECT_EQ(all.firstUnresolved, glm::vec3(1, 2, 3));
 }
 
 TEST(Combined, WeighsTheRmsByTriangles) {

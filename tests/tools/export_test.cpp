@@ -117,6 +117,32 @@ TEST_F(Export, ReportsEveryFigureOfEachPartAndInTotal) {
             output["total"]["seconds"].get<double>() * (1.0 + 1e-12));  // sums of doubles, in another order
 }
 
+TEST_F(Export, WarnsOfWhatFallsBetweenTheSamples) {
+  // Four tenths of a voxel thick, midway between two planes of samples.
+  const std::string file =
+      scene("part('pair', union({sphere(0.5), box({0.02, 0.4, 0.4}):translate({0.75, 0, 0})}))");
+  const std::vector<std::string> arguments{file, "-o", out("a.glb"), "--voxel-size", "0.1"};
+  const std::string warned = run(arguments).err;
+  EXPECT_NE(
+      warned.find("sdf2gltf: warning: part 'pair': solids or gaps thinner than a voxel were missed at "),
+      std::string::npos)
+      << warned;
+  EXPECT_NE(warned.find("take a smaller one"), std::string::npos) << warned;
+
+  EXPECT_EQ(
+      run({file, "-o", out("a.glb"), "--voxel-size", "0.1", "--quiet", "--report", out("report.json")}).err,
+      "");
+  const Json part = Json::parse(contents(out("report.json")))["outputs"][0]["parts"][0];
+  EXPECT_EQ(part["components"], 1);
+  EXPECT_GT(part["unresolved"], 0);
+  EXPECT_NEAR(part["first_unresolved"][0].get<double>(), 0.75, 0.1);
+
+  const Json fine = report({file, "-o", out("a.glb"), "--voxel-size", "0.03"})["outputs"][0]["parts"][0];
+  EXPECT_EQ(fine["components"], 2);
+  EXPECT_EQ(fine["unresolved"], 0);
+  EXPECT_TRUE(fine["first_unresolved"].is_null());
+}
+
 TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
   const Json output = report({scene(kTwoParts), "-o", out("a.glb")})["outputs"][0];
   // Both together reach from -1 to 2.5.

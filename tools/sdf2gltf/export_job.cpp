@@ -1,6 +1,7 @@
 #include "export_job.h"
 
 #include <chrono>
+#include <iostream>
 #include <utility>
 
 #include "memory.h"
@@ -199,7 +200,10 @@ Status runExport(const Options& options, ProgressLine& progress, std::ostream& o
     const auto target = options.frames ? frameName(options.output, i + 1) : options.output;
     if (Status s = frame.run(target, options.time + i / options.framesPerSecond, voxelSize); !s) return s;
     progress.clear();
-    if (!options.quiet) printTable(out, frame.report);
+    if (!options.quiet) {
+      printTable(out, frame.report);
+      printWarnings(std::cerr, frame.report);
+    }
     out.flush();
     parameters = frame.scene.parameters;
     files.push_back(std::move(frame.report));

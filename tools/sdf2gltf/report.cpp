@@ -42,6 +42,9 @@ Json json(const ReportLine& line) {
   Json stages = Json::object();
   for (const auto& [name, seconds] : line.stages) stages[name] = seconds;
   const MeshStats& stats = line.stats;
+  Json first = nullptr;
+  if (stats.unresolved > 0)
+    first = {stats.firstUnresolved.x, stats.firstUnresolved.y, stats.firstUnresolved.z};
   return {{"name", line.name},
           {"seconds", line.seconds},
           {"stage_seconds", stages},
@@ -55,7 +58,9 @@ Json json(const ReportLine& line) {
           {"watertight", stats.watertight},
           {"manifold", stats.manifold},
           {"components", stats.components},
-          {"euler_characteristic", stats.eulerCharacteristic}};
+          {"euler_characteristic", stats.eulerCharacteristic},
+          {"unresolved", stats.unresolved},
+          {"first_unresolved", first}};
 }
 
 }  // namespace
@@ -67,6 +72,18 @@ void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
     stages.emplace_back(name, seconds);
   } else {
     found->second += seconds;
+  }
+}
+
+void printWarnings(std::ostream& out, const FileReport& report) {
+  for (const ReportLine& part : report.parts) {
+    const glm::vec3& p = part.stats.firstUnresolved;
+    if (part.stats.unresolved == 0) continue;
+    out << "sdf2gltf: warning: part '" << part.name
+        << "': solids or gaps thinner than a voxel were missed at " << grouped(part.stats.unresolved)
+        << " places, the first near (" << formatted("%.4g", p.x) << ", " << formatted("%.4g", p.y) << ", "
+        << formatted("%.4g", p.z)
+        << "); how the mesh hangs together there depends on the voxel size, take a smaller one to see them\n";
   }
 }
 

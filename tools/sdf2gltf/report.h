@@ -36,6 +36,9 @@ struct FileReport {
 /// A table of the file's parts and their total.
 void printTable(std::ostream& out, const FileReport& report);
 
+/// A line for each part whose mesh is known to miss something.
+void printWarnings(std::ostream& out, const FileReport& report);
+
 /// Everything as JSON. `parameters` are the values that the scene ran with.
 std::string reportJson(const Options& options, const std::vector<ParameterInfo>& parameters,
                        const std::vector<FileReport>& files);

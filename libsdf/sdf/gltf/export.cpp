@@ -71,6 +71,8 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
     all.manifold = all.manifold && one.manifold;
     all.components += one.components;
     all.eulerCharacteristic += one.eulerCharacteristic;
+    if (all.unresolved == 0) all.firstUnresolved = one.firstUnresolved;
+    all.unresolved += one.unresolved;
     squares += one.rmsDistance * one.rmsDistance * static_cast<double>(one.triangles);
   }
   if (all.triangles > 0) all.rmsDistance = std::sqrt(squares / static_cast<double>(all.triangles));

@@ -59,6 +59,7 @@ Value extrasOf(const MeshStats& stats) {
       {"maxDistance", Value(stats.maxDistance)},
       {"watertight", Value(stats.watertight)},
       {"manifold", Value(stats.manifold)},
+      {"unresolved", Value(static_cast<double>(stats.unresolved))},
   });
 }
 

@@ -8,6 +8,7 @@
 #include "sdf/mesh/measure.h"
 #include "sdf/mesh/narrow_band.h"
 #include "sdf/mesh/refine.h"
+#include "sdf/mesh/unresolved.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
@@ -52,7 +53,12 @@ class Mesher {
     const bool claimHolds = shape.claim.region.contains(bounds->grown(kPadding * h));
     const BandOptions band{h, *bounds, claimHolds ? shape.claim.lipschitz : kInfinity, options_.maxMemory};
 
-    auto sampled = time("sampling", [&] { return sampleNarrowBand(tape, band, progress_); });
+    const LocalTapes whole{tape, tape->firstOutputOnly()};
+    auto sampled = time("sampling", [&] {
+      auto result = sampleNarrowBand(tape, band, progress_);
+      if (result) findUnresolved(*result, whole, progress_, result_.stats);
+      return result;
+    });
     if (!sampled) return sampled.error();
     RawSurface raw = time("extraction", [&] { return sampled->extract(); });
     if (raw.triangles.empty())
@@ -60,7 +66,6 @@ class Mesher {
           name_,
           "no surface inside the bounds at this voxel size; check the bounds and the shape's position, "
           "or take a smaller voxel size");
-    const LocalTapes whole{tape, tape->firstOutputOnly()};
     Mesh& mesh = result_.mesh;
     mesh.positions = std::move(raw.points);
     mesh.triangles = std::move(raw.triangles);

@@ -1,6 +1,5 @@
 #include "sdf/mesh/narrow_band.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -11,10 +10,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <unordered_map>
 
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/band_grid-inl.h"
 
 namespace sdf {
 namespace {
@@ -72,10 +71,6 @@ float smallestMagnitude(const float* values) {
   return *std::min_element(least, least + kLanes);
 }
 
-struct CoordHash {
-  std::size_t operator()(const openvdb::Coord& c) const { return c.hash<20>(); }
-};
-
 std::string shown(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", number);
@@ -85,13 +80,6 @@ std::string shown(double number) {
 std::string gigabytes(double bytes) { return shown(bytes / (1ull << 30)); }
 
 }  // namespace
-
-struct NarrowBand::Grid {
-  openvdb::FloatGrid::Ptr grid;
-  double voxelSize = 0.0;
-  std::unordered_map<openvdb::Coord, LocalTapes, CoordHash> tapes;
-  std::uint64_t samples = 0;
-};
 
 class BandSampler {
  public:
@@ -308,6 +296,7 @@ class BandSampler {
     NarrowBand band;
     band.grid_->voxelSize = h_;
     band.grid_->samples = samples_;
+    band.grid_->lipschitz = options_.lipschitz;
     auto& tree = band.grid_->grid->tree();
     band.grid_->grid->setTransform(openvdb::math::Transform::createLinearTransform(h_));
     band.grid_->tapes.reserve(leaves_.size());
@@ -316,6 +305,7 @@ class BandSampler {
       tree.addLeaf(l.leaf.release());
     }
     openvdb::tools::signedFloodFillWithValues(tree, static_cast<float>(3 * h_), static_cast<float>(-3 * h_));
+    band.settleZeros();
     return band;
   }
 
@@ -344,10 +334,14 @@ std::size_t NarrowBand::leafCount() const { return grid_->tapes.size(); }
 std::uint64_t NarrowBand::sampleCount() const { return grid_->samples; }
 
 const LocalTapes* NarrowBand::Finder::at(const glm::vec3& p) {
-  const glm::dvec3 q = glm::floor(glm::dvec3(p) / band_.voxelSize());
+  const glm::dvec3 q = glm::dvec3(p) / band_.voxelSize();
   constexpr double kLast = 1 << 30;  // lattice coordinates beyond, and those that are no numbers, fit no int
   if (!(std::abs(q.x) < kLast && std::abs(q.y) < kLast && std::abs(q.z) < kLast)) return nullptr;
-  const glm::ivec3 voxel(q), leaf(voxel.x & ~(kLeaf - 1), voxel.y & ~(kLeaf - 1), voxel.z & ~(kLeaf - 1));
+  // Rounds down by truncating: a call of floor() would take longer than all the rest.
+  const glm::ivec3 toZero(q);
+  const glm::ivec3 voxel(toZero.x - (q.x < toZero.x), toZero.y - (q.y < toZero.y),
+                         toZero.z - (q.z < toZero.z));
+  const glm::ivec3 leaf(voxel.x & ~(kLeaf - 1), voxel.y & ~(kLeaf - 1), voxel.z & ~(kLeaf - 1));
   if (last_ && leaf == lastLeaf_) return last_;
   const auto& tapes = band_.grid_->tapes;
   // A cell on a leaf's far side belongs to the next leaf, which may not be there; any leaf within a voxel

@@ -49,6 +49,20 @@ class NarrowBand {
     glm::ivec3 lastLeaf_{};
   };
 
+  /// A sample next to which the surface may pass unseen between samples of one sign.
+  struct Suspect {
+    glm::vec3 at;           ///< the sample's place
+    glm::vec3 along{0.0f};  ///< edge of the lattice that may be crossed twice; 0: any direction
+    float share = 0.0f;     ///< of the edge, where the samples let one expect the surface
+    float value = 0.0f;     ///< the sample
+  };
+  /// Samples that bound how close the surface comes, yet see no change of sign: those within half a cell's
+  /// diagonal of it all of whose 26 neighbours have their sign, and the ends of lattice edges towards which
+  /// the distance falls from both sides to less than the edge's length (the tips of edges seen nearby left
+  /// out). What is thinner than a voxel, solid
+  /// or gap, shows up here. Cost: some look-ups for each sample next to the surface.
+  std::vector<Suspect> suspects() const;
+
   /// The zero set as OpenVDB's dual surface extraction gives it (Museth et al., OpenVDB 2013). Call once: the
   /// samples are released on the way.
   RawSurface extract();
@@ -57,6 +71,7 @@ class NarrowBand {
 
  private:
   friend class BandSampler;
+  void settleZeros();
   std::unique_ptr<Grid> grid_;
 };
 

@@ -1,0 +1,87 @@
+#include "sdf/mesh/unresolved.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sdf {
+namespace {
+
+// Around the expected crossing, as shares of the edge.
+constexpr std::array kAlongEdge{0.0f, -0.1f, 0.1f, 0.25f};
+// Beyond the expected surface, as shares of a voxel.
+constexpr std::array kBeyond{0.002f, 0.02f, 0.1f, 0.4f};
+constexpr std::size_t kProbes = kBeyond.size();
+// Beyond what is thinner than a voxel, but not beyond the tip of something larger that is seen elsewhere.
+constexpr float kThrough = 1.0f;
+// Half a cell's diagonal, and the least of what is looked beyond.
+constexpr float kReach = 0.8660254f + 0.02f;
+// Of the coordinates: what rounding may make of a zero.
+constexpr float kRounding = 0x1p-20f;
+
+/// The point this much further than the first-order distance; the suspect itself where that is out of reach:
+/// a flat field is low far from its surface, which then lies beside another sample.
+glm::vec3 beyond(const NarrowBand::Suspect& s, float further, const glm::vec3& gradient, float voxel) {
+  const float length = glm::length(gradient), distance = std::abs(s.value) / length;
+  if (!(distance <= kReach * voxel)) return s.at;
+  return s.at - gradient * std::copysign((distance + further) / length, s.value);
+}
+
+/// Where probe k of a suspect is to look; `gradient` is the distance's at the suspect.
+glm::vec3 probeAt(const NarrowBand::Suspect& s, std::size_t k, const glm::vec3& gradient, float voxel) {
+  if (s.along == glm::vec3(0.0f)) return beyond(s, kBeyond[k] * voxel, gradient, voxel);
+  return s.at + s.along * std::clamp(s.share + kAlongEdge[k], 0.0f, 1.0f);
+}
+
+/// Where the sign must be the suspect's again.
+glm::vec3 probeThrough(const NarrowBand::Suspect& s, const glm::vec3& gradient, float voxel) {
+  return s.along == glm::vec3(0.0f) ? beyond(s, kThrough * voxel, gradient, voxel) : s.at;
+}
+
+/// One run's points, and which of them lie beyond a sign change.
+struct Probes {
+  float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints], value[kBatchPoints];
+
+  void set(std::size_t i, const glm::vec3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
+  void evaluate(const PointRun& run) {
+    run.batch.evaluate(*run.tapes.distance, {.x = x, .y = y, .z = z}, run.count, value);
+  }
+  bool isAcross(std::size_t i, float suspect, float voxel) const {
+    const float rounding = kRounding * (std::abs(x[i]) + std::abs(y[i]) + std::abs(z[i]) + voxel);
+    return (suspect < 0.0f ? value[i] : -value[i]) > rounding;
+  }
+};
+
+/// Marks the suspects of a run that the probes confirm.
+void confirm(const PointRun& run, const NarrowBand::Suspect* suspects, float voxel, char* confirmed) {
+  Probes probes;
+  for (std::size_t i = 0; i < run.count; ++i) probes.set(i, suspects[i].at);
+  RunGradients at;
+  at.evaluate(run, probes.x, probes.y, probes.z);
+  for (std::size_t k = 0; k < kProbes; ++k) {
+    for (std::size_t i = 0; i < run.count; ++i) probes.set(i, probeAt(suspects[i], k, at.gradient(i), voxel));
+    probes.evaluate(run);
+    for (std::size_t i = 0; i < run.count; ++i) confirmed[i] |= probes.isAcross(i, suspects[i].value, voxel);
+  }
+  for (std::size_t i = 0; i < run.count; ++i) probes.set(i, probeThrough(suspects[i], at.gradient(i), voxel));
+  probes.evaluate(run);
+  for (std::size_t i = 0; i < run.count; ++i) confirmed[i] &= !probes.isAcross(i, suspects[i].value, voxel);
+}
+
+}  // namespace
+
+void findUnresolved(const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
+                    MeshStats& stats) {
+  const std::vector<NarrowBand::Suspect> suspects = band.suspects();
+  const float voxel = static_cast<float>(band.voxelSize());
+  std::vector<char> confirmed(suspects.size(), 0);
+  forEachRun(
+      suspects.size(), [&](std::size_t i) { return suspects[i].at; }, band, fallback, progress,
+      [&](const PointRun& run) { confirm(run, &suspects[run.first], voxel, &confirmed[run.first]); });
+  stats.unresolved = 0;
+  for (std::size_t i = 0; i < suspects.size(); ++i)
+    if (confirmed[i] && stats.unresolved++ == 0) stats.firstUnresolved = suspects[i].at;
+}
+
+}  // namespace sdf
