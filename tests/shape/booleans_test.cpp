@@ -1,6 +1,7 @@
 #include "sdf/shape/booleans.h"
 
 #include "claim_checks.h"
+#include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/flats.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
@@ -172,6 +173,18 @@ TEST(SmoothUnion, JoinsSmoothlyToTheOrderItPromises) {
   EXPECT_LT(jump(Blend::quadratic(kWidth), 1), 10.0 * kStep / kWidth);
   EXPECT_GT(jump(Blend::quadratic(kWidth), 2), 0.1);
   EXPECT_LT(jump(Blend::cubic(kWidth), 2), 10.0 * kStep / (kWidth * kWidth));
+}
+
+TEST(SmoothBooleans, ShowTheMeanOfTheGradientsWhereTheDistancesAreEqual) {
+  // Half way between two balls, on a plane of symmetry: no part of the gradient may point across it.
+  const Shape left = translate(sphere(1.0), Vec3E(-0.5, 0.0, 0.0)),
+              right = translate(sphere(1.0), Vec3E(0.5, 0.0, 0.0));
+  for (const Blend& blend :
+       {Blend::quadratic(0.3), Blend::cubic(0.3), Blend::exponential(0.3), Blend::chamfer(0.3)})
+    for (const Shape& s :
+         {unite(left, right, blend), intersect(left, right, blend), exclude(left, right, blend)})
+      EXPECT_NEAR(evaluateGradient(Tape(s.distance), {0.0, 0.9, 0.2}).gradient.x, 0.0, kRounding)
+          << "blend " << static_cast<int>(blend.kind);
 }
 
 TEST(Chamfer, IsAFlatBevelWhereTheDistancesSumToItsWidth) {

@@ -21,9 +21,11 @@ struct Layer {
 double steeper(const Expr& a, const Expr& b) { return std::max(a.lipschitz(), b.lipschitz()); }
 
 // sign times the amount by which the blend differs from the hard minimum or maximum. For every kind but
-// Exponential it is h^n k / 2n with h = 1 - |a - b| / k and n = 1 (chamfer), 2, 3.
+// Exponential it is h^n k / 2n with h = 1 - |a - b| / k and n = 1 (chamfer), 2, 3. Where a = b, min and max
+// show the gradient of their first argument, and abs that of what it is given: with these signs they add up
+// to the mean.
 Expr difference(const Expr& a, const Expr& b, const Blend& blend, double sign) {
-  const Expr apart = abs(a - b), &k = blend.k;
+  const Expr apart = abs(sign < 0.0 ? b - a : a - b), &k = blend.k;
   if (blend.kind == Kind::Exponential) return log(exp(apart * (-1.0 / k)) + 1.0) * (sign * k);
   const Expr near = max(k - apart, 0.0);
   if (blend.kind == Kind::Cubic) return square(near) * near * (sign / (6.0 * square(k)));
@@ -49,7 +51,7 @@ Expr upper(const Expr& a, const Expr& b, const Blend& blend) {
 Expr weightOfSecond(const Expr& a, const Expr& b, const Blend& blend) {
   const Expr& k = blend.k;
   if (blend.kind == Kind::Quadratic) return clamp((a - b) * (0.5 / k) + 0.5, 0.0, 1.0);
-  const Expr apart = abs(a - b);
+  const Expr apart = abs(b - a);
   if (blend.kind == Kind::Chamfer) return select(less(apart, k), 0.5, lessEqual(b, a));
   Expr farther;  // weight of the larger distance
   if (blend.kind == Kind::Cubic) {
