@@ -186,8 +186,8 @@ TEST(Revolve, IsExactAcrossTheAxisOnlyForAMirrorImage) {
 }
 
 TEST(Revolve, OfWhatStandsOnTheAxisIsExactOnlyOutside) {
-  // The flat shape's edge along the axis lies within the solid: from near it, the surface is farther than that
-  // edge.
+  // The flat shape's edge along the axis lies within the solid: from near it, the surface is farther than
+  // that edge.
   const Shape s = revolve(translate(rectangle(0.5, 0.5), Vec3E(0.5, 0.0, 0.0)));
   EXPECT_EQ(s.claim.kind, ClaimKind::ExactOutside);
   EXPECT_NEAR(Probe(s.distance)(0.1, 0.0, 0.0), -0.1, kRounding);
@@ -262,6 +262,17 @@ TEST(Bend, HoldsItsClaimEitherWayAndNearlyClosed) {
   expectClaim(bend(translate(carved(), Vec3E(0.0, -0.5, 0.0)), 1.5), cube(3.0), 33);
   expectClaim(bend(translate(odd(), Vec3E(-0.3, 0.2, 0.0)), 0.9), cube(3.0), 34);
   expectClaim(bend(cylinder(0.4, 0.3), 0.001), cube(2.0), 35);
+}
+
+TEST(Bend, BySoLittleThatTheRadiusSwallowsTheShapeKeepsItsBounds) {
+  const Box straight = bar().bounds;
+  for (const double curvature : {1e-9, 1e-18, -1e-30}) {
+    const Box bent = bend(bar(), curvature).bounds;
+    // It sags by x^2 curvature / 2 and leans by y x curvature.
+    const glm::dvec3 slack(4.0 * std::abs(curvature) + kRounding);
+    EXPECT_TRUE((Box{straight.min - slack, straight.max + slack}.contains(bent))) << curvature;
+    EXPECT_TRUE((Box{bent.min - slack, bent.max + slack}.contains(straight))) << curvature;
+  }
 }
 
 TEST(Bend, ByASliderFromZeroHoldsForEveryValue) {
@@ -340,11 +351,12 @@ TEST(Deform, RefusesWhatCannotBeWithOneLine) {
   EXPECT_EQ(*bend(flat, 1.0).error, "bend: the shape is flat; extrude or revolve it first");
   EXPECT_EQ(*bend(half, 0.1).error, "bend: the shape is unbounded in x; intersect it with a box first");
   EXPECT_EQ(*bend(s, 1.0).error,
-            "bend: the shape would fold: it reaches the circle's centre, 1 from the x axis; bend it less or "
-            "make it thinner");
+            "bend: the shape would fold: it reaches the circle's centre, 1 from the x axis; use a rate "
+            "nearer to 0 or make it thinner");
   EXPECT_EQ(
       *bend(bar(), 4.0).error,
-      "bend: the ends would pass each other: the shape reaches 1 along x, and half a turn ends at 0.785398");
+      "bend: the ends would pass each other: the shape reaches 1 along x, and half a turn ends at 0.785398; "
+      "use a rate nearer to 0");
   EXPECT_EQ(*taper(flat, 0.1).error, "taper: the shape is flat; extrude or revolve it first");
   EXPECT_EQ(*taper(half, 0.1).error, "taper: the shape is unbounded in y; intersect it with a box first");
   EXPECT_EQ(

@@ -12,23 +12,23 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The box around the bent box: around the centre (0, 1/k), the sector of angles k [x0, x1] and radii 1/k -
-// [y0, y1].
+// The box around the bent box: around the centre (0, 1/k), the sector of angles u = k [x0, x1] and radii 1/k
+// - [y0, y1]. A point of it is (sin u / k - y sin u, (1 - cos u) / k + y cos u); 1 - cos u is written as 2
+// sin^2 (u / 2), or a slight bend would leave nothing of y.
 Box bentBox(const Box& b, double k) {
-  const double radii[] = {1.0 / k - b.min.y, 1.0 / k - b.max.y};
   const double from = std::min(k * b.min.x, k * b.max.x), to = std::max(k * b.min.x, k * b.max.x);
   Box box{glm::dvec3(kInfinity, kInfinity, b.min.z), glm::dvec3(-kInfinity, -kInfinity, b.max.z)};
-  const auto take = [&](double sine, double cosine) {
-    for (const double radius : radii) {
-      const auto along = [&](double u) { return u == 0.0 ? 0.0 : u * radius; };
-      const glm::dvec3 q(along(sine), 1.0 / k - along(cosine), b.min.z);
+  const auto take = [&](double sine, double cosine, double halfSine) {
+    for (const double y : {b.min.y, b.max.y}) {
+      const auto along = [&](double u) { return u == 0.0 ? 0.0 : u * y; };
+      const glm::dvec3 q(sine / k - along(sine), 2.0 * halfSine * halfSine / k + along(cosine), b.min.z);
       box = {glm::min(box.min, q), glm::max(box.max, glm::dvec3(q.x, q.y, b.max.z))};
     }
   };
-  take(std::sin(from), std::cos(from));
-  take(std::sin(to), std::cos(to));
+  for (const double end : {from, to}) take(std::sin(end), std::cos(end), std::sin(0.5 * end));
   for (int quarter = -1; quarter <= 1; ++quarter)  // the extremes of sine and cosine within a turn
-    if (from < quarter * kPi / 2 && quarter * kPi / 2 < to) take(quarter, quarter == 0 ? 1.0 : 0.0);
+    if (from < quarter * kPi / 2 && quarter * kPi / 2 < to)
+      take(quarter, quarter == 0 ? 1.0 : 0.0, quarter / std::numbers::sqrt2);
   return box;
 }
 
@@ -46,9 +46,10 @@ Check& checkBend(Check& check, const Box& b, double most, double folding) {
   check.that(folding < kInfinity,
              "the shape is unbounded in y, where it would fold; intersect it with a box first");
   check.that(folding < 1.0, "the shape would fold: it reaches the circle's centre, " + shown(1.0 / most) +
-                                " from the x axis; bend it less or make it thinner");
+                                " from the x axis; use a rate nearer to 0 or make it thinner");
   return check.that(most * half < kPi, "the ends would pass each other: the shape reaches " + shown(half) +
-                                           " along x, and half a turn ends at " + shown(kPi / most));
+                                           " along x, and half a turn ends at " + shown(kPi / most) +
+                                           "; use a rate nearer to 0");
 }
 
 }  // namespace
