@@ -93,5 +93,11 @@ TEST(Films, ACutThatEndsInAFaceLeavesNone) {
   }
 }
 
+TEST(Films, SolidsThatTouchInAPointOfTheLatticeStayTwo) {
+  const MeshStats stats = meshed(translate(sphere(0.5), {-0.5, 0, 0}) | translate(sphere(0.5), {0.5, 0, 0}));
+  EXPECT_EQ(stats.components, 2);
+  EXPECT_EQ(stats.eulerCharacteristic, 4);
+}
+
 }  // namespace
 }  // namespace sdf

@@ -105,15 +105,17 @@ std::vector<Result> overLeaves(const openvdb::FloatTree& tree, const Work& work)
 }
 
 /// The sign that a sample of zero has to get: -1 between samples inside (a slit of no width), 1 between
-/// samples outside (a film of no thickness), 0 where either sign will do.
-int settledSign(const Samples& samples, const Coord& c, float steep) {
-  bool slit = false, sheet = false;
+/// samples outside (a film of no thickness) and where solids touch in a point or along a line, 0 where either
+/// will do.
+int settledSign(const Samples& samples, const Coord& c, float film, float steep) {
+  bool slit = false, sheet = false, open = false;
   for (int axis = 0; axis < 3; ++axis) {
     const float before = samples.at(c - unitStep(axis)), after = samples.at(c + unitStep(axis));
     slit |= before < -steep && after < -steep;
     sheet |= before > steep && after > steep;
+    open |= before > film && after > film;
   }
-  return slit == sheet ? 0 : slit ? -1 : 1;
+  return sheet || (slit && open) ? 1 : slit ? -1 : 0;
 }
 
 /// Could the lattice edge from `value` to `next` cross the surface twice? The distance falls towards the edge
@@ -203,7 +205,7 @@ void NarrowBand::settleZeros() {
     const Samples samples(leaf, accessor);
     const auto near = [&](int x, int y, int z) { return std::abs(samples.at(x, y, z)) <= film; };
     forEach(near, [&](int x, int y, int z) {
-      const int sign = settledSign(samples, Coord(x, y, z), kSteep * slope);
+      const int sign = settledSign(samples, Coord(x, y, z), film, kSteep * slope);
       if (sign != 0) found.push_back({samples.coord(x, y, z), static_cast<float>(sign) * film});
     });
   });

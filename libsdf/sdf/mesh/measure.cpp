@@ -1,5 +1,6 @@
 #include "sdf/mesh/measure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -17,6 +18,21 @@ constexpr double kDoubtful = 0.5;
 constexpr double kSearchVoxels = 2.0;
 constexpr int kSearchSteps = 16;
 constexpr int kBisections = 20;
+
+// Where a triangle's samples exceed this share of a voxel and half of the largest one, the surface has an
+// edge or a corner under it, and the largest distance lies somewhere between them: kFine points are looked at
+// besides.
+constexpr double kEdge = 0.1;
+constexpr int kFineSteps = 7;
+constexpr int kFine = (kFineSteps + 1) * (kFineSteps + 2) / 2;
+
+// Point k of a triangular grid, corners included.
+glm::vec3 finePoint(const std::vector<glm::vec3>& p, const glm::uvec3& t, int k) {
+  int row = 0;
+  while (k > row) k -= ++row;
+  const float u = static_cast<float>(row - k) / kFineSteps, v = static_cast<float>(k) / kFineSteps;
+  return (1.0f - u - v) * p[t.x] + u * p[t.y] + v * p[t.z];
+}
 
 glm::vec3 samplePoint(const std::vector<glm::vec3>& p, const glm::uvec3& t, int k) {
   const glm::vec3 centroid = (p[t.x] + p[t.y] + p[t.z]) / 3.0f;
@@ -80,6 +96,20 @@ struct TriangleError {
   float largest = 0.0f;
 };
 
+// The largest distance over the triangles of `list`, looked for closely.
+double largestOver(const std::vector<std::uint32_t>& list, const std::vector<glm::vec3>& positions,
+                   const std::vector<glm::uvec3>& triangles, const NarrowBand& band,
+                   const LocalTapes& fallback, Progress& progress) {
+  std::vector<float> distances(kFine * list.size());
+  forEachDistance(
+      distances.size(),
+      [&](std::size_t i) {
+        return finePoint(positions, triangles[list[i / kFine]], static_cast<int>(i % kFine));
+      },
+      band, fallback, progress, [&](std::size_t i, float d) { distances[i] = d; });
+  return distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end());
+}
+
 }  // namespace
 
 void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
@@ -112,6 +142,10 @@ void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<
     squares += a * inside[t].squares;
     largest = std::max<double>(largest, inside[t].largest);
   }
+  std::vector<std::uint32_t> edges;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (inside[t].largest > std::max(kEdge * band.voxelSize(), 0.5 * largest)) edges.push_back(t);
+  largest = std::max(largest, largestOver(edges, positions, triangles, band, fallback, progress));
   stats.rmsDistance = area > 0.0 ? std::sqrt(squares / area) : 0.0;
   stats.maxDistance = largest;
 }

@@ -1,18 +1,18 @@
 #include "sdf/mesh/unresolved.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace sdf {
 namespace {
 
-// Around the expected crossing, as shares of the edge.
-constexpr std::array kAlongEdge{0.0f, -0.1f, 0.1f, 0.25f};
+// Around the expected crossing: along the edge, and to its sides, where solids that touch part.
+constexpr std::size_t kProbes = 7;
+constexpr float kAlongEdge[kProbes] = {0.0f, -0.1f, 0.1f, 0.0f, 0.0f, 0.0f, 0.0f};
+constexpr float kAside[kProbes][2] = {{0, 0}, {0, 0}, {0, 0}, {0.4f, 0}, {-0.4f, 0}, {0, 0.4f}, {0, -0.4f}};
 // Beyond the expected surface, as shares of a voxel.
-constexpr std::array kBeyond{0.002f, 0.02f, 0.1f, 0.4f};
-constexpr std::size_t kProbes = kBeyond.size();
+constexpr float kBeyond[kProbes] = {0.002f, 0.01f, 0.02f, 0.05f, 0.1f, 0.2f, 0.4f};
 // Beyond what is thinner than a voxel, but not beyond the tip of something larger that is seen elsewhere.
 constexpr float kThrough = 1.0f;
 // Half a cell's diagonal, and the least of what is looked beyond.
@@ -31,7 +31,9 @@ glm::vec3 beyond(const NarrowBand::Suspect& s, float further, const glm::vec3& g
 /// Where probe k of a suspect is to look; `gradient` is the distance's at the suspect.
 glm::vec3 probeAt(const NarrowBand::Suspect& s, std::size_t k, const glm::vec3& gradient, float voxel) {
   if (s.along == glm::vec3(0.0f)) return beyond(s, kBeyond[k] * voxel, gradient, voxel);
-  return s.at + s.along * std::clamp(s.share + kAlongEdge[k], 0.0f, 1.0f);
+  const glm::vec3 u(s.along.y, s.along.z, s.along.x), v(s.along.z, s.along.x, s.along.y);
+  return s.at + s.along * std::clamp(s.share + kAlongEdge[k], 0.0f, 1.0f) + kAside[k][0] * u +
+         kAside[k][1] * v;
 }
 
 /// Where the sign must be the suspect's again.

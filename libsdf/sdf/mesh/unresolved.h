@@ -8,8 +8,8 @@ namespace sdf {
 /// Looks at the band's suspects (NarrowBand::suspects) and counts those beside which the surface does pass
 /// unseen: solids and gaps thinner than a voxel. Of a distance that never exceeds the true one, each point of
 /// the surface lies within half a cell's diagonal of a sample that is a suspect or has a neighbour of the
-/// other sign; a suspect is confirmed by four probes. Call before NarrowBand::extract. Fills stats.unresolved
-/// and stats.firstUnresolved.
+/// other sign; a suspect is confirmed by seven probes. Call before NarrowBand::extract. Fills
+/// stats.unresolved and stats.firstUnresolved.
 void findUnresolved(const NarrowBand& band, const LocalTapes& fallback, Progress& progress, MeshStats& stats);
 
 }  // namespace sdf
