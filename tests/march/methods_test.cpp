@@ -6,6 +6,7 @@
 #include "sdf/march/oracle.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/deform.h"
+#include "sdf/shape/flats.h"
 #include "sdf/shape/place.h"
 
 namespace sdf {
@@ -118,6 +119,15 @@ TEST_P(EveryMethod, FindsAPlateThinnerThanEpsilon) {
   const Hits hits = trace(plate, rays, with(GetParam()));
   for (std::size_t i = 0; i < rays.size(); ++i)
     ASSERT_EQ(hits.status[i], RayStatus::Hit) << describe(rays, i);
+}
+
+// Half way along, the ray is at the height of two corners of the polygon, where its sign flips twice.
+TEST_P(EveryMethod, PassesBesideAPolygonsCorners) {
+  const std::vector<glm::dvec2> arrow{{0, 0}, {1, 0}, {0.4, 0.4}, {0, 1}};
+  Rays rays;
+  const glm::dvec3 from(-0.3, -0.7, 0.0), along = glm::normalize(glm::dvec3(-0.1, 1.0, 0.0));
+  rays.add(from, along, 0.0, -2.0 * from.y / along.y);
+  EXPECT_EQ(trace(extrude(polygon(arrow), 1.0), rays, with(GetParam())).status[0], RayStatus::Miss);
 }
 
 // Straight down, the balls of a step that went too deep just touch if the depth's sign is overlooked.

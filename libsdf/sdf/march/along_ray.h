@@ -28,6 +28,7 @@ class AlongRay {
   /// Encloses g over t in [from, to], and in d[0] every quotient (g(s) - g(t)) / (s - t) there.
   Dual<Interval, 1> over(double from, double to);
 
+  bool hasSlope() const { return field_.hasSlope(); }
   int readings() const { return readings_; }
 
  private:

@@ -15,6 +15,12 @@ bool proveFree(AlongRay& g, const Interval& start, double from, double to) {
   return add(start, mul(piece.d[0], way)).lo > 0.0;
 }
 
+// The same by the Lipschitz constant and a value in double: intervals cannot tell a sign that flips twice at
+// one point, as that of a polygon does at the height of a corner.
+bool slopeProvesFree(AlongRay& g, double from, double to) {
+  return g.hasSlope() && g.value(from) > to - from;
+}
+
 }  // namespace
 
 RayEnd marchByBisection(AlongRay& g, const MarchOptions& options, double tMin, double tMax) {
@@ -26,11 +32,12 @@ RayEnd marchByBisection(AlongRay& g, const MarchOptions& options, double tMin, d
   while (!ends.empty()) {
     if (g.readings() >= options.maxSteps) return {from, g.readings(), RayStatus::Budget};
     const double to = ends.back();
-    if (proveFree(g, start, from, to)) {
+    const bool small = to - from <= threshold(options, from);
+    if (proveFree(g, start, from, to) || (small && slopeProvesFree(g, from, to))) {
       ends.pop_back();
       from = to;
       start = g.over(from, from).v;
-    } else if (to - from <= threshold(options, from)) {
+    } else if (small) {
       return {from, g.readings(), RayStatus::Hit};
     } else {
       ends.push_back(from + 0.5 * (to - from));

@@ -29,7 +29,8 @@
 // Segment steps by min(g / s, l), s being the steepest fall of g along the next l of the ray by interval
 // derivatives (and at most 1), l = growth times the last step (Galin, Guerin, Paris, Peytavie 2020).
 // Bisection halves the ray until intervals prove a piece free of the solid, nearest piece first, or the piece
-// is no longer than the threshold (Mitchell 1990): it cannot miss.
+// is no longer than the threshold and not even the Lipschitz constant proves it free (Mitchell 1990): it
+// cannot miss.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -19,6 +19,11 @@ struct Vectors {
     y.push_back(v.y);
     z.push_back(v.z);
   }
+  void clear() {
+    x.clear();
+    y.clear();
+    z.clear();
+  }
 };
 
 /// Has v length 1, as far as normalising in float goes (1e-6)?

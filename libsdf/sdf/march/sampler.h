@@ -44,7 +44,7 @@ void marchTogether(const Rays& rays, Sampler& sampler, Walker& walker) {
       ray.push_back(next);
     }
     if (active.empty()) return;
-    points = {};
+    points.clear();
     for (std::size_t k = 0; k < active.size(); ++k) points.add(rays.at(ray[k], active[k].at));
     sampler.sample(points, g);
     std::size_t kept = 0;
