@@ -39,6 +39,7 @@ TEST(Solids, HaveTheDistancesWorkedOutByHand) {
       {"round_box, corner", roundBox(Vec3E(1.0), 0.5), {1, 1, 1}, 0.5 * r3 - 0.5},
       {"box_frame, middle of a face", boxFrame(Vec3E(1.0), 0.25), {0, 0, 1}, 0.75},
       {"box_frame, middle of a beam", boxFrame(Vec3E(1.0), 0.25), {0.875, 0, 0.875}, -0.125},
+      {"box_frame, where two thick beams meet", boxFrame({1.0, 2.0, 0.5}, 0.5), {0.75, 1.75, 0}, -0.25},
       {"torus, centre", torus(2.0, 0.5), {0, 0, 0}, 1.5},
       {"torus, over the tube", torus(2.0, 0.5), {0, 3, 2}, 2.5},
       {"capped_torus, along the gap", cappedTorus(90 * kDegree, 2.0, 0.5), {0, 0, -3}, std::sqrt(13.0) - 0.5},

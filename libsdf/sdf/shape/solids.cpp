@@ -58,9 +58,12 @@ Shape boxFrame(const Vec3E& half, const Expr& thickness) {
   c.vector("half", half, Rule::Positive).positive("thickness", thickness);
   if (c.ok()) c.atMost("thickness", thickness, "the smallest half size", smallest(half));
   if (!c.ok()) return c.failure();
-  const Expr e = 0.5 * thickness;
+  // Half of what the beams take of each half size. Beams as thick as that meet in the middle: there they are
+  // one, for two that only touch would have a distance of 0 within the solid.
+  const auto part = [&](const Expr& size) { return select(less(thickness, size), 0.5 * thickness, size); };
+  const Vec3E e{part(half.x), part(half.y), part(half.z)};
   const Vec3E p = abs(position()) - half;
-  const Vec3E q = abs(p + Vec3E(e)) - Vec3E(e);
+  const Vec3E q = abs(p + e) - e;
   const Expr beams =
       min(min(boxDistance(p.x, q.y, q.z), boxDistance(q.x, p.y, q.z)), boxDistance(q.x, q.y, p.z));
   return solid(beams, Box::centred(upper(half)), ClaimKind::ExactOutside);
