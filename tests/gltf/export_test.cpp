@@ -67,6 +67,8 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   b.stats.manifold = false;
   b.stats.unresolved = 2;
   b.stats.firstUnresolved = {1, 2, 3};
+  b.stats.notNumbers = 4;
+  b.stats.firstNotNumber = {5, 6, 7};
   const MeshStats all = combined({a, b});
   EXPECT_EQ(all.voxels, 15u);
   EXPECT_EQ(all.triangles, a.stats.triangles + b.stats.triangles);
@@ -78,6 +80,8 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   EXPECT_FALSE(all.manifold);
   EXPECT_EQ(all.unresolved, 2u);
   EXPECT_EQ(all.firstUnresolved, glm::vec3(1, 2, 3));
+  EXPECT_EQ(all.notNumbers, 4u);
+  EXPECT_EQ(all.firstNotNumber, glm::vec3(5, 6, 7));
 }
 
 TEST(Combined, WeighsTheRmsByTriangles) {

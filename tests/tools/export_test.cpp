@@ -143,6 +143,19 @@ TEST_F(Export, WarnsOfWhatFallsBetweenTheSamples) {
   EXPECT_TRUE(fine["first_unresolved"].is_null());
 }
 
+TEST_F(Export, WarnsOfADistanceThatIsNotANumber) {
+  // In half of space the ball's formula has a root of a negative number.
+  const std::string file = scene(
+      "part('half', field(function(x, y, z) return sqrt(x * x + y * y + z * z) - 1 + 0 * sqrt(x) end,"
+      " {bounds = {{-2, -2, -2}, {2, 2, 2}}}))");
+  const std::vector<std::string> arguments{file, "-o", out("a.glb"), "--voxel-size", "0.1"};
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("sdf2gltf: warning: part 'half': the distance is not a number at "),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
   const Json output = report({scene(kTwoParts), "-o", out("a.glb")})["outputs"][0];
   // Both together reach from -1 to 2.5.

@@ -38,6 +38,14 @@ std::vector<std::string> row(const ReportLine& line) {
           formatted("%.0f MiB", line.peakMemory / kMiB)};
 }
 
+std::string place(const glm::vec3& p) {
+  return "(" + formatted("%.4g", p.x) + ", " + formatted("%.4g", p.y) + ", " + formatted("%.4g", p.z) + ")";
+}
+
+Json placeJson(std::uint64_t count, const glm::vec3& first) {
+  return count == 0 ? Json(nullptr) : Json{first.x, first.y, first.z};
+}
+
 Json json(const ReportLine& line) {
   Json stages = Json::object();
   for (const auto& [name, seconds] : line.stages) stages[name] = seconds;
@@ -60,7 +68,9 @@ Json json(const ReportLine& line) {
           {"components", stats.components},
           {"euler_characteristic", stats.eulerCharacteristic},
           {"unresolved", stats.unresolved},
-          {"first_unresolved", first}};
+          {"first_unresolved", placeJson(stats.unresolved, stats.firstUnresolved)},
+          {"not_numbers", stats.notNumbers},
+          {"first_not_number", placeJson(stats.notNumbers, stats.firstNotNumber)}};
 }
 
 }  // namespace
@@ -76,14 +86,18 @@ void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
 }
 
 void printWarnings(std::ostream& out, const FileReport& report) {
-  for (const ReportLine& part : report.parts) {
-    const glm::vec3& p = part.stats.firstUnresolved;
-    if (part.stats.unresolved == 0) continue;
-    out << "sdf2gltf: warning: part '" << part.name
-        << "': solids or gaps thinner than a voxel were missed at " << grouped(part.stats.unresolved)
-        << " places, the first near (" << formatted("%.4g", p.x) << ", " << formatted("%.4g", p.y) << ", "
-        << formatted("%.4g", p.z)
-        << "); how the mesh hangs together there depends on the voxel size, take a smaller one to see them\n";
+  for (const auto& [name, stats, stages, seconds, memory] : report.parts) {
+    const std::string part = "sdf2gltf: warning: part '" + name + "': ";
+    if (stats.unresolved > 0)
+      out << part << "solids or gaps thinner than a voxel were missed at " << grouped(stats.unresolved)
+          << " places, the first near " << place(stats.firstUnresolved)
+          << "; how the mesh hangs together there depends on the voxel size, take a smaller one to see "
+             "them\n";
+    if (stats.notNumbers > 0)
+      out << part << "the distance is not a number at " << grouped(stats.notNumbers)
+          << " samples, the first near " << place(stats.firstNotNumber)
+          << "; they were taken as outside. Check for divisions by zero, roots and logarithms of negative "
+             "numbers\n";
   }
 }
 

@@ -73,6 +73,8 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
     all.eulerCharacteristic += one.eulerCharacteristic;
     if (all.unresolved == 0) all.firstUnresolved = one.firstUnresolved;
     all.unresolved += one.unresolved;
+    if (all.notNumbers == 0) all.firstNotNumber = one.firstNotNumber;
+    all.notNumbers += one.notNumbers;
     squares += one.rmsDistance * one.rmsDistance * static_cast<double>(one.triangles);
   }
   if (all.triangles > 0) all.rmsDistance = std::sqrt(squares / static_cast<double>(all.triangles));

@@ -21,6 +21,7 @@ struct NarrowBand::Grid {
   double lipschitz = std::numeric_limits<double>::infinity();  // over the bounds, where known
   std::unordered_map<openvdb::Coord, LocalTapes, CoordHash> tapes;
   std::uint64_t samples = 0;
+  NotNumbers notNumbers;
 
   /// Slope bound of the distance in a leaf; 1 where none is known, as of a distance.
   double slopeAt(const openvdb::Coord& leaf) const {

@@ -43,8 +43,10 @@ struct MeshStats {
   bool manifold = false;    ///< every edge has two triangles and every vertex one fan
   int components = 0;
   int eulerCharacteristic = 0;
-  std::uint64_t unresolved = 0;     ///< places where solids or gaps thinner than a voxel were passed unseen
-  glm::vec3 firstUnresolved{0.0f};  ///< one of them
+  std::uint64_t unresolved = 0;  ///< places where solids or gaps thinner than a voxel were passed unseen
+  glm::vec3 firstUnresolved{0.0f};
+  std::uint64_t notNumbers = 0;  ///< samples near the surface that are no numbers; they count as outside
+  glm::vec3 firstNotNumber{0.0f};
 };
 
 }  // namespace sdf

@@ -86,6 +86,8 @@ class Mesher {
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     result_.stats.voxels = sampled->sampleCount();
     result_.stats.voxelSize = h;
+    result_.stats.notNumbers = sampled->notNumbers().count;
+    result_.stats.firstNotNumber = sampled->notNumbers().first;
     return std::move(result_);
   }
 

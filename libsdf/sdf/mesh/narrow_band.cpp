@@ -10,6 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <mutex>
 
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
@@ -69,6 +70,12 @@ float smallestMagnitude(const float* values) {
       least[k] = v < least[k] ? v : least[k];
     }
   return *std::min_element(least, least + kLanes);
+}
+
+int countNotNumbers(const float* values) {
+  int count = 0;
+  for (int i = 0; i < kLeafVoxels; ++i) count += values[i] != values[i];
+  return count;
 }
 
 std::string shown(double number) {
@@ -263,7 +270,7 @@ class BandSampler {
 
   // The samples of a leaf; empty where no edge of the lattice that starts or ends in it can cross the
   // surface.
-  BandLeaf sampleLeaf(const Cell& cell, Workspace& w) const {
+  BandLeaf sampleLeaf(const Cell& cell, Workspace& w) {
     const openvdb::Coord& origin = cell.origin;
     float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels];
     float along[3][kLeaf];
@@ -283,6 +290,7 @@ class BandSampler {
     const Tape& distance = *w.last.distance;
     float values[kLeafVoxels];
     w.batch.evaluate(distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
+    if (const int bad = countNotNumbers(values)) noteNotNumbers(origin, values, bad);
     // An edge of the lattice that crosses the surface has both ends within a voxel's slope of zero.
     const double slope = std::min<double>(distance.lipschitz(), cell.slope);
     if (smallestMagnitude(values) > slope * h_ + slack(centre(origin, kLeaf))) return {};
@@ -291,12 +299,25 @@ class BandSampler {
     return {std::move(leaf), w.last};
   }
 
+  // Keeps the count, and of the first one in each leaf the least, whichever thread comes first.
+  void noteNotNumbers(const openvdb::Coord& origin, const float* values, int count) {
+    const int first = static_cast<int>(
+        std::find_if(values, values + kLeafVoxels, [](float v) { return std::isnan(v); }) - values);
+    const openvdb::Coord at = origin + Leaf::offsetToLocalCoord(first);
+    const std::lock_guard lock(notNumbersMutex_);
+    if (notNumbers_ == 0 || at < firstNotNumber_) firstNotNumber_ = at;
+    notNumbers_ += count;
+  }
+
   // Hands the leaves to a grid and spreads the sign to the tiles between them.
   NarrowBand collect() {
     NarrowBand band;
     band.grid_->voxelSize = h_;
     band.grid_->samples = samples_;
     band.grid_->lipschitz = options_.lipschitz;
+    band.grid_->notNumbers = {
+        notNumbers_,
+        glm::vec3(firstNotNumber_.x(), firstNotNumber_.y(), firstNotNumber_.z()) * static_cast<float>(h_)};
     auto& tree = band.grid_->grid->tree();
     band.grid_->grid->setTransform(openvdb::math::Transform::createLinearTransform(h_));
     band.grid_->tapes.reserve(leaves_.size());
@@ -317,6 +338,9 @@ class BandSampler {
   std::vector<Cell> cells_;
   std::vector<BandLeaf> leaves_;
   std::atomic<std::uint64_t> samples_{0};
+  std::mutex notNumbersMutex_;
+  std::uint64_t notNumbers_ = 0;
+  openvdb::Coord firstNotNumber_;
   std::pair<double, double> stageShare_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
@@ -332,6 +356,7 @@ NarrowBand& NarrowBand::operator=(NarrowBand&&) noexcept = default;
 double NarrowBand::voxelSize() const { return grid_->voxelSize; }
 std::size_t NarrowBand::leafCount() const { return grid_->tapes.size(); }
 std::uint64_t NarrowBand::sampleCount() const { return grid_->samples; }
+const NarrowBand::NotNumbers& NarrowBand::notNumbers() const { return grid_->notNumbers; }
 
 const LocalTapes* NarrowBand::Finder::at(const glm::vec3& p) {
   const glm::dvec3 q = glm::dvec3(p) / band_.voxelSize();

@@ -36,6 +36,12 @@ class NarrowBand {
   std::size_t leafCount() const;
   /// Distance samples taken, those of coarse cells included.
   std::uint64_t sampleCount() const;
+  /// Samples next to which the surface may lie whose value is not a number, and the first of them.
+  struct NotNumbers {
+    std::uint64_t count = 0;
+    glm::vec3 first{0.0f};
+  };
+  const NotNumbers& notNumbers() const;
   /// Finds tapes for points; remembers the last leaf, so that neighbours are found at once.
   class Finder {
    public:
