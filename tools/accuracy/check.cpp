@@ -33,7 +33,7 @@ double floatUlp(double x) {
 // Everything that checking one shape shares.
 struct Bench {
   Bench(const ReferenceCase& c, unsigned s)
-      : of(c), reference(c.mesh), make(c, reference), tape(c.shape.distance), seed(s) {}
+      : of(c), reference(c.mesh), make(c), tape(c.shape.distance), seed(s) {}
 
   const ReferenceCase& of;
   const Reference reference;
@@ -54,7 +54,7 @@ class Chunk {
   Checked run(std::uint64_t first, std::uint64_t count) {
     PointMaker::Random random((static_cast<std::uint64_t>(bench_.seed) << 40) + first);
     for (std::uint64_t k = first; k < first + count; ++k) {
-      const glm::dvec3 p = bench_.make(k, random);
+      const glm::dvec3 p = bench_.make(k, random, [this](const glm::dvec3& q) { return value(q); });
       values_.push_back(value(p));
       for (int i = 0; i < 3; ++i) rows_[i].push_back(static_cast<float>(p[i]));
       tryClaim(p, values_.back());
@@ -77,12 +77,12 @@ class Chunk {
 
   void tryClaim(const glm::dvec3& p, double f) {
     const ClaimKind kind = bench_.of.shape.claim.kind;
-    const double d = bench_.reference.signedDistance(p), ulp = floatUlp(largest(p));
+    const double d = bench_.reference.signedDistance(bench_.make.toMesh(p)), ulp = floatUlp(largest(p));
     const double chord = bench_.of.chord, allowed = chord + kFloatUlps * ulp + rounding(p);
     const double error = std::abs(f - d);
     const bool exactHere =
         kind == ClaimKind::Exact || (kind == ClaimKind::ExactOutside && (f > 0.0 || d > 0.0));
-    bool holds = !std::isnan(f) && (std::abs(d) <= allowed || (f > 0.0) == (d > 0.0));
+    bool holds = !std::isnan(f) && (std::abs(d) <= allowed || (d > 0.0 ? f > 0.0 : f < 0.0));
     if (exactHere) holds = holds && error <= allowed;
     if (kind != ClaimKind::Field) holds = holds && std::abs(f) <= std::abs(d) + allowed;
     if (!holds) refute(p, "f = %.9g, d = %.9g, allowed %.3g", f, d, allowed);
@@ -91,9 +91,9 @@ class Chunk {
       found_.maxError = std::max(found_.maxError, error);
       found_.maxUlps = std::max(found_.maxUlps, (error - chord - rounding(p)) / ulp);
     }
-    constexpr double kWellAbove = 1000.0;
+    constexpr double kWellAbove = 20.0;
     if (std::abs(d) >= kWellAbove * allowed)
-      found_.tightness = std::min(found_.tightness, std::abs(f) / std::abs(d));
+      found_.tightness = std::min(found_.tightness, (std::abs(f) + allowed) / std::abs(d));
   }
 
   void trySlope(const glm::dvec3& p, double f, PointMaker::Random& random) {
@@ -136,18 +136,18 @@ class Chunk {
   std::array<std::vector<float>, 3> rows_;
 };
 
-void add(Checked& sum, const Checked& more) {
-  sum.points += more.points;
-  sum.maxError = std::max(sum.maxError, more.maxError);
-  sum.maxUlps = std::max(sum.maxUlps, more.maxUlps);
-  sum.tightness = std::min(sum.tightness, more.tightness);
-  sum.lipschitz = std::max(sum.lipschitz, more.lipschitz);
-  sum.floatUlps = std::max(sum.floatUlps, more.floatUlps);
-  sum.refuted += more.refuted;
-  if (sum.worst.empty()) sum.worst = more.worst;
-}
-
 }  // namespace
+
+void Checked::add(const Checked& more) {
+  points += more.points;
+  maxError = std::max(maxError, more.maxError);
+  maxUlps = std::max(maxUlps, more.maxUlps);
+  tightness = std::min(tightness, more.tightness);
+  lipschitz = std::max(lipschitz, more.lipschitz);
+  floatUlps = std::max(floatUlps, more.floatUlps);
+  refuted += more.refuted;
+  if (worst.empty()) worst = more.worst;
+}
 
 Checked check(const ReferenceCase& c, std::uint64_t points, unsigned seed) {
   const Bench bench(c, seed);
@@ -162,7 +162,7 @@ Checked check(const ReferenceCase& c, std::uint64_t points, unsigned seed) {
     }
   });
   Checked sum;
-  for (const Checked& part : found) add(sum, part);
+  for (const Checked& part : found) sum.add(part);
   return sum;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace sdf::accuracy {
 namespace {
@@ -35,11 +36,36 @@ glm::dvec3 randomDirection(Random& random) {
   }
 }
 
-PointMaker::PointMaker(const ReferenceCase& c, const Reference& reference)
-    : case_(c), reference_(reference), box_(intersect(boxOf(c.mesh), c.region)) {
+Turning::Turning(const std::optional<Axis>& axis) : axis_(axis) {
+  if (!axis) return;
+  const glm::dvec3 y = axis->direction;
+  u_ = std::abs(y.x) < 0.5 ? glm::normalize(glm::dvec3(1, 0, 0) - y.x * y)
+                           : glm::normalize(glm::dvec3(0, 0, 1) - y.z * y);
+  w_ = glm::cross(u_, y);
+}
+
+glm::dvec3 Turning::toMesh(const glm::dvec3& p) const {
+  if (!axis_) return p;
+  const glm::dvec3 q = p - axis_->origin;
+  return {std::hypot(glm::dot(q, u_), glm::dot(q, w_)), glm::dot(q, axis_->direction), 0.0};
+}
+
+glm::dvec3 Turning::fromMesh(const glm::dvec3& q, std::mt19937_64& random) const {
+  if (!axis_) return q;
+  constexpr double kCosines[] = {1.0, 0.0, -1.0, 0.0};
+  const double angle = uniform(random, -std::numbers::pi, std::numbers::pi);
+  const std::size_t quarter = below(random, 8);
+  const double cosine = quarter < 4 ? kCosines[quarter] : std::cos(angle);
+  const double sine = quarter < 4 ? kCosines[(quarter + 3) % 4] : std::sin(angle);
+  return axis_->origin + q.y * axis_->direction + q.x * (cosine * u_ + sine * w_);
+}
+
+PointMaker::PointMaker(const ReferenceCase& c)
+    : case_(c), turning_(c.axis), box_(intersect(boxOf(c.mesh), c.region)) {
   size_ = box_.longestSide();
   for (int i = 0; i < 3; ++i)
     reach_ = std::max(reach_, std::max(std::abs(box_.min[i]), std::abs(box_.max[i])));
+  if (c.axis) reach_ += glm::length(c.axis->origin);
   double sum = 0.0;
   for (const glm::ivec3& t : c.mesh.triangles) {
     const glm::dvec3 a = c.mesh.points[t.x], b = c.mesh.points[t.y], d = c.mesh.points[t.z];
@@ -47,17 +73,18 @@ PointMaker::PointMaker(const ReferenceCase& c, const Reference& reference)
   }
 }
 
-glm::dvec3 PointMaker::operator()(std::uint64_t k, Random& random) const {
-  // The medial axis takes many queries a point, hence its small share.
+glm::dvec3 PointMaker::operator()(std::uint64_t k, Random& random,
+                                  const std::function<double(const glm::dvec3&)>& value) const {
+  // Points near centres and the medial axis are the dearest: all of a mesh can be equally near.
   constexpr int kKinds = 64;
   const int kind = static_cast<int>(k % kKinds);
-  const glm::dvec3 p = kind < 26   ? nearSurface(random)
-                       : kind < 34 ? nearSpecial(random)
-                       : kind < 46 ? around(random)
-                       : kind < 56 ? onSymmetry(random)
-                       : kind < 63 ? far(random)
-                                   : onMedialAxis(random);
-  return asFloats(glm::clamp(p, case_.region.min, case_.region.max));
+  if (kind == 0) return asFloats(onMedialAxis(random, value));
+  const glm::dvec3 p = kind < 32   ? nearSurface(random)
+                       : kind < 36 ? nearSpecial(random)
+                       : kind < 50 ? around(random)
+                       : kind < 58 ? onSymmetry(random)
+                                   : far(random);
+  return asFloats(turning_.fromMesh(glm::clamp(p, case_.region.min, case_.region.max), random));
 }
 
 // Half of them by area; half by triangle, since small triangles stand where the surface bends. Some on
@@ -132,18 +159,23 @@ glm::dvec3 PointMaker::far(Random& random) const {
   return box_.centre() + size_ * std::pow(10.0, uniform(random, 0.0, 2.0)) * randomDirection(random);
 }
 
-// From a point of the surface inward or outward, as far as that point stays the nearest.
-glm::dvec3 PointMaker::onMedialAxis(Random& random) const {
+// From a point of the surface inward or outward, as far as the distance grows by as much.
+glm::dvec3 PointMaker::onMedialAxis(Random& random,
+                                    const std::function<double(const glm::dvec3&)>& value) const {
   const OnSurface s = onSurface(random);
+  const glm::dvec3 from = glm::clamp(s.at, case_.region.min, case_.region.max);
   const glm::dvec3 way = below(random, 4) ? -s.normal : s.normal;
-  // Above the chord, for a mesh's own edges have a medial axis too.
   const double tolerance = case_.chord + 1e-6 * size_;
+  const Random turn = random;  // the same turn for all of the line
   double stays = 0.0, leaves = size_;
+  glm::dvec3 p;
   for (int step = 0; step < 20; ++step) {
     const double t = 0.5 * (stays + leaves);
-    (reference_.distance(s.at + t * way) > t - tolerance ? stays : leaves) = t;
+    Random again = turn;
+    p = turning_.fromMesh(glm::clamp(from + t * way, case_.region.min, case_.region.max), again);
+    (std::abs(value(p)) > t - tolerance ? stays : leaves) = t;
   }
-  return s.at + stays * way;
+  return p;
 }
 
 }  // namespace sdf::accuracy

@@ -1,5 +1,6 @@
 // The points at which shapes are held to their references.
 #pragma once
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -7,19 +8,37 @@
 
 namespace sdf::accuracy {
 
+/// Between space and the profile's plane of a solid of revolution; does nothing for a case without an axis.
+class Turning {
+ public:
+  explicit Turning(const std::optional<Axis>& axis);
+  /// Where the mesh has p's distance.
+  glm::dvec3 toMesh(const glm::dvec3& p) const;
+  /// A point that toMesh brings to q, or to its mirror image: turned by an angle, four in eight by a multiple
+  /// of a right angle.
+  glm::dvec3 fromMesh(const glm::dvec3& q, std::mt19937_64& random) const;
+
+ private:
+  std::optional<Axis> axis_;
+  glm::dvec3 u_{}, w_{};  // across the axis
+};
+
 /// Makes points of every kind that check() promises. Const calls may come from many threads.
 class PointMaker {
  public:
   using Random = std::mt19937_64;
 
-  PointMaker(const ReferenceCase& c, const Reference& reference);
+  explicit PointMaker(const ReferenceCase& c);
 
-  /// The k-th point; each `k` has its kind, all kinds come within some hundred points. Its coordinates are
-  /// floats.
-  glm::dvec3 operator()(std::uint64_t k, Random& random) const;
+  /// The k-th point; each `k` has its kind, all kinds come within a hundred points. Its coordinates are
+  /// floats. `value` reads the shape's distance, which leads to the medial axis.
+  glm::dvec3 operator()(std::uint64_t k, Random& random,
+                        const std::function<double(const glm::dvec3&)>& value) const;
 
   /// Longest side of what is tried near, scene units.
   double size() const { return size_; }
+  /// Where the mesh has p's distance.
+  glm::dvec3 toMesh(const glm::dvec3& p) const { return turning_.toMesh(p); }
   /// Largest coordinate of the mesh, scene units.
   double reach() const { return reach_; }
 
@@ -33,11 +52,11 @@ class PointMaker {
   glm::dvec3 around(Random& random) const;
   glm::dvec3 onSymmetry(Random& random) const;
   glm::dvec3 far(Random& random) const;
-  glm::dvec3 onMedialAxis(Random& random) const;
+  glm::dvec3 onMedialAxis(Random& random, const std::function<double(const glm::dvec3&)>& value) const;
   double offset(Random& random) const;
 
   const ReferenceCase& case_;
-  const Reference& reference_;
+  Turning turning_;
   std::vector<double> areas_;  // running sums
   Box box_;
   double size_ = 0.0, reach_ = 0.0;

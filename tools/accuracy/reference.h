@@ -1,8 +1,10 @@
 // Geometry computed another way: distances to triangle meshes by CGAL, against which the distance functions
 // are held.
 #pragma once
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace sdf::accuracy {
@@ -34,6 +36,10 @@ class Reference {
   struct Trees;
   std::unique_ptr<Trees> trees_;
 };
+
+/// The inside of a simple polygon as triangles of its corners (constrained Delaunay triangulation). Throws
+/// std::invalid_argument where the polygon crosses itself.
+std::vector<glm::ivec3> triangulated(std::span<const glm::dvec2> polygon);
 
 enum class Boolean { Union, Intersection, Difference };
 /// The boolean of two closed meshes by corefinement with exact constructions; corners are rounded to double

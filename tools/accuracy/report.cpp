@@ -1,0 +1,111 @@
+#include "report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "sdf/shape/catalog.h"
+
+namespace sdf::accuracy {
+namespace {
+
+constexpr std::uint64_t kPointsOfSmall = 450'000, kPointsOfLarge = 100'000;
+constexpr std::size_t kLargeMesh = 10'000;  // triangles
+
+constexpr const char* kIntroduction = R"(# How accurate the distances are
+
+Every solid and flat shape of the catalog is compared with geometry that was computed another way. This page is
+written by `accuracy docs/accuracy.md`; the tests labelled `accuracy` make the same comparison and fail where a
+claim does not hold.
+
+## What is compared
+
+- *f* is the shape's distance at a point, read in double. *d* is the signed distance to a triangle mesh of the
+  same solid: [CGAL](https://www.cgal.org) finds the nearest triangle and decides the side with exact predicates.
+- The meshes come from the solids' definitions — corners, profiles, parametric surfaces — never from the distance
+  functions. A flat shape stands for its outline; a solid of revolution is compared in the plane of its profile,
+  which is a finer mesh than one of the whole solid. A wall (gyroid and the like) is meshed from its trigonometric
+  formula by root finding on a lattice.
+- A mesh of a curved solid is off by at most its *chord*: the sources in `tools/accuracy` derive it for each. It is
+  0 where the solid has flat faces only.
+- Each shape is tried at several arguments, extreme ones among them: needles, discs, tubes that overlap themselves.
+- Points lie near the surface at distances from one millionth of the size up, inside, around, up to 100 sizes away,
+  on symmetry planes and axes, at corners, on edges and on the medial axis. All coordinates are floats.
+
+A claim holds at a point if it is broken by no more than the chord plus four float ulps of the point; an ulp is the
+step from the largest coordinate to the next float. Where *d* is larger than that the sign must be right, too. An exact
+claim means that |f − d| is no larger than this allowance; a bound, that |f| exceeds |d| by no more. Difference quotients
+may not exceed the claimed L.
+
+## Reading the tables
+
+- *error*: largest |f − d| where the claim says exact, in scene units, over all arguments; `–` for a bound.
+- *chord*: largest chord of the meshes. An error of about that size is the mesh's.
+- *ulps*: how far an error went beyond its chord, in float ulps of the point; 4 are allowed.
+- *tightness*: least f / d, given the allowance, where d is at least 20 times that; 1 is exact.
+- *L*: the claimed bound of the slope, and the largest difference quotient that was met.
+- *float*: largest difference of the float SIMD reading from the double one, in float ulps of the point or of the
+  solid's size, whichever is larger.
+- *points*: how many were tried. A claim that a point refutes would show here in bold.
+)";
+
+std::string number(const char* format, double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+std::string brief(double value) { return value == 0.0 ? "0" : number("%.1e", value); }
+
+std::string grouped(std::uint64_t count) {
+  std::string text = std::to_string(count);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
+void writeRow(std::ostream& out, const Row& row) {
+  const CatalogEntry& entry = *findEntry(row.entry);
+  const Checked& c = row.found;
+  const bool exact = entry.claim.find("exact") != std::string::npos;
+  const auto limit = [](double l) { return l == kInfinity ? "∞" : number("%.6g", l); };
+  out << "| `" << row.entry << "` | " << entry.claim << " | " << (exact ? brief(c.maxError) : "–") << " | "
+      << brief(row.chord) << " | " << (exact ? number("%.2f", c.maxUlps) : "–") << " | "
+      << number("%.3f", c.tightness) << " | " << limit(row.lipschitz) << " | " << number("%.4f", c.lipschitz)
+      << " | " << number("%.1f", c.floatUlps) << " | " << grouped(c.points);
+  if (c.refuted > 0) out << ", **" << grouped(c.refuted) << " refuted**";
+  out << " |\n";
+}
+
+void writeTable(std::ostream& out, const char* what, std::span<const Row> rows) {
+  out << "| " << what << " | claim | error | chord | ulps | tightness | L | L measured | float | points |\n"
+      << "|---|---|---|---|---|---|---|---|---|---|\n";
+  std::uint64_t points = 0;
+  for (const Row& row : rows) {
+    writeRow(out, row);
+    points += row.found.points;
+  }
+  out << "\n" << grouped(points) << " points.\n";
+}
+
+}  // namespace
+
+Row rowOf(const std::string& entry, std::span<const std::function<ReferenceCase()>> cases,
+          std::uint64_t fraction) {
+  Row row{entry, {}};
+  unsigned seed = 0;
+  for (const std::function<ReferenceCase()>& make : cases) {
+    const ReferenceCase c = make();
+    const std::uint64_t points = c.mesh.triangles.size() < kLargeMesh ? kPointsOfSmall : kPointsOfLarge;
+    row.found.add(check(c, points / fraction / cases.size() + 1, ++seed));
+    row.chord = std::max(row.chord, c.chord);
+    row.lipschitz = std::max(row.lipschitz, c.shape.claim.lipschitz);
+  }
+  return row;
+}
+
+void writeReport(std::ostream& out, std::span<const Row> primitives) {
+  out << kIntroduction << "\n## Solids and flat shapes\n\n";
+  writeTable(out, "shape", primitives);
+}
+
+}  // namespace sdf::accuracy
