@@ -72,10 +72,11 @@ float smallestMagnitude(const float* values) {
   return *std::min_element(least, least + kLanes);
 }
 
-int countNotNumbers(const float* values) {
-  int count = 0;
-  for (int i = 0; i < kLeafVoxels; ++i) count += values[i] != values[i];
-  return count;
+bool allFinite(const float* values) {
+  int infinite = 0;
+  for (int i = 0; i < kLeafVoxels; ++i)
+    infinite += !(std::abs(values[i]) <= std::numeric_limits<float>::max());
+  return infinite == 0;
 }
 
 std::string shown(double number) {
@@ -290,7 +291,7 @@ class BandSampler {
     const Tape& distance = *w.last.distance;
     float values[kLeafVoxels];
     w.batch.evaluate(distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
-    if (const int bad = countNotNumbers(values)) noteNotNumbers(origin, values, bad);
+    if (!allFinite(values)) makeFinite(origin, values);
     // An edge of the lattice that crosses the surface has both ends within a voxel's slope of zero.
     const double slope = std::min<double>(distance.lipschitz(), cell.slope);
     if (smallestMagnitude(values) > slope * h_ + slack(centre(origin, kLeaf))) return {};
@@ -299,14 +300,19 @@ class BandSampler {
     return {std::move(leaf), w.last};
   }
 
-  // Keeps the count, and of the first one in each leaf the least, whichever thread comes first.
-  void noteNotNumbers(const openvdb::Coord& origin, const float* values, int count) {
-    const int first = static_cast<int>(
-        std::find_if(values, values + kLeafVoxels, [](float v) { return std::isnan(v); }) - values);
-    const openvdb::Coord at = origin + Leaf::offsetToLocalCoord(first);
+  // The extraction takes no others. What is not a number counts as outside; the first one is the least in
+  // space, whichever thread comes first.
+  void makeFinite(const openvdb::Coord& origin, float* values) {
+    const float far = static_cast<float>(3 * h_);
     const std::lock_guard lock(notNumbersMutex_);
-    if (notNumbers_ == 0 || at < firstNotNumber_) firstNotNumber_ = at;
-    notNumbers_ += count;
+    for (int i = 0; i < kLeafVoxels; ++i) {
+      float& v = values[i];
+      if (std::isinf(v)) v = std::copysign(far, v);
+      if (!std::isnan(v)) continue;
+      v = far;
+      const openvdb::Coord at = origin + Leaf::offsetToLocalCoord(i);
+      if (notNumbers_++ == 0 || at < firstNotNumber_) firstNotNumber_ = at;
+    }
   }
 
   // Hands the leaves to a grid and spreads the sign to the tiles between them.
