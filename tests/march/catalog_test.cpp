@@ -8,7 +8,7 @@
 namespace sdf {
 namespace {
 
-constexpr int kRays = 24;
+constexpr int kRays = 12;
 constexpr double kSteps = 1000.0;  // of epsilon, along the region's longest side
 
 // Rays through the region, from beyond it to points in it.
