@@ -1,0 +1,47 @@
+// Every operator of the catalog, held to the same operation on meshes.
+#include <gtest/gtest.h>
+
+#include "accuracy/operator_rows.h"
+#include "sdf/shape/catalog.h"
+
+namespace sdf::accuracy {
+
+static void PrintTo(const OperatorCases& c, std::ostream* out) { *out << c.entry; }
+
+namespace {
+
+bool isOperator(const CatalogEntry& e) { return e.group != Group::Solid && e.group != Group::Flat; }
+
+// Sanitizers make each point some twenty times as dear.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::uint64_t kFraction = 20;
+#else
+constexpr std::uint64_t kFraction = 1;
+#endif
+
+TEST(Operators, HaveCasesForEveryEntryOfTheCatalogInItsOrder) {
+  std::vector<std::string> wanted, had;
+  for (const CatalogEntry& e : catalog())
+    if (isOperator(e)) wanted.push_back(e.name);
+  for (const OperatorCases& cases : operatorCases()) had.push_back(cases.entry);
+  EXPECT_EQ(had, wanted);
+}
+
+class Operator : public testing::TestWithParam<OperatorCases> {};
+
+TEST_P(Operator, BuildsEveryCase) {
+  for (const ReferenceCase& c : GetParam().make())
+    EXPECT_TRUE(c.shape.ok()) << c.name << ": " << *c.shape.error;
+}
+
+TEST_P(Operator, KeepsItsClaimAgainstTheSameOperationOnMeshes) {
+  const Row row = operatorRow(GetParam(), kFraction);
+  EXPECT_EQ(row.found.refuted, 0u) << row.found.worst;
+  EXPECT_GE(row.found.points, 100'000 / kFraction);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, Operator, testing::ValuesIn(operatorCases()),
+                         [](const auto& info) { return info.param.entry; });
+
+}  // namespace
+}  // namespace sdf::accuracy

@@ -1,0 +1,18 @@
+#include "operator_rows.h"
+
+namespace sdf::accuracy {
+
+Row operatorRow(const OperatorCases& cases, std::uint64_t fraction) {
+  const std::vector<ReferenceCase> made = cases.make();
+  std::vector<std::function<ReferenceCase()>> makers;
+  for (const ReferenceCase& c : made) makers.emplace_back([&c] { return c; });
+  return rowOf(cases.entry, makers, fraction);
+}
+
+std::vector<Row> operatorRows() {
+  std::vector<Row> rows;
+  for (const OperatorCases& cases : operatorCases()) rows.push_back(operatorRow(cases));
+  return rows;
+}
+
+}  // namespace sdf::accuracy
