@@ -128,6 +128,47 @@ FailureCase colourJumpCase() {
           }};
 }
 
+FailureCase chamferCase() {
+  return {"chamfer of two faces that nearly agree",
+          "steepest difference quotient, less 1",
+          "min(a, b, (a - k + b) sqrt 1/2) (Mercury 2015)",
+          "the bevel scaled so that its gradient is a mean of the operands'",
+          std::sqrt(2.0) - 1.0 - 1e-3,
+          1e-9,
+          "where both gradients agree, theirs has length 2 sqrt 1/2; planes 2 degrees apart lose less than a "
+          "thousandth",
+          [] {
+            const double tilt = 2.0 * kPi / 180.0;
+            const Shape a = plane({0, 1, 0}, 0.0), b = plane({std::sin(tilt), std::cos(tilt), 0}, 0.0);
+            const Distance first(a), second(b), ours(unite(a, b, Blend::chamfer(0.5)));
+            const auto naive = [&](const glm::dvec3& p) {
+              const double u = first(p), v = second(p);
+              return std::min({u, v, (u - 0.5 + v) * std::sqrt(0.5)});
+            };
+            return Figures{steepest(naive, 0.5, 21) - 1.0, steepest(ours, 0.5, 21) - 1.0};
+          }};
+}
+
+FailureCase orderCase() {
+  return {"order of three blended balls",
+          "difference between two orders",
+          "quadratic blends, two at a time",
+          "exponential blend, which is one sum",
+          1e-3,
+          kRounding,
+          "a quadratic blend of a blend adds what the first one did not; log-sum-exp is associative",
+          [] {
+            std::vector<Shape> balls;
+            for (const double x : {-0.5, 0.0, 0.7}) balls.push_back(translate(sphere(0.4), {x, 0.1 * x, 0}));
+            const std::vector<Shape> turned{balls[2], balls[0], balls[1]};
+            const auto difference = [&](const Blend& blend) {
+              const Distance one(unite(balls, blend)), other(unite(turned, blend));
+              return worst(1.0, 21, [&](const glm::dvec3& p) { return std::abs(one(p) - other(p)); });
+            };
+            return Figures{difference(Blend::quadratic(0.4)), difference(Blend::exponential(0.4))};
+          }};
+}
+
 }  // namespace
 
 std::vector<FailureCase> blendFailures() {
@@ -136,7 +177,9 @@ std::vector<FailureCase> blendFailures() {
           powerCase(),
           gapCase(),
           wallCase(),
-          colourJumpCase()};
+          colourJumpCase(),
+          chamferCase(),
+          orderCase()};
 }
 
 }  // namespace sdf::accuracy

@@ -189,11 +189,28 @@ FailureCase gyroidCase() {
           }};
 }
 
+FailureCase roundedNormCase() {
+  return {
+      "rounding a box by its greatest coordinate",
+      "distance between the surface and that of a ball rolled around the box",
+      "max(|x|, |y|, |z|) - 1 - 0.3",
+      "round() of the exact distance",
+      0.3 * (std::sqrt(3.0) - 1.0) - kRounding,
+      kRounding,
+      "levels of a bound are no offsets: its corner stays sharp, 0.3 sqrt 3 off the old one instead of 0.3",
+      [] {
+        const double corner = 1.0 + 0.3 / std::sqrt(3.0);  // of the rounded box, along the diagonal
+        const double sharp = 1.3;                          // where max = 1.3 along the diagonal
+        return Figures{(sharp - corner) * std::sqrt(3.0),
+                       std::abs(Distance(round(box(Vec3E(1.0)), 0.3))(corner, corner, corner))};
+      }};
+}
+
 }  // namespace
 
 std::vector<FailureCase> formulaFailures() {
-  return {cornerCase(),          wedgeCase(), sharedFaceCase(), cutterCase(),
-          ellipsoidCentreCase(), apexCase(),  dualLengthCase(), gyroidCase()};
+  return {cornerCase(), wedgeCase(),      sharedFaceCase(), cutterCase(),     ellipsoidCentreCase(),
+          apexCase(),   dualLengthCase(), gyroidCase(),     roundedNormCase()};
 }
 
 }  // namespace sdf::accuracy

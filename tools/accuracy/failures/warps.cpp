@@ -155,11 +155,76 @@ FailureCase pokingRepeatCase() {
           }};
 }
 
+FailureCase mirrorCase() {
+  return {
+      "mirror of a ball that crosses the plane",
+      "depth of solid that is lost",
+      "f(|x|, y, z)",
+      "both halves looked at where the bounds cross the plane",
+      0.4 - kRounding,
+      kRounding,
+      "centre -0.3, radius 0.5: folding leaves of the ball what lies at x > 0; at its old centre the copy's "
+      "surface is 0.1 away, where the ball is 0.5 deep",
+      [] {
+        const Shape ball = translate(sphere(0.5), {-0.3, 0, 0});
+        const Distance one(ball), ours(mirror(ball, {1, 0, 0}));
+        return Figures{0.5 + one(0.3, 0, 0), std::abs(0.5 + ours(-0.3, 0, 0))};
+      }};
+}
+
+FailureCase negativeRemainderCase() {
+  return {"repetition at negative coordinates",
+          "greatest excess over the distance",
+          "C's fmod, whose remainder takes the dividend's sign",
+          "nearest multiple of the cell",
+          1.0 - kRounding,
+          kRounding,
+          "cell 2: left of -1 the lookup is a whole cell off, so that a ball's centre passes for its cell's "
+          "corner",
+          [] {
+            const Distance one(sphere(0.5)), ours(repeatGrid(sphere(0.5), {2, 0, 0}));
+            Figures figures;
+            for (double x = -4.0; x <= 4.0; x += 1.0 / 16) {
+              const double d = std::abs(x - 2.0 * std::round(x / 2.0)) - 0.5;
+              figures.naive = std::max(figures.naive, one(std::fmod(x + 1.0, 2.0) - 1.0, 0, 0) - d);
+              figures.ours = std::max(figures.ours, std::abs(ours(x, 0, 0) - d));
+            }
+            return figures;
+          }};
+}
+
+FailureCase polarWallCase() {
+  return {"ball near the wall of its sector",
+          "greatest excess over the distance",
+          "one look into the point's own sector",
+          "neighbouring sectors looked at where the shape can be nearest",
+          0.2,
+          kRounding,
+          "six balls of 0.2 at radius 1, turned by 25 degrees: across the wall at 30 the next is 5 degrees "
+          "away, 0.09, "
+          "and the own one 55, 0.92",
+          [] {
+            const double at = 25.0 * kPi / 180.0;
+            const Shape ball = translate(sphere(0.2), {std::cos(at), 0, -std::sin(at)});
+            const Distance one(ball), ours(polarRepeat(ball, 6));
+            Figures figures;
+            for (int i = 0; i < 720; ++i) {
+              const double a = i * kPi / 360.0, sector = a - kPi / 3.0 * std::round(a / (kPi / 3.0));
+              double d = kInf;
+              for (int k = 0; k < 6; ++k)
+                d = std::min(d, 2.0 * std::abs(std::sin((a - at - k * kPi / 3.0) / 2.0)) - 0.2);
+              figures.naive = std::max(figures.naive, one(std::cos(sector), 0, -std::sin(sector)) - d);
+              figures.ours = std::max(figures.ours, std::abs(ours(std::cos(a), 0, -std::sin(a)) - d));
+            }
+            return figures;
+          }};
+}
+
 }  // namespace
 
 std::vector<FailureCase> warpFailures() {
-  return {stretchCase(), twistCase(),           bendCase(),        foldingBendCase(),
-          waveCase(),    offCentreRepeatCase(), pokingRepeatCase()};
+  return {stretchCase(),         twistCase(),        bendCase(),   foldingBendCase(),       waveCase(),
+          offCentreRepeatCase(), pokingRepeatCase(), mirrorCase(), negativeRemainderCase(), polarWallCase()};
 }
 
 }  // namespace sdf::accuracy
