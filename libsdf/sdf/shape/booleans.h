@@ -16,7 +16,8 @@ namespace sdf {
 /// How two surfaces meet. With distances a and b, the smooth forms differ from the hard one only where |a -
 /// b| < k (the exponential: everywhere, by less and less), and most where a = b: by k/4 (quadratic), k/6
 /// (cubic), k ln 2 (exponential), k/2 (chamfer). Their gradients are weighted means of the operands', so none
-/// is steeper than both.
+/// is steeper than both. A k larger than the shapes is taken as it is: a union then swells by so much, which
+/// closes gaps, and from an intersection or a difference so much is lost, which may be all.
 struct Blend {
   enum class Kind {
     Hard,

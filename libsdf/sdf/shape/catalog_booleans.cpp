@@ -11,13 +11,16 @@ CatalogEntry entry(std::string name, std::string doc, std::string claim,
                    Shape (*combine)(const std::vector<Shape>&, const Blend&)) {
   using namespace parameter;
   CatalogEntry e{name, Group::Boolean, std::move(doc), std::move(claim), {}, {}};
-  e.parameters = {shapes("shapes", "the operands, at least one"),
-                  optional(number("k",
-                                  "width of the blend in scene units: surfaces meet smoothly where their "
-                                  "distances differ by less than k; absent: hard",
-                                  Rule::Positive)),
-                  choice("blend", "shape of the blend, where k is given",
-                         {"quadratic", "cubic", "exponential", "chamfer"})};
+  e.parameters = {
+      shapes("shapes", "the operands, at least one"),
+      optional(
+          number("k",
+                 "width of the blend in scene units: surfaces meet smoothly where their "
+                 "distances differ by less than k; walls and gaps that are thin beside k vanish; absent: "
+                 "hard",
+                 Rule::Positive)),
+      choice("blend", "shape of the blend, where k is given",
+             {"quadratic", "cubic", "exponential", "chamfer"})};
   e.build = [name, combine](const Arguments& a) {
     constexpr Blend::Kind kKinds[] = {Blend::Kind::Quadratic, Blend::Kind::Cubic, Blend::Kind::Exponential,
                                       Blend::Kind::Chamfer};

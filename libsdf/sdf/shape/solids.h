@@ -4,7 +4,8 @@
 // argument that is not finite, depends on position or breaks a rule stated here gives a failed shape whose
 // error says so. Rules are checked on the parameters' present values; the claims hold over all of their
 // ranges, a size being held above 1e-6 where its range would let it vanish. Bounds cover every value in the
-// ranges.
+// ranges. Sizes from 1e-30 to 1e30 keep their claims; the float readings square coordinates, so they lose
+// what is below 1e-19 and overflow beyond 1e19.
 //
 // "Exact" means exact as real numbers; L is 1 unless stated. Many of the distances follow Quilez, "Distance
 // functions" (iquilezles.org); where ours differ, the source file says why.
