@@ -169,6 +169,25 @@ TEST_P(EveryMethod, SaysWhenItsStepsRunOut) {
   EXPECT_LT(hits.t[0], 1.0 / std::sin(angle));
 }
 
+TEST_P(EveryMethod, EndsAsWithoutALimitOrSaysThatItWasTooLow) {
+  const Rays rays = raysInward(50, 3.0, kReach, 9);
+  const Shape shape = torus(1.0, 0.3);
+  const Hits free = trace(shape, rays, with(GetParam()));
+  MarchOptions options = with(GetParam());
+  const int more = marchesBalls(GetParam()) ? 0 : 2;
+  for (options.maxSteps = 1; options.maxSteps < 60; ++options.maxSteps) {
+    const Hits hits = trace(shape, rays, options);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      SCOPED_TRACE(describe(rays, i) + " within " + std::to_string(options.maxSteps));
+      ASSERT_LE(hits.steps[i], options.maxSteps + more);
+      ASSERT_LE(hits.t[i], free.t[i]);
+      if (hits.status[i] == RayStatus::Budget) continue;
+      ASSERT_EQ(hits.status[i], free.status[i]);
+      ASSERT_EQ(hits.t[i], free.t[i]);
+    }
+  }
+}
+
 TEST_P(EveryMethod, SaysWhereTheDistanceIsNotANumber) {
   const MarchField field{std::make_shared<const Tape>(sqrt(position().x)), 1.0};
   Rays rays;

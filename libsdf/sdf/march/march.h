@@ -10,24 +10,25 @@
 //         if (t + r >= tMax) Miss;
 //         z = min(relaxed step, tMax - t);             // at least r
 //         R = g(t + z);
-//         if (z > r && z > r + R) z = r; R = g(t + r);  // the balls do not overlap: something may lie
-//                                                      // between them, so the plain step is taken
+//         if (z > r && z > r + R) {                    // the balls do not overlap, or g < 0: something may
+//           z = r; R = g(t + r);                       // lie between, so the plain step is taken
+//         }
 //         t += z; r = R;
 //
-// and differ in the relaxed step:
+// and differ in the relaxed step, r' and z' being the radius and the step before:
 //
-//   Plain        r                                                               (Hart 1996)
-//   OverRelaxed  overRelaxation * r, after the first failure r  (Keinert, Schaefer, Korndoerfer, Ganse and
+//   Plain        r (Hart 1996)
+//   OverRelaxed  overRelaxation * r; after the first failure r (Keinert, Schaefer, Korndoerfer, Ganse,
 //                Stamminger 2014)
-//   Accelerated  r + acceleration * r (1 + m) / (1 - m), m = (r - r') / z' being the slope over the last
-//   step:
-//                the balls just touch if that slope goes on                      (Balint, Valasek 2018)
-//   AutoRelaxed  2 r / (1 - m), m the slope averaged: m += smoothing * ((r - r') / z' - m), and -1 at the
-//   start
-//                and after a failure                                             (Ban, Valasek 2023)
+//   Accelerated  r + acceleration * r (1 + m) / (1 - m) with the slope m = (r - r') / z', -1 at the start:
+//                at acceleration 1 the balls just touch if that slope goes on (Balint, Valasek 2018)
+//   AutoRelaxed  2 r / (1 - m) with the slope averaged, m += smoothing * ((r - r') / z' - m); m is -1 at
+//                the start and after a failure (Ban, Valasek 2023)
 //
 // Segment steps by min(g / s, l), s being the steepest fall of g along the next l of the ray by interval
-// derivatives (and at most 1), l = growth times the last step (Galin, Guerin, Paris, Peytavie 2020).
+// derivatives (and at most 1), l = growth times the last step (Galin, Guerin, Paris, Peytavie 2020). Where g
+// may jump it steps by epsilon.
+//
 // Bisection halves the ray until intervals prove a piece free of the solid, nearest piece first, or the piece
 // is no longer than the threshold and not even the Lipschitz constant proves it free (Mitchell 1990): it
 // cannot miss.
@@ -44,8 +45,8 @@ namespace sdf {
 
 enum class MarchMethod { Plain, OverRelaxed, Accelerated, AutoRelaxed, Segment, Bisection };
 
-/// How a ray ended. Of all but Undefined, the ray is free of the solid from tMin to t, unless it is thinner
-/// than float rounding.
+/// How a ray ended. Up to t (before refinements) no solid was passed, unless it is thinner than float
+/// rounding or, by Segment where g may jump, than epsilon.
 enum class RayStatus : std::uint8_t {
   Hit,       ///< g(t) <= threshold(t); Bisection: the solid begins in [t, t + threshold(t)], or comes so near
              ///< to it that intervals cannot tell
@@ -57,9 +58,9 @@ enum class RayStatus : std::uint8_t {
 struct MarchOptions {
   MarchMethod method = MarchMethod::Plain;
   double epsilon = 1e-4;   ///< a hit where g <= epsilon + footprint * t; scene units, > 0
-  double footprint = 0.0;  ///< radius of a pixel's cone at t = 1, >= 0. About tan(fov / 2) / (height / 2) / 2
-  int maxSteps = 512;      ///< readings of the field a ray may take, > 0
-  int refinements = 0;     ///< secant steps after a hit, >= 0; they move t on by at most 4 threshold(t)
+  double footprint = 0.0;  ///< radius of a pixel's cone at t = 1, >= 0: tan(fov / 2) / rows of pixels
+  int maxSteps = 512;  ///< readings of the field a ray may take, > 0; Segment and Bisection may take two more
+  int refinements = 0;          ///< secant steps after a hit, >= 0; they move t on by at most 4 threshold(t)
   double overRelaxation = 1.6;  ///< OverRelaxed: in [1, 2)
   double acceleration = 0.9;    ///< Accelerated: in [0, 1]
   double smoothing = 0.3;       ///< AutoRelaxed: in (0, 1]
