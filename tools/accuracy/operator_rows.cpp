@@ -9,10 +9,4 @@ Row operatorRow(const OperatorCases& cases, std::uint64_t fraction) {
   return rowOf(cases.entry, makers, fraction);
 }
 
-std::vector<Row> operatorRows() {
-  std::vector<Row> rows;
-  for (const OperatorCases& cases : operatorCases()) rows.push_back(operatorRow(cases));
-  return rows;
-}
-
 }  // namespace sdf::accuracy
