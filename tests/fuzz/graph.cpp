@@ -115,6 +115,10 @@ class GraphCheck {
     if (!same(got, expected))
       fault(what + ": " + sdf::text(got) + " instead of " + sdf::text(expected) + " at " + text(p));
   }
+  void expectIn(const Interval& allowed, double got, const std::string& what, const Point& p) const {
+    if (!allowed.contains(got))
+      fault(what + " is " + sdf::text(got) + " at " + text(p) + ", not in " + sdf::text(allowed));
+  }
   double valueAt(const Point& p) const { return evaluate(tape_, p); }
 
   void checkValues() const {
@@ -257,11 +261,17 @@ class GraphCheck {
       z[i] = static_cast<float>(points_[i].z);
     const Rows in{.x = x, .y = y, .z = z};
     BatchEvaluator().evaluate(tape_, in, kCount, fresh);
+    float value[kCount], slope[3][kCount];
+    BatchEvaluator().evaluateGradient(tape_, in, kCount, value, slope[0], slope[1], slope[2]);
     for (std::size_t i = 0; i < kCount; ++i) {
-      const Interval allowed = test::floatRange(tape_, glm::vec3(points_[i]));
-      if (!allowed.contains(fresh[i]))
-        fault("the batch reading is " + sdf::text(double{fresh[i]}) + " at " + text(points_[i]) +
-              ", not in " + sdf::text(allowed));
+      const glm::vec3 p(points_[i]);
+      const Interval allowed = test::floatRange(tape_, p);
+      expectIn(allowed, fresh[i], "the batch reading", points_[i]);
+      expectIn(allowed, value[i], "the batch gradient's value", points_[i]);
+      const std::array<Interval, 3> slopes = test::floatGradientRange(tape_, p);
+      for (int axis = 0; axis < 3; ++axis)
+        expectIn(slopes[axis], slope[axis][i], "the batch gradient along " + std::to_string(axis),
+                 points_[i]);
     }
     // Threads keep their evaluators, so what one did before must not show.
     BatchEvaluator veteran;

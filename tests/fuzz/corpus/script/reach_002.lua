@@ -1,0 +1,2 @@
+-- MeaŒhturn
+return sphere(2)

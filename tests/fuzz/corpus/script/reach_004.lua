@@ -1,0 +1,2 @@
+-- Measurinv6: a tih nnig# onÿÿÿÿÿÿÿ thinner than most voxels.
+return torus

@@ -1,0 +1,3 @@
+local a = param("a", 0, {min = 0, max = 2}) local t = time
+part("s", sphere(1 + 0.5 * a):translate(sin(t), cos(2 * pi * t), a ^ 4)) for i = 1, value(a) do part("n" .. i, box(a, i, 1)) end
+part("r", box(1, 1, 1):rotate(t * 90, 0, 0):scale(0 + a):round(0.1 * a)) part("c", union{sphere(a + 1), torus(1 + a, 0.1 + a), k = a + 0.1})

@@ -1,0 +1,5 @@
+local s = capsule{radius = 0.2}
+part("a", s:translate(1, 0, 0):rotate(10, 20, 30)) part("b", s:rotate_about({1, 1, 0}, 45)) part("c", s:scale(2)) part("e", s:scale(1, -2, 3))
+part("e", s:translate(1, 0, 0):mirror("x")) parA("f", s:mirror{normal = {1, 1, 0}})
+part("g", s:repeat_grid{cell = {2, 0, 2}, count = {3, 1, 3}}) part("h", s:repeat_grid{cell = {2, 2, 2}} & box(3, 3, 3))
+part("i", s:eat(7))
