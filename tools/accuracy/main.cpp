@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "operator_rows.h"
 #include "primitive_cases.h"
 #include "report.h"
 #include "sdf/base/file.h"
@@ -18,6 +19,15 @@ std::vector<Row> checkPrimitives() {
   for (const PrimitiveCases& cases : primitiveCases()) {
     std::fprintf(stderr, "%s\n", cases.entry.c_str());
     rows.push_back(rowOf(cases.entry, cases.makers));
+  }
+  return rows;
+}
+
+std::vector<Row> checkOperators() {
+  std::vector<Row> rows;
+  for (const OperatorCases& cases : operatorCases()) {
+    std::fprintf(stderr, "%s\n", cases.entry.c_str());
+    rows.push_back(operatorRow(cases));
   }
   return rows;
 }
@@ -38,13 +48,13 @@ int run(const std::string& output) {
     return kFiles;
   };
   if (const Status s = checkWritable(output); !s) return failed(s.error());
-  const std::vector<Row> primitives = checkPrimitives();
+  const std::vector<Row> primitives = checkPrimitives(), operators = checkOperators();
   const Status written = writeFile(output, [&](std::ostream& out) {
-    writeReport(out, primitives);
+    writeReport(out, primitives, operators);
     return okStatus();
   });
   if (!written) return failed(written.error());
-  return hold(primitives) ? kDone : kRefuted;
+  return hold(primitives) && hold(operators) ? kDone : kRefuted;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <stdexcept>
 
 #include "sdf/shape/catalog.h"
 
@@ -14,7 +15,7 @@ constexpr std::size_t kLargeMesh = 10'000;  // triangles
 
 constexpr const char* kIntroduction = R"(# How accurate the distances are
 
-Every solid and flat shape of the catalog is compared with geometry that was computed another way. This page is
+Every shape and operator of the catalog is compared with geometry that was computed another way. This page is
 written by `accuracy docs/accuracy.md`; the tests labelled `accuracy` make the same comparison and fail where a
 claim does not hold.
 
@@ -25,7 +26,7 @@ claim does not hold.
 - The meshes come from the solids' definitions — corners, profiles, parametric surfaces — never from the distance
   functions. A flat shape stands for its outline; a solid of revolution is compared in the plane of its profile,
   which is a finer mesh than one of the whole solid. A wall (gyroid and the like) is meshed from its trigonometric
-  formula by root finding on a lattice.
+  formula by root finding on a lattice. Operators are compared with the same operation on meshes.
 - A mesh of a curved solid is off by at most its *chord*: the sources in `tools/accuracy` derive it for each. It is
   0 where the solid has flat faces only.
 - Each shape is tried at several arguments, extreme ones among them: needles, discs, tubes that overlap themselves.
@@ -66,10 +67,9 @@ std::string grouped(std::uint64_t count) {
 void writeRow(std::ostream& out, const Row& row) {
   const CatalogEntry& entry = *findEntry(row.entry);
   const Checked& c = row.found;
-  const bool exact = entry.claim.find("exact") != std::string::npos;
   const auto limit = [](double l) { return l == kInfinity ? "∞" : number("%.6g", l); };
-  out << "| `" << row.entry << "` | " << entry.claim << " | " << (exact ? brief(c.maxError) : "–") << " | "
-      << brief(row.chord) << " | " << (exact ? number("%.2f", c.maxUlps) : "–") << " | "
+  out << "| `" << row.entry << "` | " << entry.claim << " | " << (row.exact ? brief(c.maxError) : "–")
+      << " | " << brief(row.chord) << " | " << (row.exact ? number("%.2f", c.maxUlps) : "–") << " | "
       << number("%.3f", c.tightness) << " | " << limit(row.lipschitz) << " | " << number("%.4f", c.lipschitz)
       << " | " << number("%.1f", c.floatUlps) << " | " << grouped(c.points);
   if (c.refuted > 0) out << ", **" << grouped(c.refuted) << " refuted**";
@@ -95,17 +95,21 @@ Row rowOf(const std::string& entry, std::span<const std::function<ReferenceCase(
   unsigned seed = 0;
   for (const std::function<ReferenceCase()>& make : cases) {
     const ReferenceCase c = make();
+    if (!c.shape.ok()) throw std::invalid_argument(c.name + ": " + *c.shape.error);
     const std::uint64_t points = c.mesh.triangles.size() < kLargeMesh ? kPointsOfSmall : kPointsOfLarge;
     row.found.add(check(c, points / fraction / cases.size() + 1, ++seed));
     row.chord = std::max(row.chord, c.chord);
+    row.exact = row.exact || c.shape.claim.kind <= ClaimKind::ExactOutside;
     row.lipschitz = std::max(row.lipschitz, c.shape.claim.lipschitz);
   }
   return row;
 }
 
-void writeReport(std::ostream& out, std::span<const Row> primitives) {
+void writeReport(std::ostream& out, std::span<const Row> primitives, std::span<const Row> operators) {
   out << kIntroduction << "\n## Solids and flat shapes\n\n";
   writeTable(out, "shape", primitives);
+  out << "\n## Operators\n\n";
+  writeTable(out, "operator", operators);
 }
 
 }  // namespace sdf::accuracy
