@@ -275,6 +275,11 @@ TEST(Bend, BySoLittleThatTheRadiusSwallowsTheShapeKeepsItsBounds) {
   }
 }
 
+TEST(Bend, ByLessThanAFloatCanSayIsNone) {
+  EXPECT_EQ(bend(bar(), 1e-160).distance, bar().distance);
+  EXPECT_EQ(bend(bar(), -9e-31).distance, bar().distance);
+}
+
 TEST(Bend, ByASliderFromZeroHoldsForEveryValue) {
   const Shape s = bend(bar(), slider("k", 0.5, 0.0, 1.5));
   for (const double k : {0.0, 1e-9, 0.3, 1.5}) {

@@ -11,6 +11,8 @@ namespace sdf {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+// Below it the bend is less than what rounding moves, and its radius more than a float can be.
+constexpr double kSlightest = 1e-30;
 
 // The box around the bent box: around the centre (0, 1/k), the sector of angles u = k [x0, x1] and radii 1/k
 // - [y0, y1]. A point of it is (sin u / k - y sin u, (1 - cos u) / k + y cos u); 1 - cos u is written as 2
@@ -58,7 +60,7 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   if (!shape.ok()) return shape;
   Check check("bend");
   if (!wantsSolid(check, shape).any("curvature", curvature).ok()) return check.failure();
-  if (curvature.isConstant(0.0)) return shape;
+  if (curvature.isConstant() && std::abs(curvature.constantValue()) < kSlightest) return shape;
   const Box& b = shape.bounds;
   const double most = curvature.range().magnitude();
   const double folding = std::max(0.0, timesRange(curvature.range(), b.min.y, b.max.y).hi);

@@ -50,7 +50,8 @@ Shape twist(const Shape& shape, const Expr& rate);
 /// The x axis bent into a circle of this curvature (1 / radius) towards +y; lengths along the x axis stay.
 /// Material at height y is stretched by 1 / (1 - curvature y). Fails where the shape would fold (curvature y
 /// >= 1 within its bounds) or its ends would pass each other (curvature |x| >= pi), and if it is unbounded
-/// there. Away from the shape, between its ends, the distance is capped, which keeps it continuous.
+/// there. Away from the shape, between its ends, the distance is capped, which keeps it continuous. A
+/// constant curvature below 1e-30 bends nothing.
 Shape bend(const Shape& shape, const Expr& curvature);
 
 /// The cross section at height y scaled by 1 + rate y in x and z. Fails where that factor is not positive
