@@ -20,8 +20,11 @@ constexpr unsigned kSets = 8;
 #endif
 constexpr int kChunks = 10, kDeepest = 6;
 
-/// The first clause that is refuted: its name and how.
-std::optional<std::pair<std::string, std::string>> refuted(const Subject& subject) {
+/// A clause's name, and what refutes it.
+using Refutation = std::pair<std::string, std::string>;
+
+/// The first clause that is refuted.
+std::optional<Refutation> refuted(const Subject& subject) {
   for (const auto clauses :
        {std::span<const Clause>(kClaimClauses), std::span<const Clause>(kReadingClauses)})
     for (const Clause& c : clauses)
@@ -43,8 +46,7 @@ Verdict hasTheSolidOf(const Tree& tree, const Subject& s) {
   return {};
 }
 
-std::optional<std::pair<std::string, std::string>> refuted(const Tree& tree, unsigned seed,
-                                                           const Builder& builder = build) {
+std::optional<Refutation> refuted(const Tree& tree, unsigned seed, const Builder& builder = build) {
   const Shape shape = shapeOf(tree, builder);
   if (!shape.ok()) return std::nullopt;  // while shrinking: not a scene
   const Subject subject(shape, seed, exactnessOf(tree));
@@ -53,15 +55,16 @@ std::optional<std::pair<std::string, std::string>> refuted(const Tree& tree, uns
 }
 
 /// What is wrong with the smallest tree that fails as this one does.
-std::string report(const Tree& tree, unsigned seed, const Builder& builder = build) {
-  const std::string clause = refuted(tree, seed, builder)->first;
+std::string report(const Tree& tree, unsigned seed, const Refutation& found, const Builder& builder = build) {
+  std::string what = found.second;
   const Tree smallest = shrunk(tree, [&](const Tree& t) {
-    const auto found = refuted(t, seed, builder);
-    return found && found->first == clause;
+    const std::optional<Refutation> again = refuted(t, seed, builder);
+    if (!again || again->first != found.first) return false;
+    what = again->second;
+    return true;
   });
-  return "seed " + std::to_string(seed) + ", clause '" + clause +
-         "': " + refuted(smallest, seed, builder)->second + "\nof     return " + textOf(smallest) +
-         "\nfirst in return " + textOf(tree);
+  return "seed " + std::to_string(seed) + ", clause '" + found.first + "': " + what + "\nof     return " +
+         textOf(smallest) + "\nfirst in return " + textOf(tree);
 }
 
 TEST(Shrinking, FindsTheSmallestSceneThatShowsAPlantedError) {
@@ -79,7 +82,7 @@ TEST(Shrinking, FindsTheSmallestSceneThatShowsAPlantedError) {
     const auto wrong = refuted(tree, seed, planted);
     if (!wrong || wrong->first != "bounds" || refuted(tree, seed)) continue;
     ++found;
-    const std::string text = report(tree, seed, planted);
+    const std::string text = report(tree, seed, *wrong, planted);
     EXPECT_NE(text.find("seed " + std::to_string(seed) + ", clause 'bounds': f = "), std::string::npos)
         << text;
     EXPECT_NE(text.find("return sphere():round(1)\n"), std::string::npos) << text;
@@ -98,7 +101,7 @@ TEST_P(EveryEntry, HoldsItsClaimForAnyArguments) {
   const CatalogEntry& entry = *findEntry(GetParam());
   for (unsigned seed = 1; seed <= kSets; ++seed) {
     const Tree tree = randomTree(seed, isPrimitive(entry) ? 0 : 1 + seed % 2, entry);
-    if (refuted(tree, seed)) ADD_FAILURE() << report(tree, seed);
+    if (const auto found = refuted(tree, seed)) ADD_FAILURE() << report(tree, seed, *found);
   }
 }
 
@@ -125,7 +128,7 @@ TEST_P(RandomScenes, HoldTheirClaims) {
   for (int i = 0; i < kScenes / kChunks; ++i) {
     const unsigned seed = 1000 + GetParam() * (kScenes / kChunks) + i;
     const Tree tree = randomTree(seed, 1 + static_cast<int>(seed) % kDeepest);
-    if (refuted(tree, seed)) ADD_FAILURE() << report(tree, seed);
+    if (const auto found = refuted(tree, seed)) ADD_FAILURE() << report(tree, seed, *found);
   }
 }
 
