@@ -1,5 +1,7 @@
-// Holds the catalog's shapes to meshes of the same solids and writes what it found as a Markdown page.
+// Holds the catalog to meshes of the same solids, runs the known failures, and writes what it found as a
+// Markdown page.
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -14,22 +16,43 @@ namespace {
 
 enum ExitCode { kDone = 0, kRefuted = 1, kUsage = 2, kFiles = 5 };
 
-std::vector<Row> checkPrimitives() {
+std::vector<Row> checkPrimitives(std::uint64_t fraction) {
   std::vector<Row> rows;
   for (const PrimitiveCases& cases : primitiveCases()) {
     std::fprintf(stderr, "%s\n", cases.entry.c_str());
-    rows.push_back(rowOf(cases.entry, cases.makers));
+    rows.push_back(rowOf(cases.entry, cases.makers, fraction));
   }
   return rows;
 }
 
-std::vector<Row> checkOperators() {
+std::vector<Row> checkOperators(std::uint64_t fraction) {
   std::vector<Row> rows;
   for (const OperatorCases& cases : operatorCases()) {
     std::fprintf(stderr, "%s\n", cases.entry.c_str());
-    rows.push_back(operatorRow(cases));
+    rows.push_back(operatorRow(cases, fraction));
   }
   return rows;
+}
+
+std::vector<FailureRow> runFailures() {
+  std::vector<FailureRow> rows;
+  for (const FailureCase& failure : failureCases()) {
+    std::fprintf(stderr, "%s\n", failure.name.c_str());
+    rows.push_back({failure, failure.run()});
+  }
+  return rows;
+}
+
+bool hold(std::span<const FailureRow> rows) {
+  bool all = true;
+  for (const FailureRow& row : rows) {
+    if (row.failure.isReal(row.figures) && row.failure.isHeld(row.figures)) continue;
+    std::fprintf(stderr, "accuracy: not as known: %s: naive %g, at least %g; ours %g, at most %g\n",
+                 row.failure.name.c_str(), row.figures.naive, row.failure.naiveAtLeast, row.figures.ours,
+                 row.failure.oursAtMost);
+    all = false;
+  }
+  return all;
 }
 
 bool hold(std::span<const Row> rows) {
@@ -42,19 +65,21 @@ bool hold(std::span<const Row> rows) {
   return all;
 }
 
-int run(const std::string& output) {
+int run(const std::string& output, std::uint64_t fraction) {
   const auto failed = [](const Error& error) {
     std::fprintf(stderr, "accuracy: %s\n", error.message.c_str());
     return kFiles;
   };
   if (const Status s = checkWritable(output); !s) return failed(s.error());
-  const std::vector<Row> primitives = checkPrimitives(), operators = checkOperators();
+  const std::vector<FailureRow> failures = runFailures();
+  const std::vector<Row> primitives = checkPrimitives(fraction), operators = checkOperators(fraction);
   const Status written = writeFile(output, [&](std::ostream& out) {
-    writeReport(out, primitives, operators);
+    writeReport(out, primitives, operators, failures);
     return okStatus();
   });
   if (!written) return failed(written.error());
-  return hold(primitives) && hold(operators) ? kDone : kRefuted;
+  const bool held[] = {hold(primitives), hold(operators), hold(failures)};
+  return held[0] && held[1] && held[2] ? kDone : kRefuted;
 }
 
 }  // namespace
@@ -62,10 +87,16 @@ int run(const std::string& output) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Holds every shape of the catalog to CGAL's geometry and writes the report; takes some minutes.",
+      "Holds every shape and operator of the catalog to CGAL's geometry, runs the known failures and writes "
+      "the "
+      "report; takes some minutes.",
       "accuracy");
   std::string output;
   app.add_option("OUT", output, "page to write, such as docs/accuracy.md")->required()->type_name("");
+  std::uint64_t fraction = 1;
+  app.add_option("--fraction", fraction, "try only one Nth of the points; 1 if not given")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
   app.footer("Exit status: 0 all claims hold, 1 one does not, 2 usage, 5 files.");
   try {
     app.parse(argc, argv);
@@ -75,5 +106,5 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "accuracy: %s; see accuracy --help\n", error.what());
     return sdf::accuracy::kUsage;
   }
-  return sdf::accuracy::run(output);
+  return sdf::accuracy::run(output, fraction);
 }

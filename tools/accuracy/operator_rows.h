@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "operator_cases.h"
-#include "report.h"
+#include "rows.h"
 
 namespace sdf::accuracy {
 

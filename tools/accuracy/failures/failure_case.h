@@ -21,6 +21,11 @@ struct FailureCase {
   double oursAtMost;             ///< what ours must hold to
   std::string reason;            ///< where the two limits come from
   std::function<Figures()> run;  ///< deterministic, a few seconds at most
+
+  /// The naive method fails as badly as said.
+  bool isReal(const Figures& f) const { return !(f.naive < naiveAtLeast); }
+  /// Ours holds to what is said; NaN does not.
+  bool isHeld(const Figures& f) const { return f.ours <= oursAtMost; }
 };
 
 /// Cases of formulas, of warped and repeated space, of blends, of marching and shading, and of meshing.

@@ -1,0 +1,60 @@
+// Every solid and flat shape against its geometry.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <ostream>
+#include <set>
+#include <sstream>
+
+#include "accuracy/primitive_cases.h"
+#include "accuracy/rows.h"
+#include "sdf/shape/catalog.h"
+
+namespace sdf::accuracy {
+
+static void PrintTo(const PrimitiveCases& c, std::ostream* out) { *out << c.entry; }
+
+namespace {
+
+// Sanitizers make each point some twenty times as dear.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::uint64_t kFraction = 20;
+#else
+constexpr std::uint64_t kFraction = 1;
+#endif
+
+std::set<std::string> primitiveEntries() {
+  std::set<std::string> names;
+  for (const CatalogEntry& e : catalog())
+    if (e.group == Group::Solid || e.group == Group::Flat) names.insert(e.name);
+  return names;
+}
+
+class Primitive : public testing::TestWithParam<PrimitiveCases> {};
+
+TEST_P(Primitive, KeepsItsClaimAgainstItsGeometry) {
+  const Row row = rowOf(GetParam().entry, GetParam().makers, kFraction);
+  EXPECT_EQ(row.found.refuted, 0u) << row.found.worst;
+  EXPECT_GE(row.found.points, 100'000 / kFraction);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, Primitive, testing::ValuesIn(primitiveCases()),
+                         [](const auto& info) { return info.param.entry; });
+
+TEST(Primitives, AllHaveCases) {
+  std::set<std::string> names;
+  for (const PrimitiveCases& cases : primitiveCases()) names.insert(cases.entry);
+  EXPECT_EQ(names, primitiveEntries());
+}
+
+TEST(Report, HasARowForEveryEntryAndNothingRefuted) {
+  std::ostringstream page;
+  page << std::ifstream(SDF_SOURCE_DIR "/docs/accuracy.md").rdbuf();
+  for (const CatalogEntry& e : catalog())
+    EXPECT_NE(page.str().find("\n| `" + e.name + "` |"), std::string::npos)
+        << e.name << " is missing: run accuracy docs/accuracy.md";
+  EXPECT_EQ(page.str().find("refuted**"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sdf::accuracy
