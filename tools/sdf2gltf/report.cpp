@@ -50,9 +50,6 @@ Json json(const ReportLine& line) {
   Json stages = Json::object();
   for (const auto& [name, seconds] : line.stages) stages[name] = seconds;
   const MeshStats& stats = line.stats;
-  Json first = nullptr;
-  if (stats.unresolved > 0)
-    first = {stats.firstUnresolved.x, stats.firstUnresolved.y, stats.firstUnresolved.z};
   return {{"name", line.name},
           {"seconds", line.seconds},
           {"stage_seconds", stages},
@@ -98,6 +95,10 @@ void printWarnings(std::ostream& out, const FileReport& report) {
           << " samples, the first near " << place(stats.firstNotNumber)
           << "; they were taken as outside. Check for divisions by zero, roots and logarithms of negative "
              "numbers\n";
+    if (!stats.watertight)
+      out << part
+          << "the mesh is not closed. A solid reaches beyond the bounds that are stated for it: enlarge "
+             "the bounds of its field, or leave them out\n";
   }
 }
 
