@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <fstream>
+#include <sstream>
 
 #include "accuracy/failures/failure_case.h"
 
@@ -31,6 +33,14 @@ TEST_P(Failure, IsRealForTheNaiveMethodAndHeldByOurs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Known, Failure, testing::ValuesIn(failureCases()), testName);
+
+TEST(Report, HasARowForEveryFailure) {
+  std::ostringstream page;
+  page << std::ifstream(SDF_SOURCE_DIR "/docs/accuracy.md").rdbuf();
+  for (const FailureCase& c : failureCases())
+    EXPECT_NE(page.str().find("\n| " + c.name + " |"), std::string::npos)
+        << c.name << " is missing: run accuracy docs/accuracy.md";
+}
 
 }  // namespace
 }  // namespace sdf::accuracy

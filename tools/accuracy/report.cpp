@@ -48,9 +48,9 @@ may not exceed the claimed L.
 constexpr const char* kFailures = R"(
 ## Known failures
 
-Where methods that are in common use fail, and what happens here instead. The tests labelled `stability` run each case
-twice: the naive method must show the failure, or the case would not be real, and ours must hold to its limit. Where no
-method can do better, ours counts what is wrong and *not* reported. All figures are 0 where nothing is wrong.
+Where methods in common use fail, and what happens here instead. The tests labelled `stability` run each case twice: the
+naive method must show the failure, or the case would not be real, and ours must hold to its limit. Where no method can
+do better, ours counts what is wrong and not reported. Where nothing is wrong a figure is 0 or less, but for rounding.
 
 | case | what is measured | naive method | naive | ours | measured | limit | why these limits |
 |---|---|---|---|---|---|---|---|
