@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kMostEntries = 8;
 constexpr std::int64_t kMostNodes = 4000;  // some operators repeat what they are given
-constexpr int kMostVoxels = 32;            // along the longest side
+constexpr int kMostVoxels = 20;            // along the longest side
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
