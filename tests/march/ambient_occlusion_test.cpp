@@ -101,6 +101,25 @@ TEST(OcclusionByTaps, IsEvansSum) {
   EXPECT_NEAR(occlusionByTaps(field, points, normals, {}).value()[0], 1.0 - sum, 0x1p-24);
 }
 
+// Over a floor at x from a wall, the distance at height h is min(h, x).
+TEST(OcclusionByTaps, CountsTheMissingShareOfEachHeightWhereWeightsAreRelative) {
+  const Corner corner;
+  TapOptions options;
+  options.weights = TapWeights::Relative;
+  options.strength = 0.2;
+  const std::vector<double> seen =
+      occlusionByTaps(corner.field, corner.points, corner.normals, options).value();
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    double sum = 0.0;
+    for (int tap = 1; tap <= options.count; ++tap) {
+      const double height = options.spacing * tap;
+      sum += (height - std::min(height, corner.points.x[i])) / height;
+    }
+    const double rounding = options.count * 0x1p-24;  // of each share, which float gives from numbers below 1
+    EXPECT_NEAR(seen[i], 1.0 - options.strength * sum, rounding) << "x " << corner.points.x[i];
+  }
+}
+
 TEST(OcclusionBySteps, DarkensWithEachStepDownToBlack) {
   const int steps[] = {0, 10, 100};
   EXPECT_EQ(occlusionBySteps(steps, 0.0625).value(), (std::vector<double>{1.0, 0.375, 0.0}));

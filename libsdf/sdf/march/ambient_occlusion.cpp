@@ -81,10 +81,11 @@ Result<std::vector<double>> occlusionByTaps(const MarchField& field, const Vecto
   std::vector<double> hidden(points.size(), 0.0), g;
   for (int tap = 1; tap <= options.count; ++tap) {
     const double height = tap * options.spacing;
+    const double weight = options.weights == TapWeights::Halving ? std::ldexp(1.0, -tap) : 1.0 / height;
     Vectors at;
     for (std::size_t i = 0; i < points.size(); ++i) at.add(points[i] + height * normals[i]);
     sampler.sample(at, g);
-    for (std::size_t i = 0; i < points.size(); ++i) hidden[i] += std::ldexp(height - g[i], -tap);
+    for (std::size_t i = 0; i < points.size(); ++i) hidden[i] += weight * (height - g[i]);
   }
   for (double& h : hidden) h = std::isnan(h) ? 0.0 : std::clamp(1.0 - options.strength * h, 0.0, 1.0);
   return hidden;

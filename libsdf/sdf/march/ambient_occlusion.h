@@ -14,14 +14,22 @@ namespace sdf {
 /// look: creases and grazing rays take many steps. strength >= 0. Errors (Usage): strength.
 Result<std::vector<double>> occlusionBySteps(std::span<const int> steps, double strength);
 
+/// What a tap at height h = i spacing counts for, g = f / L being the distance there:
+///
+///   Halving   (h - g) / 2^i: near taps count most (Evans, "Fast approximations for global illumination on
+///             dynamic scenes", 2006, with five taps)
+///   Relative  (h - g) / h: the missing share of the height, all taps alike; with strength 1 / count a point
+///             against a wall gets nothing (Learn Creative Coding 40, "Raymarching: Materials and Lighting")
+enum class TapWeights { Halving, Relative };
+
 struct TapOptions {
   int count = 5;          ///< samples along the normal, > 0
   double spacing = 0.08;  ///< between them, scene units, > 0
   double strength = 1.0;  ///< >= 0
+  TapWeights weights = TapWeights::Halving;
 };
 
-/// 1 - strength * sum over i = 1 … count of (i spacing - g(p + i spacing n)) / 2^i, held to [0, 1] (Evans,
-/// "Fast approximations for global illumination on dynamic scenes", 2006, with five taps); g = f / L. A plane
+/// 1 - strength * sum over i = 1 … count of what tap i at p + i spacing n counts for, held to [0, 1]. A plane
 /// alone leaves 1. A value that is not a number counts as nothing seen. Errors: Usage (options, rows of
 /// different length, normals not of length 1), Scene (no known Lipschitz constant). Cost: `count` readings a
 /// point.
