@@ -8,7 +8,7 @@
 namespace sdf {
 
 /// What kind of input was wrong. The programs turn it into their exit code.
-enum class ErrorKind { Usage = 2, Scene = 3, Limits = 4, Files = 5, Interrupted = 130 };
+enum class ErrorKind { Usage = 2, Scene = 3, Limits = 4, Files = 5, Graphics = 6, Interrupted = 130 };
 
 /// One line for the user: what is wrong, where, and what to do.
 struct Error {

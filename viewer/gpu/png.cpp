@@ -1,0 +1,53 @@
+#include "viewer/gpu/png.h"
+
+#include <cassert>
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include "sdf/base/file.h"
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#include <stb_image.h>
+
+namespace sdf::viewer {
+namespace {
+
+void append(void* stream, void* data, int size) {
+  static_cast<std::ostream*>(stream)->write(static_cast<const char*>(data), size);
+}
+
+}  // namespace
+
+Status writePng(const std::filesystem::path& target, const Picture& picture) {
+  const auto& [width, height, channels, bytes] = picture;
+  assert(width > 0 && height > 0 && (channels == 3 || channels == 4));
+  assert(bytes.size() == std::size_t(width) * std::size_t(height) * std::size_t(channels));
+  return writeFile(target, [&](std::ostream& out) -> Status {
+    if (stbi_write_png_to_func(append, &out, width, height, channels, bytes.data(), width * channels) == 0)
+      return Error{ErrorKind::Limits, "no memory is left to write '" + target.string() + "'"};
+    return okStatus();
+  });
+}
+
+Result<Picture> readPng(const std::filesystem::path& source, int channels) {
+  Picture picture;
+  int channelsInFile = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> bytes(
+      stbi_load(source.c_str(), &picture.width, &picture.height, &channelsInFile, channels), stbi_image_free);
+  if (!bytes)
+    return Error{ErrorKind::Files, "cannot read '" + source.string() + "': " + stbi_failure_reason()};
+  picture.channels = channels;
+  picture.bytes.assign(bytes.get(), bytes.get() + std::size_t(picture.width) * std::size_t(picture.height) *
+                                                      std::size_t(channels));
+  return picture;
+}
+
+}  // namespace sdf::viewer
