@@ -1,0 +1,295 @@
+#include "viewer/cpu_render.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/march/ambient_occlusion.h"
+#include "sdf/march/normals.h"
+#include "sdf/march/shadow.h"
+#include "viewer/cpu_camera.h"
+#include "viewer/cpu_uniform.h"
+
+namespace sdf::test {
+namespace {
+
+constexpr double kMirrorStart = 0.02;    // where a mirrored ray leaves the surface
+constexpr double kShadowEpsilon = 1e-3;  // a shadow ray hits here, or at half its start if that is less
+
+template <class T>
+T take(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(result).value();
+}
+
+struct PresentLight {
+  bool isPoint, castsShadow;
+  glm::dvec3 vector, color;  // the colour times the intensity
+};
+
+// The scene with every formula read that can be: what all threads share.
+struct Present {
+  MarchField field, shadeField;
+  MarchOptions march;
+  TapePtr surface, background;
+  std::vector<PresentLight> lights;
+  glm::dvec3 ambient, fogColor;
+  double fogDensity, sharpness, occlusionStrength;
+
+  Present(const Scene& scene, const CpuRenderOptions& options)
+      : march(options.march),
+        ambient(uniform(scene.ambient)),
+        fogColor(uniform(scene.fog.color)),
+        fogDensity(uniformValue(scene.fog.density)),
+        sharpness(uniformValue(scene.shadow.sharpness)),
+        occlusionStrength(uniformValue(scene.ambientOcclusion.strength)) {
+    const Shape whole = scene.whole();
+    field = shadeField = take(marchField(whole));
+    shadeField.lipschitz = field.divisor();  // one of unknown slope shades as it stands
+    if (scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps) march.method = MarchMethod::Plain;
+    if (!field.hasSlope()) march.method = MarchMethod::Bisection;
+    surface = std::make_shared<const Tape>(whole.surface);
+    const Expr sky[] = {scene.background.x, scene.background.y, scene.background.z};
+    background = std::make_shared<const Tape>(sky);
+    for (const Light& l : scene.lights)
+      lights.push_back({l.kind == Light::Kind::Point, l.castsShadow, uniform(l.vector),
+                        uniform(l.color) * uniformValue(l.intensity)});
+  }
+};
+
+// Where some of the rays met the surface.
+struct Surface {
+  std::vector<std::size_t> ray;  // which they are
+  Vectors points, normals;
+  std::vector<std::array<double, kAttributeCount>> attributes;
+
+  double get(std::size_t i, Attribute a) const { return attributes[i][static_cast<int>(a)]; }
+  glm::dvec3 color(std::size_t i, Attribute red) const {
+    const double* c = &attributes[i][static_cast<int>(red)];
+    return {c[0], c[1], c[2]};
+  }
+};
+
+struct Seen {
+  std::vector<glm::dvec3> radiance, normal;
+  Hits hits;
+};
+
+// One thread's means of looking along rays.
+class Eye {
+ public:
+  Eye(const Scene& scene, const Present& present)
+      : scene_(scene), now_(present), marcher_(take(Marcher::make(present.field, present.march))) {}
+
+  Seen look(const Rays& rays, int bouncesLeft) {
+    Seen seen{{}, std::vector<glm::dvec3>(rays.size(), glm::dvec3(0.0)), take(marcher_.trace(rays))};
+    for (std::size_t i = 0; i < rays.size(); ++i) seen.radiance.push_back(background(rays.direction[i]));
+    const Surface surface = surfaceAt(rays, seen.hits);
+    std::vector<glm::dvec3> color = local(rays, surface, seen.hits);
+    if (bouncesLeft > 0) addMirrored(rays, surface, bouncesLeft, color);
+    for (std::size_t i = 0; i < surface.ray.size(); ++i) {
+      const std::size_t ray = surface.ray[i];
+      const double kept = std::exp(-now_.fogDensity * seen.hits.t[ray]);
+      seen.radiance[ray] = glm::mix(now_.fogColor, color[i], kept);
+      seen.normal[ray] = surface.normals[i];
+    }
+    return seen;
+  }
+
+ private:
+  glm::dvec3 background(const glm::dvec3& d) {
+    reading_.run(*now_.background, {d.x, d.y, d.z, 0.0, 0.0, 0.0});
+    return {reading_.output(0), reading_.output(1), reading_.output(2)};
+  }
+
+  Surface surfaceAt(const Rays& rays, const Hits& hits) {
+    Surface s;
+    Vectors back;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (hits.status[i] != RayStatus::Hit) continue;
+      s.ray.push_back(i);
+      s.points.add(rays.at(i, hits.t[i]));
+      back.add(-rays.direction[i]);
+    }
+    s.normals = take(normals(now_.field, s.points, back, {}));
+    s.attributes.resize(s.ray.size());
+    for (std::size_t i = 0; i < s.ray.size(); ++i) {
+      const glm::dvec3 p = s.points[i], n = s.normals[i];
+      reading_.run(*now_.surface, {p.x, p.y, p.z, n.x, n.y, n.z});
+      for (int a = 0; a < kAttributeCount; ++a) s.attributes[i][a] = reading_.output(a);
+    }
+    return s;
+  }
+
+  // What the surface sends back along the rays, mirrors aside.
+  std::vector<glm::dvec3> local(const Rays& rays, const Surface& s, const Hits& hits) const {
+    const std::vector<double> open = tapOcclusion(s);
+    std::vector<glm::dvec3> color;
+    for (std::size_t i = 0; i < s.ray.size(); ++i)
+      color.push_back(now_.ambient * s.color(i, Attribute::AmbientRed) * open[i] +
+                      s.color(i, Attribute::EmissionRed));
+    for (const PresentLight& light : now_.lights) addLight(light, rays, s, color);
+    if (scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps) darkenBySteps(s, hits, color);
+    return color;
+  }
+
+  std::vector<double> tapOcclusion(const Surface& s) const {
+    const AmbientOcclusion& o = scene_.ambientOcclusion;
+    if (o.kind != AmbientOcclusion::Kind::Taps) return std::vector<double>(s.ray.size(), 1.0);
+    const TapOptions options{o.count, o.spacing, now_.occlusionStrength, TapWeights::Relative};
+    return take(occlusionByTaps(now_.shadeField, s.points, s.normals, options));
+  }
+
+  void darkenBySteps(const Surface& s, const Hits& hits, std::vector<glm::dvec3>& color) const {
+    std::vector<int> steps;
+    for (const std::size_t ray : s.ray) steps.push_back(hits.steps[ray]);
+    const std::vector<double> open = take(occlusionBySteps(steps, now_.occlusionStrength));
+    for (std::size_t i = 0; i < color.size(); ++i) color[i] *= open[i];
+  }
+
+  // Phong, "Illumination for computer generated pictures", 1975.
+  void addLight(const PresentLight& light, const Rays& rays, const Surface& s,
+                std::vector<glm::dvec3>& color) const {
+    const std::vector<double> arriving = shadowOf(light, s);
+    for (std::size_t i = 0; i < s.ray.size(); ++i) {
+      const glm::dvec3 n = s.normals[i], d = rays.direction[s.ray[i]];
+      const glm::dvec3 l = glm::normalize(light.isPoint ? light.vector - s.points[i] : light.vector);
+      const double cosine = glm::dot(n, l);
+      const glm::dvec3 r = 2.0 * cosine * n - l;
+      const double shine = std::pow(std::max(glm::dot(r, -d), 0.0), s.get(i, Attribute::Shininess));
+      color[i] +=
+          light.color * arriving[i] *
+          (s.color(i, Attribute::Red) * std::max(cosine, 0.0) + s.color(i, Attribute::SpecularRed) * shine);
+    }
+  }
+
+  std::vector<double> shadowOf(const PresentLight& light, const Surface& s) const {
+    const Shadow& shadow = scene_.shadow;
+    if (shadow.kind == Shadow::Kind::None || !light.castsShadow)
+      return std::vector<double>(s.ray.size(), 1.0);
+    // The kinds after None are the methods, in their order.
+    const auto method = static_cast<ShadowMethod>(static_cast<int>(shadow.kind) - 1);
+    const ShadowOptions options{method, now_.sharpness, std::min(kShadowEpsilon, 0.5 * shadow.start),
+                                shadow.steps};
+    Rays way = light.isPoint ? raysToPoint(s.points, light.vector, shadow.start)
+                             : raysTowards(s.points, light.vector, shadow.start, shadow.reach);
+    for (double& end : way.tMax) end = std::min(end, std::max(shadow.start, shadow.reach));
+    return take(shadows(now_.shadeField, way, options)).light;
+  }
+
+  void addMirrored(const Rays& rays, const Surface& s, int bouncesLeft, std::vector<glm::dvec3>& color) {
+    Rays mirrored;
+    std::vector<std::size_t> of;
+    std::vector<double> weight;
+    for (std::size_t i = 0; i < s.ray.size(); ++i) {
+      const glm::dvec3 n = s.normals[i], d = rays.direction[s.ray[i]];
+      const double w = mirrorWeight(s, i, std::max(glm::dot(-d, n), 0.0));
+      if (w <= 0.0) continue;
+      of.push_back(i);
+      weight.push_back(w);
+      mirrored.add(s.points[i], glm::normalize(glm::reflect(d, n)), kMirrorStart, scene_.maxDistance);
+    }
+    if (of.empty()) return;
+    const Seen seen = look(mirrored, bouncesLeft - 1);
+    for (std::size_t k = 0; k < of.size(); ++k)
+      color[of[k]] = glm::mix(color[of[k]], seen.radiance[k], weight[k]);
+  }
+
+  // Schlick, "An inexpensive BRDF model for physically-based rendering", 1994, with power and bias free.
+  static double mirrorWeight(const Surface& s, std::size_t i, double cosine) {
+    const double grazing = std::pow(1.0 - cosine, s.get(i, Attribute::FresnelPower));
+    return std::min(s.get(i, Attribute::Reflectivity) * (s.get(i, Attribute::FresnelBias) + grazing), 1.0);
+  }
+
+  const Scene& scene_;
+  const Present& now_;
+  Marcher marcher_;
+  ScalarReading<double> reading_;
+};
+
+Picture blank(int width, int height) {
+  const std::size_t count = static_cast<std::size_t>(width) * height;
+  const glm::dvec3 nothing(0.0);
+  return {width,
+          height,
+          std::vector<glm::dvec3>(count, nothing),
+          std::vector<double>(count),
+          std::vector<RayStatus>(count),
+          std::vector<glm::dvec3>(count, nothing)};
+}
+
+// The samples of a row's pixels, n * n of each together, from left to right and from the top.
+Rays raysOfRow(const Scene& scene, const CpuRenderOptions& o, int row) {
+  Rays rays;
+  const Pinhole camera(scene.camera, o.width, o.height);
+  const auto within = [&](int i, int sample) { return i + (sample + 0.5) / o.samples; };
+  for (int column = 0; column < o.width; ++column)
+    for (int sample = 0; sample < o.samples * o.samples; ++sample)
+      rays.add(camera.from(),
+               camera.through(within(column, sample % o.samples), within(row, sample / o.samples)), 0.0,
+               scene.maxDistance);
+  return rays;
+}
+
+void drawRow(const Scene& scene, const CpuRenderOptions& o, Eye& eye, int row, Picture& picture) {
+  const std::size_t each = static_cast<std::size_t>(o.samples) * o.samples;
+  const std::size_t middle = static_cast<std::size_t>(o.samples / 2) * (o.samples + 1);
+  const Seen seen = eye.look(raysOfRow(scene, o, row), scene.reflectionBounces);
+  for (int column = 0; column < o.width; ++column) {
+    const std::size_t pixel = picture.at(column, row), first = each * column;
+    for (std::size_t k = 0; k < each; ++k)
+      picture.color[pixel] += seen.radiance[first + k] / static_cast<double>(each);
+    picture.depth[pixel] = seen.hits.t[first + middle];
+    picture.status[pixel] = seen.hits.status[first + middle];
+    picture.normal[pixel] = seen.normal[first + middle];
+  }
+}
+
+// IEC 61966-2-1.
+double encodeSrgb(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055; }
+
+}  // namespace
+
+Picture renderOnCpu(const Scene& scene, const CpuRenderOptions& options) {
+  const Present present(scene, options);
+  Picture picture = blank(options.width, options.height);
+  const unsigned count = std::max(1u, std::thread::hardware_concurrency());
+  std::atomic<int> next = 0;
+  std::vector<std::exception_ptr> failures(count);
+  std::vector<std::thread> threads;
+  for (unsigned i = 0; i < count; ++i)
+    threads.emplace_back([&, i] {
+      try {
+        Eye eye(scene, present);
+        for (int row = next++; row < options.height; row = next++) drawRow(scene, options, eye, row, picture);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  return picture;
+}
+
+glm::dvec3 encode(const glm::dvec3& linear, const std::optional<double>& gamma) {
+  glm::dvec3 shown;
+  for (int i = 0; i < 3; ++i) {
+    const double c = std::clamp(linear[i], 0.0, 1.0);
+    shown[i] = gamma ? std::pow(c, 1.0 / *gamma) : encodeSrgb(c);
+  }
+  return shown;
+}
+
+std::vector<glm::dvec3> encode(const std::vector<glm::dvec3>& linear, const std::optional<double>& gamma) {
+  std::vector<glm::dvec3> shown;
+  for (const glm::dvec3& c : linear) shown.push_back(encode(c, gamma));
+  return shown;
+}
+
+}  // namespace sdf::test
