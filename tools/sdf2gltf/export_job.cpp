@@ -4,6 +4,7 @@
 #include <iostream>
 #include <utility>
 
+#include "command_line/frames.h"
 #include "memory.h"
 #include "report.h"
 #include "sdf/base/file.h"
@@ -178,7 +179,9 @@ class FrameExport {
 Status checkTargets(const Options& options) {
   const int frames = options.frames.value_or(1);
   for (int i = 1; i <= frames; ++i) {
-    if (Status s = checkWritable(options.frames ? frameName(options.output, i) : options.output); !s)
+    if (Status s =
+            checkWritable(options.frames ? command_line::frameName(options.output, i) : options.output);
+        !s)
       return s;
   }
   return options.report ? checkWritable(*options.report) : okStatus();
@@ -197,7 +200,7 @@ Status runExport(const Options& options, ProgressLine& progress, std::ostream& o
     const std::string subject =
         options.frames ? "frame " + std::to_string(i + 1) + " of " + std::to_string(frames) : "";
     FrameExport frame(options, progress, subject);
-    const auto target = options.frames ? frameName(options.output, i + 1) : options.output;
+    const auto target = options.frames ? command_line::frameName(options.output, i + 1) : options.output;
     if (Status s = frame.run(target, options.time + i / options.framesPerSecond, voxelSize); !s) return s;
     progress.clear();
     if (!options.quiet) {

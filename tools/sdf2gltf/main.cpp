@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   auto parsed = sdf::parseOptions(argc, argv);
   if (!parsed) return sdf::fail(parsed.error());
-  if (const auto* answer = std::get_if<sdf::Answer>(&*parsed)) {
+  if (const auto* answer = std::get_if<sdf::command_line::Answer>(&*parsed)) {
     std::cout << answer->text;
     return 0;
   }

@@ -1,17 +1,18 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <sstream>
 #include <vector>
 
+#include "command_line/frames.h"
+#include "command_line/values.h"
 #include "memory.h"
 #include "sdf/base/version.h"
 #include "sdf/gltf/export.h"
 
 namespace sdf {
+
+using namespace command_line;  // NOLINT: this file is about nothing else
+
 namespace {
 
 /// The command line's words, before they are looked at closer. All are text, so that messages are our own.
@@ -22,41 +23,10 @@ struct Words {
   bool quiet = false;
 };
 
-Error usage(std::string message) { return {ErrorKind::Usage, std::move(message)}; }
-
-/// The whole text as a finite number.
-std::optional<double> number(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-/// A flag's number; `wanted` says which numbers are right, in words and as a test.
-template <class Test>
-Result<double> numberFor(const char* flag, const std::string& text, const char* wanted, Test right) {
-  const std::optional<double> value = number(text);
-  if (value && right(*value)) return *value;
-  return usage(std::string(flag) + " needs " + wanted + ", got '" + text + "'");
-}
-
-Result<double> positive(const char* flag, const std::string& text) {
-  return numberFor(flag, text, "a number above 0", [](double v) { return v > 0.0; });
-}
-
-Result<double> count(const char* flag, const std::string& text) {
-  constexpr double kMost = 100'000;
-  return numberFor(flag, text, "a whole number from 1 to 100000",
-                   [](double v) { return v >= 1.0 && v <= kMost && v == std::floor(v); });
-}
-
 Result<Box> box(const std::string& text) {
-  std::vector<double> values;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) values.push_back(number(word).value_or(NAN));
-  if (values.size() == 6 && text.back() != ',') {
-    const Box bounds{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
+  const std::vector<double> v = numbers(text);
+  if (v.size() == 6) {
+    const Box bounds{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
     const glm::dvec3 size = bounds.size();
     if (size.x > 0.0 && size.y > 0.0 && size.z > 0.0) return bounds;
   }
@@ -64,49 +34,9 @@ Result<Box> box(const std::string& text) {
                text + "'");
 }
 
-Result<std::map<std::string, double>> parameters(const std::vector<std::string>& words) {
-  std::map<std::string, double> values;
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    const std::optional<double> value =
-        equals == std::string::npos ? std::nullopt : number(word.substr(equals + 1));
-    if (!value || equals == 0) return usage("-D needs name=value with a finite number, got '" + word + "'");
-    if (!values.emplace(word.substr(0, equals), *value).second) {
-      return usage("-D sets '" + word.substr(0, equals) + "' twice; keep one");
-    }
-  }
-  return values;
-}
-
-/// Where the number goes in a file name: the place and length of its %d or %0Nd, if it has one.
-struct NumberPlace {
-  std::size_t begin, length;
-  int digits;
-};
-
-std::optional<NumberPlace> numberPlace(const std::string& name, std::size_t from = 0) {
-  const std::size_t begin = name.find('%', from);
-  if (begin == std::string::npos) return std::nullopt;
-  std::size_t end = begin + 1;
-  int digits = 1;
-  if (end + 1 < name.size() && name[end] == '0' && name[end + 1] >= '1' && name[end + 1] <= '9') {
-    digits = name[end + 1] - '0';
-    end += 2;
-  }
-  if (end < name.size() && name[end] == 'd') return NumberPlace{begin, end + 1 - begin, digits};
-  return numberPlace(name, begin + 1);
-}
-
 Status checkSequence(const Words& words) {
-  if (!words.frames) {
-    if (words.fps) return usage("--fps says how fast --frames N go by; add --frames or leave --fps out");
-    return okStatus();
-  }
-  const std::string name = std::filesystem::path(words.output).filename().string();
-  const std::optional<NumberPlace> first = numberPlace(name);
-  if (first && numberPlace(name, first->begin + first->length)) {
-    return usage("'" + words.output + "' has more than one place for the frame's number; keep one %04d");
-  }
+  if (words.frames) return checkFrameName(words.output);
+  if (words.fps) return usage("--fps says how fast --frames N go by; add --frames or leave --fps out");
   return okStatus();
 }
 
@@ -132,26 +62,6 @@ void declare(CLI::App& app, Words& words) {
       "Files appear under their names only when complete; of a sequence, finished frames stay if a later one "
       "fails.\n"
       "Exit status: 0 done, 2 usage, 3 scene, 4 limits, 5 files, 130 interrupted.");
-}
-
-/// What CLI11 found wrong, in one line.
-std::string described(const CLI::ParseError& error) {
-  std::string message = error.what();
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
-    message = message.substr(0, message.find(':')) + " takes one value and can be given once";
-  }
-  return message + "; see sdf2gltf --help";
-}
-
-/// Fills `value` unless the flag was left out.
-template <class T, class Target, class Parse>
-Status take(const std::optional<std::string>& text, Target& value, Parse parse, double factor = 1.0) {
-  if (!text) return okStatus();
-  Result<double> parsed = parse(*text);
-  if (!parsed) return parsed.error();
-  value = static_cast<T>(*parsed * factor);
-  return okStatus();
 }
 
 Result<Options> interpreted(const Words& words) {
@@ -209,27 +119,11 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   } catch (const CLI::CallForVersion&) {
     return Parsed(Answer{app.version() + "\n"});
   } catch (const CLI::ParseError& error) {
-    return usage(described(error));
+    return usage(described(error, "sdf2gltf"));
   }
   Result<Options> options = interpreted(words);
   if (!options) return options.error();
   return Parsed(std::move(*options));
-}
-
-std::filesystem::path frameName(const std::filesystem::path& output, int number) {
-  const std::string name = output.filename().string(), digits = std::to_string(number);
-  const auto padded = [&](int width) {
-    const auto missing = std::max<std::ptrdiff_t>(0, width - static_cast<std::ptrdiff_t>(digits.size()));
-    return std::string(static_cast<std::size_t>(missing), '0') + digits;
-  };
-  const std::optional<NumberPlace> place = numberPlace(name);
-  std::filesystem::path numbered = output;
-  if (place) {
-    numbered.replace_filename(std::string(name).replace(place->begin, place->length, padded(place->digits)));
-  } else {
-    numbered.replace_filename(output.stem().string() + "_" + padded(4) + output.extension().string());
-  }
-  return numbered;
 }
 
 }  // namespace sdf

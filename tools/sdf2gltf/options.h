@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "command_line/values.h"
 #include "sdf/base/box.h"
 #include "sdf/base/result.h"
 
@@ -27,16 +28,7 @@ struct Options {
   bool quiet = false;
 };
 
-/// The command line was a question (--help, --version), and this is the answer.
-struct Answer {
-  std::string text;
-};
-
 /// Errors: Usage.
-Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* argv);
-
-/// Name of frame `number` (from 1) of a sequence written to `output`: a %d or %0Nd in the file name becomes
-/// the number; without one, _0001 goes before the extension.
-std::filesystem::path frameName(const std::filesystem::path& output, int number);
+Result<std::variant<Options, command_line::Answer>> parseOptions(int argc, const char* const* argv);
 
 }  // namespace sdf

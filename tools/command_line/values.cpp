@@ -1,0 +1,67 @@
+#include "command_line/values.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace sdf::command_line {
+
+Error usage(std::string message) { return {ErrorKind::Usage, std::move(message)}; }
+
+/// The whole text as a finite number.
+std::optional<double> number(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::optional<double> value = number(word);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  if (!text.empty() && text.back() == ',') return {};
+  return values;
+}
+
+Result<double> positive(const char* flag, const std::string& text) {
+  return numberFor(flag, text, "a number above 0", [](double v) { return v > 0.0; });
+}
+
+Result<double> count(const char* flag, const std::string& text) {
+  constexpr double kMost = 100'000;
+  return numberFor(flag, text, "a whole number from 1 to 100000",
+                   [](double v) { return v >= 1.0 && v <= kMost && v == std::floor(v); });
+}
+
+Result<std::map<std::string, double>> parameters(const std::vector<std::string>& words) {
+  std::map<std::string, double> values;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    const std::optional<double> value =
+        equals == std::string::npos ? std::nullopt : number(word.substr(equals + 1));
+    if (!value || equals == 0) return usage("-D needs name=value with a finite number, got '" + word + "'");
+    if (!values.emplace(word.substr(0, equals), *value).second) {
+      return usage("-D sets '" + word.substr(0, equals) + "' twice; keep one");
+    }
+  }
+  return values;
+}
+
+std::string described(const CLI::ParseError& error, const std::string& program) {
+  std::string message = error.what();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    message = message.substr(0, message.find(':')) + " takes one value and can be given once";
+  }
+  return message + "; see " + program + " --help";
+}
+
+}  // namespace sdf::command_line

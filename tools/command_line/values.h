@@ -1,0 +1,58 @@
+// The values of options, with messages that name the flag, what it needs and what it got. All errors are
+// Usage.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sdf/base/result.h"
+
+namespace CLI {
+class ParseError;
+}
+
+namespace sdf::command_line {
+
+/// The command line was a question (--help, --version), and this is the answer.
+struct Answer {
+  std::string text;
+};
+
+Error usage(std::string message);
+
+/// The whole text as a finite number.
+std::optional<double> number(std::string_view text);
+/// All of the text as finite numbers with commas between them; empty where it is something else.
+std::vector<double> numbers(const std::string& text);
+
+/// A flag's number; `wanted` says which numbers are right, in words and as a test.
+template <class Test>
+Result<double> numberFor(const char* flag, const std::string& text, const char* wanted, Test right) {
+  const std::optional<double> value = number(text);
+  if (value && right(*value)) return *value;
+  return usage(std::string(flag) + " needs " + wanted + ", got '" + text + "'");
+}
+/// Above 0.
+Result<double> positive(const char* flag, const std::string& text);
+/// A whole number from 1 to 100000.
+Result<double> count(const char* flag, const std::string& text);
+
+/// Words of the form name=value, each name once.
+Result<std::map<std::string, double>> parameters(const std::vector<std::string>& words);
+
+/// Fills `value` with parse(*text), unless the flag was left out.
+template <class T, class Target, class Parse>
+Status take(const std::optional<std::string>& text, Target& value, Parse parse, double factor = 1.0) {
+  if (!text) return okStatus();
+  Result<double> parsed = parse(*text);
+  if (!parsed) return parsed.error();
+  value = static_cast<T>(*parsed * factor);
+  return okStatus();
+}
+
+/// What CLI11 found wrong, in one line.
+std::string described(const CLI::ParseError& error, const std::string& program);
+
+}  // namespace sdf::command_line
