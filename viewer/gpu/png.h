@@ -1,23 +1,14 @@
 // Pictures as PNG files, eight bits a channel.
 #pragma once
-#include <cstdint>
 #include <filesystem>
-#include <span>
-#include <vector>
 
 #include "sdf/base/result.h"
+#include "viewer/gpu/picture.h"
 
 namespace sdf::viewer {
 
-/// Rows from the top, pixels from the left, `channels` bytes each, nothing between them.
-struct Picture {
-  int width = 0, height = 0;
-  int channels = 0;  ///< 3: RGB, 4: RGBA (alpha not premultiplied)
-  std::vector<std::uint8_t> bytes;
-};
-
 /// Writes the picture under the name, whole or not at all (see sdf/base/file.h). The picture must have
-/// width * height * channels bytes, at least one. Errors: those of writeFile.
+/// width * height * channels bytes, at least one. Errors: those of writeFile; Limits if memory runs out.
 Status writePng(const std::filesystem::path& target, const Picture& picture);
 
 /// Reads any PNG as `channels` (3 or 4) bytes a pixel. Errors: Files.

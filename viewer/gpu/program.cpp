@@ -1,0 +1,131 @@
+#include "viewer/gpu/program.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "viewer/gpu/context.h"
+#include "viewer/gpu/shader_log.h"
+
+namespace sdf::viewer {
+namespace {
+
+constexpr const char* kOverScreen = R"(#version 330 core
+void main() {
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
+}
+)";
+
+std::string shaderLog(GLuint shader) {
+  GLint length = 0;
+  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  std::string log(std::size_t(length), '\0');
+  glGetShaderInfoLog(shader, length, nullptr, log.data());
+  return log;
+}
+
+std::string programLog(GLuint program) {
+  GLint length = 0;
+  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string log(std::size_t(length), '\0');
+  glGetProgramInfoLog(program, length, nullptr, log.data());
+  return log;
+}
+
+Error rejected(const std::string& what, const std::string& log, const std::string& source) {
+  const std::string words = describe(readShaderLog(log, source));
+  return {ErrorKind::Graphics,
+          "the driver rejects the " + what + ": " + (words.empty() ? "it does not say why" : words)};
+}
+
+Result<Handle> compile(GLenum kind, const char* name, const std::string& source) {
+  Handle shader(glCreateShader(kind), [](unsigned id) { glDeleteShader(id); });
+  const char* const text = source.c_str();
+  glShaderSource(shader.id(), 1, &text, nullptr);
+  glCompileShader(shader.id());
+  GLint compiled = GL_FALSE;
+  glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_FALSE) return rejected(name, shaderLog(shader.id()), source);
+  return shader;
+}
+
+}  // namespace
+
+Program::Program(Handle program, Handle vertexArray)
+    : program_(std::move(program)), vertexArray_(std::move(vertexArray)) {}
+
+Result<Program> Program::create(const std::string& vertex, const std::string& fragment) {
+  const auto vertexShader = compile(GL_VERTEX_SHADER, "vertex shader", vertex);
+  if (!vertexShader) return vertexShader.error();
+  const auto fragmentShader = compile(GL_FRAGMENT_SHADER, "fragment shader", fragment);
+  if (!fragmentShader) return fragmentShader.error();
+
+  Handle program(glCreateProgram(), [](unsigned id) { glDeleteProgram(id); });
+  for (const auto* const shader : {&vertexShader, &fragmentShader})
+    glAttachShader(program.id(), (*shader)->id());
+  glLinkProgram(program.id());
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
+  if (linked == GL_FALSE) return rejected("linked shaders", programLog(program.id()), fragment);
+
+  // A core context draws nothing without one, though it holds nothing here.
+  GLuint vertexArray = 0;
+  glGenVertexArrays(1, &vertexArray);
+  Handle owned(vertexArray, [](unsigned id) { glDeleteVertexArrays(1, &id); });
+  const Status made = check("make a shader program");
+  if (!made) return made.error();
+  return Program(std::move(program), std::move(owned));
+}
+
+Result<Program> Program::overScreen(const std::string& fragment) { return create(kOverScreen, fragment); }
+
+void Program::use() const { glUseProgram(program_.id()); }
+
+int Program::location(const std::string& name) const {
+  const auto [found, isNew] = locations_.try_emplace(name, -1);
+  if (isNew) found->second = glGetUniformLocation(program_.id(), name.c_str());
+  return found->second;
+}
+
+void Program::set(const std::string& name, int value) const {
+  use();
+  glUniform1i(location(name), value);
+}
+
+void Program::set(const std::string& name, float value) const {
+  use();
+  glUniform1f(location(name), value);
+}
+
+void Program::set(const std::string& name, const glm::vec2& value) const {
+  use();
+  glUniform2fv(location(name), 1, glm::value_ptr(value));
+}
+
+void Program::set(const std::string& name, const glm::vec3& value) const {
+  use();
+  glUniform3fv(location(name), 1, glm::value_ptr(value));
+}
+
+void Program::set(const std::string& name, const glm::vec4& value) const {
+  use();
+  glUniform4fv(location(name), 1, glm::value_ptr(value));
+}
+
+void Program::set(const std::string& name, std::span<const float> values) const {
+  use();
+  glUniform1fv(location(name), GLsizei(values.size()), values.data());
+}
+
+void Program::set(const std::string& name, std::span<const glm::vec4> values) const {
+  use();
+  glUniform4fv(location(name), GLsizei(values.size()), reinterpret_cast<const float*>(values.data()));
+}
+
+void Program::draw() const {
+  use();
+  glBindVertexArray(vertexArray_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace sdf::viewer

@@ -1,0 +1,52 @@
+// Shader programs. All of it works in the current context, which must be the same for one program's whole
+// life.
+#pragma once
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string>
+#include <unordered_map>
+
+#include "sdf/base/result.h"
+#include "viewer/gpu/handle.h"
+
+namespace sdf::viewer {
+
+/// A vertex and a fragment shader, linked. A uniform that the shaders do not use may be set; nothing comes of
+/// it.
+class Program {
+ public:
+  /// Errors: Graphics, with the driver's words and the source lines that it names.
+  static Result<Program> create(const std::string& vertex, const std::string& fragment);
+
+  /// One whose fragment shader runs once for each pixel of the target. Errors: as create.
+  static Result<Program> overScreen(const std::string& fragment);
+
+  /// Makes it the one that draws.
+  void use() const;
+
+  /// Where a uniform is, -1 if the shaders use none of that name. An array's name is its first element's.
+  int location(const std::string& name) const;
+
+  // These use() the program.
+  void set(const std::string& name, int value) const;  ///< also a sampler's unit
+  void set(const std::string& name, float value) const;
+  void set(const std::string& name, const glm::vec2& value) const;
+  void set(const std::string& name, const glm::vec3& value) const;
+  void set(const std::string& name, const glm::vec4& value) const;
+  void set(const std::string& name, std::span<const float> values) const;      ///< float[]
+  void set(const std::string& name, std::span<const glm::vec4> values) const;  ///< vec4[]
+
+  /// Covers the viewport with one triangle: three vertices without attributes, made from gl_VertexID by the
+  /// vertex shader of overScreen.
+  void draw() const;
+
+ private:
+  Program(Handle program, Handle vertexArray);
+
+  Handle program_, vertexArray_;
+  mutable std::unordered_map<std::string, int> locations_;
+};
+
+}  // namespace sdf::viewer

@@ -1,0 +1,145 @@
+#include "viewer/gpu/target.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include "viewer/gpu/context.h"
+
+namespace sdf::viewer {
+namespace {
+
+GLint internalFormat(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::Rgba8:
+      return GL_RGBA8;
+    case PixelFormat::Rgba16f:
+      return GL_RGBA16F;
+    case PixelFormat::Rgba32f:
+      break;
+  }
+  return GL_RGBA32F;
+}
+
+std::string product(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
+
+Status checkSize(int width, int height) {
+  const Driver driver = currentDriver();
+  if (width >= 1 && height >= 1 && width <= driver.mostWidth && height <= driver.mostHeight)
+    return okStatus();
+  return Error{ErrorKind::Limits, "cannot draw " + product(width, height) +
+                                      " pixels: this driver draws from 1 x 1 to " +
+                                      product(driver.mostWidth, driver.mostHeight)};
+}
+
+/// Puts back at its end what was bound at its start.
+class KeepBound {
+ public:
+  KeepBound() {
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture_);
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+  }
+  ~KeepBound() {
+    glBindTexture(GL_TEXTURE_2D, GLuint(texture_));
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read_));
+  }
+  KeepBound(const KeepBound&) = delete;
+  KeepBound& operator=(const KeepBound&) = delete;
+
+ private:
+  GLint texture_ = 0, draw_ = 0, read_ = 0;
+};
+
+/// OpenGL's rows start at the bottom.
+template <class T>
+void flipRows(std::vector<T>& values, int height) {
+  const std::size_t row = values.size() / std::size_t(height);
+  for (std::size_t top = 0, bottom = std::size_t(height) - 1; top < bottom; ++top, --bottom)
+    std::swap_ranges(values.begin() + std::ptrdiff_t(top * row),
+                     values.begin() + std::ptrdiff_t((top + 1) * row),
+                     values.begin() + std::ptrdiff_t(bottom * row));
+}
+
+}  // namespace
+
+Result<Target> Target::create(int width, int height, std::initializer_list<PixelFormat> layers) {
+  assert(layers.size() > 0);
+  const Status fits = checkSize(width, height);
+  if (!fits) return fits.error();
+
+  const KeepBound bindings;
+  Target target(width, height);
+  GLuint framebuffer = 0;
+  glGenFramebuffers(1, &framebuffer);
+  target.framebuffer_ = Handle(framebuffer, [](unsigned id) { glDeleteFramebuffers(1, &id); });
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  for (const PixelFormat format : layers) {
+    const Status added = target.addLayer(format);
+    if (!added) return added.error();
+  }
+  std::vector<GLenum> outputs;
+  for (std::size_t i = 0; i < layers.size(); ++i) outputs.push_back(GL_COLOR_ATTACHMENT0 + GLenum(i));
+  glDrawBuffers(GLsizei(outputs.size()), outputs.data());
+
+  if (const GLenum state = glCheckFramebufferStatus(GL_FRAMEBUFFER); state != GL_FRAMEBUFFER_COMPLETE)
+    return Error{ErrorKind::Graphics, "the driver cannot draw into " + product(width, height) +
+                                          " pixels of this format (" + std::to_string(state) + ")"};
+  return target;
+}
+
+Status Target::addLayer(PixelFormat format) {
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
+  const GLenum place = GL_COLOR_ATTACHMENT0 + GLenum(textures_.size());
+  textures_.emplace_back(texture, [](unsigned id) { glDeleteTextures(1, &id); });
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexImage2D(GL_TEXTURE_2D, 0, internalFormat(format), width_, height_, 0, GL_RGBA, GL_FLOAT, nullptr);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, texture, 0);
+  return check("make a picture of " + product(width_, height_) + " pixels");
+}
+
+void Target::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  glViewport(0, 0, width_, height_);
+}
+
+void Target::bindTexture(int unit, int layer) const {
+  glActiveTexture(GL_TEXTURE0 + GLenum(unit));
+  glBindTexture(GL_TEXTURE_2D, textures_[std::size_t(layer)].id());
+}
+
+Status Target::read(int layer, unsigned type, void* rowsFromBottom) const {
+  const KeepBound bindings;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + GLenum(layer));
+  glReadPixels(0, 0, width_, height_, GL_RGBA, type, rowsFromBottom);
+  return check("read the picture back");
+}
+
+Result<std::vector<glm::vec4>> Target::pixels(int layer) const {
+  std::vector<glm::vec4> rows(std::size_t(width_) * std::size_t(height_));
+  const Status done = read(layer, GL_FLOAT, rows.data());
+  if (!done) return done.error();
+  flipRows(rows, height_);
+  return rows;
+}
+
+Result<Picture> Target::picture(int layer) const {
+  constexpr int kChannels = 4;
+  Picture picture{width_, height_, kChannels, {}};
+  picture.bytes.resize(std::size_t(width_) * std::size_t(height_) * kChannels);
+  const Status done = read(layer, GL_UNSIGNED_BYTE, picture.bytes.data());
+  if (!done) return done.error();
+  flipRows(picture.bytes, height_);
+  return picture;
+}
+
+}  // namespace sdf::viewer
