@@ -27,11 +27,12 @@ void append(void* stream, void* data, int size) {
 }  // namespace
 
 Status writePng(const std::filesystem::path& target, const Picture& picture) {
-  const auto& [width, height, channels, bytes] = picture;
+  const int width = picture.width, height = picture.height, channels = picture.channels;
   assert(width > 0 && height > 0 && (channels == 3 || channels == 4));
-  assert(bytes.size() == std::size_t(width) * std::size_t(height) * std::size_t(channels));
+  assert(picture.bytes.size() == std::size_t(width) * std::size_t(height) * std::size_t(channels));
   return writeFile(target, [&](std::ostream& out) -> Status {
-    if (stbi_write_png_to_func(append, &out, width, height, channels, bytes.data(), width * channels) == 0)
+    const auto* const bytes = picture.bytes.data();
+    if (stbi_write_png_to_func(append, &out, width, height, channels, bytes, width * channels) == 0)
       return Error{ErrorKind::Limits, "no memory is left to write '" + target.string() + "'"};
     return okStatus();
   });
