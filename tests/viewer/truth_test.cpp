@@ -33,6 +33,11 @@ Expectation onUnitBall(double rounding, double offset, double steepness,
   };
 }
 
+// Any grey from `low` to `high`.
+Expected between(double low, double high, double slack) {
+  return {glm::dvec3(0.5 * (low + high)), 0.5 * (high - low) + slack};
+}
+
 TEST_P(Truth, LambertsLawHoldsOnABall) {
   const glm::dvec3 color(0.9, 0.5, 0.2), sun = glm::normalize(glm::dvec3(1.0, 2.0, 3.0));
   Scene scene = darkScene();
@@ -85,6 +90,64 @@ TEST_P(Truth, TheUmbraOfABallIsAnEllipse) {
     if (miss < radius) return Expected{kRed, rounding()};
     return Expected{past < radius ? kBlack : kWhite * sun.z, rounding()};
   });
+}
+
+// How far the ball covers the sun as the soft formulas see it, without their gaps: the least k g / t.
+double leastRatio(const glm::dvec3& q, const glm::dvec3& sun, const glm::dvec3& center, double radius,
+                  const Shadow& shadow) {
+  const double sharpness = uniformValue(shadow.sharpness);
+  double least = 1.0;
+  for (double t = shadow.start; t < shadow.reach; t += 0x1p-6) {
+    const glm::dvec3 p = q + t * sun;
+    const double g = std::min(p.z, glm::length(p - center) - radius);
+    least = std::min(least, sharpness * g / t);
+  }
+  return std::max(least, 0.0);
+}
+
+// The most that a reading can be where steps are as long as g. Of two readings to both sides of where the
+// ball is nearest, the nearer one lies no farther from there than s with g(s) = 2 s, g = sqrt(past^2 + s^2) -
+// r.
+double sparseRatio(const glm::dvec3& q, const glm::dvec3& sun, const glm::dvec3& center, double radius,
+                   const Shadow& shadow) {
+  const double past = approach(q, sun, center), r = radius;
+  const double s = (std::sqrt(16.0 * r * r + 12.0 * (past * past - r * r)) - 4.0 * r) / 6.0;
+  const double t = glm::dot(center - q, sun) - s, g = 2.0 * s;
+  if (t < shadow.start || t <= g) return 1.0;
+  // Improved divides by up to sqrt(t^2 - g^2) instead of t.
+  return std::min(1.0, uniformValue(shadow.sharpness) * g / std::sqrt(t * t - g * g));
+}
+
+double signedCurve(double x) { return 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x); }
+
+// Soft reads the ratio here and there. Improved supposes the worst between two readings, by sqrt(3) / 2
+// darker than the truth. Signed shows half the sun at the umbra's edge (sdf/march/shadow.h).
+TEST_P(Truth, SoftShadowsAreDarkInTheUmbraAndFadeAsTheBallIsPassedFartherOff) {
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(1.0, 0.4, 0.8)), center(0.7, 0.3, 1.2);
+  const double radius = 0.6, worst = std::sqrt(3.0) / 2.0;
+  Scene scene = darkScene();
+  scene.add("", wall({.color = Vec3E(1.0)}));
+  scene.add("", ball(center, radius, {.color = Vec3E(0.0), .emission = Vec3E(kRed)}));
+  scene.lights = {sunTowards(sun)};
+  scene.lights[0].color = Vec3E(1.0 / sun.z);  // so that the wall is white
+  for (const Shadow::Kind kind : {Shadow::Kind::Soft, Shadow::Kind::Improved, Shadow::Kind::Signed}) {
+    scene.shadow = {.kind = kind, .start = 0.1, .reach = 4.0, .steps = 2000};
+    // The ball is met at t > 1/2, where the ratio moves by this much with the point.
+    const double edge = kShadowEpsilon + 2.0 * offset(), slack = rounding() + 8.0 * edge / 0.5;
+    expectPicture(draw(scene), [&](int column, int row) -> std::optional<Expected> {
+      const double miss = approach(kEye, rayThrough(column, row), center);
+      const glm::dvec3 q = onWall(column, row);
+      const double past = approach(q, sun, center);
+      if (std::abs(miss - radius) < kRim || std::abs(past - radius) < edge) return std::nullopt;
+      if (miss < radius) return Expected{kRed, rounding()};
+      const bool isSigned = kind == Shadow::Kind::Signed;
+      if (past < radius) return between(0.0, isSigned ? 0.5 : 0.0, slack);
+      const double least = leastRatio(q, sun, center, radius, scene.shadow);
+      const double most = sparseRatio(q, sun, center, radius, scene.shadow);
+      if (isSigned) return between(signedCurve(least), signedCurve(most), slack);
+      return between(kind == Shadow::Kind::Improved ? worst * least : least, most, slack);
+    });
+  }
 }
 
 TEST_P(Truth, APointLightsShadowEndsWhereItsRaysTouchTheBall) {
