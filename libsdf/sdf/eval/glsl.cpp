@@ -1,0 +1,177 @@
+#include "sdf/eval/glsl.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/eval/tape.h"
+
+namespace sdf {
+namespace {
+
+constexpr const char* kVariables[kVariableCount] = {"p.x", "p.y", "p.z", "n.x", "n.y", "n.z"};
+constexpr const char* kComponents = "xyzw";
+
+// What GLSL leaves undefined, defined as in number/scalar.h.
+const std::map<std::string, std::string> kHelpers = {
+    {"sdfPow", R"(float sdfPow(float a, float b) {
+  if (b == 0.0) return 1.0;
+  if (a > 0.0) return pow(a, b);
+  if (a == 0.0) return b > 0.0 ? 0.0 : uintBitsToFloat(0x7f800000u);
+  float magnitude = pow(-a, b);
+  if (b != floor(b)) return uintBitsToFloat(0x7fc00000u);
+  return mod(b, 2.0) == 0.0 ? magnitude : -magnitude;
+}
+)"},
+    {"sdfAtan2", R"(float sdfAtan2(float y, float x) {
+  return x == 0.0 && y == 0.0 ? 0.0 : atan(y, x);
+}
+)"},
+};
+
+std::string literal(double value) {
+  const auto v = static_cast<float>(value);
+  if (std::isnan(v)) return "uintBitsToFloat(0x7fc00000u)";
+  if (std::isinf(v)) return v > 0 ? "uintBitsToFloat(0x7f800000u)" : "uintBitsToFloat(0xff800000u)";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", v);
+  std::string s = text;
+  if (s.find_first_of(".e") == std::string::npos) s += ".0";
+  return v < 0 || std::signbit(v) ? "(" + s + ")" : s;
+}
+
+/// A number type whose numbers are GLSL: a name or a literal goes in, a term comes out.
+struct Code {
+  std::string text;
+};
+
+#define SDF_CODE_UNARY(call, function) \
+  Code call(const Code& a) { return {function "(" + a.text + ")"}; }
+SDF_CODE_UNARY(neg, "-")
+SDF_CODE_UNARY(abs, "abs")
+SDF_CODE_UNARY(sqrt, "sqrt")
+SDF_CODE_UNARY(sin, "sin")
+SDF_CODE_UNARY(cos, "cos")
+SDF_CODE_UNARY(tan, "tan")
+SDF_CODE_UNARY(asin, "asin")
+SDF_CODE_UNARY(acos, "acos")
+SDF_CODE_UNARY(atan, "atan")
+SDF_CODE_UNARY(exp, "exp")
+SDF_CODE_UNARY(log, "log")
+SDF_CODE_UNARY(floor, "floor")
+SDF_CODE_UNARY(ceil, "ceil")
+SDF_CODE_UNARY(round, "roundEven")
+#undef SDF_CODE_UNARY
+Code square(const Code& a) { return {a.text + " * " + a.text}; }
+
+#define SDF_CODE_BINARY(call, before, between, after) \
+  Code call(const Code& a, const Code& b) { return {before + a.text + between + b.text + after}; }
+SDF_CODE_BINARY(add, "", " + ", "")
+SDF_CODE_BINARY(sub, "", " - ", "")
+SDF_CODE_BINARY(mul, "", " * ", "")
+SDF_CODE_BINARY(div, "", " / ", "")
+SDF_CODE_BINARY(min, "min(", ", ", ")")
+SDF_CODE_BINARY(max, "max(", ", ", ")")
+SDF_CODE_BINARY(pow, "sdfPow(", ", ", ")")
+SDF_CODE_BINARY(atan2, "sdfAtan2(", ", ", ")")
+SDF_CODE_BINARY(mod, "mod(", ", ", ")")
+SDF_CODE_BINARY(less, "float(", " < ", ")")
+SDF_CODE_BINARY(lessEqual, "float(", " <= ", ")")
+SDF_CODE_BINARY(equal, "float(", " == ", ")")
+#undef SDF_CODE_BINARY
+
+Code select(const Code& c, const Code& a, const Code& b) {
+  return {c.text + " != 0.0 ? " + a.text + " : " + b.text};
+}
+// Of the fused operations, which no graph has.
+Code mulAdd(const Code& a, const Code& b, const Code& c) {
+  return {a.text + " * " + b.text + " + " + c.text};
+}
+Code squareAdd(const Code& a, const Code& c) { return mulAdd(a, a, c); }
+
+}  // namespace
+
+/// Writes the body of one function: a line for each node that depends on space.
+class GlslWriter::Function {
+ public:
+  explicit Function(GlslWriter& writer) : writer_(writer) {}
+
+  void write(std::span<const Expr> outputs) {
+    for (const Expr& e : topologicalOrder(outputs)) {
+      if (!inSpace(e)) continue;
+      if (e.op() == Op::Variable) {
+        names_[e] = kVariables[static_cast<int>(e.variableIndex())];
+      } else {
+        std::string name = "v" + std::to_string(lines_++);
+        body_ += "  float " + name + " = " +
+                 evaluateOp<Code>(e.op(), [&](int i) { return Code{this->name(e.arg(i))}; }).text + ";\n";
+        names_[e] = std::move(name);
+      }
+    }
+  }
+
+  const std::string& body() const { return body_; }
+
+  std::string name(const Expr& e) {
+    if (e.isConstant()) return literal(e.constantValue());
+    const auto found = names_.find(e);
+    return found == names_.end() ? writer_.uniform(e) : found->second;
+  }
+
+ private:
+  // A variable, or made of something that has a name here already: arguments come first.
+  bool inSpace(const Expr& e) const {
+    if (e.op() == Op::Variable) return true;
+    for (int i = 0; i < arity(e.op()); ++i)
+      if (names_.contains(e.arg(i))) return true;
+    return false;
+  }
+
+  GlslWriter& writer_;
+  std::unordered_map<Expr, std::string> names_;
+  std::string body_;
+  int lines_ = 0;
+};
+
+void GlslWriter::add(const std::string& name, std::span<const Expr> outputs) {
+  Function function(*this);
+  function.write(outputs);
+  const std::size_t count = outputs.size();
+  const bool returns = count == 1 || count == 3 || count == 4;
+  const std::string type = count == 1 ? "float" : "vec" + std::to_string(count);
+  std::string list, stores;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string value = function.name(outputs[i]);
+    list += (i == 0 ? "" : ", ") + value;
+    stores += "  values[" + std::to_string(i) + "] = " + value + ";\n";
+  }
+  const std::string values = returns ? "" : ", out float values[" + std::to_string(count) + "]";
+  functions_ += (returns ? type : "void") + " " + name + "(vec3 p, vec3 n" + values + ") {\n" +
+                function.body() + (returns ? "  return " + type + "(" + list + ");\n" : stores) + "}\n\n";
+}
+
+std::string GlslWriter::uniform(const Expr& e) {
+  const std::size_t slot = slots_.try_emplace(e, uniforms_.size()).first->second;
+  if (slot == uniforms_.size()) uniforms_.push_back(e);
+  return "sdfValues[" + std::to_string(slot / 4) + "]." + kComponents[slot % 4];
+}
+
+std::string GlslWriter::source() const {
+  std::string text;
+  if (!uniforms_.empty())
+    text += "uniform vec4 sdfValues[" + std::to_string((uniforms_.size() + 3) / 4) + "];\n\n";
+  for (const auto& [name, code] : kHelpers)
+    if (functions_.find(name + "(") != std::string::npos) text += code + "\n";
+  return text + functions_;
+}
+
+std::vector<float> GlslWriter::uniformValues(const std::map<std::string, double>& parameters) const {
+  std::vector<Expr> bound;
+  for (const Expr& e : uniforms_) bound.push_back(bind(e, parameters));
+  const std::vector<double> values = evaluateAll(Tape(bound), {});
+  std::vector<float> floats(values.begin(), values.end());
+  floats.resize((floats.size() + 3) / 4 * 4);
+  return floats;
+}
+
+}  // namespace sdf

@@ -1,0 +1,42 @@
+// The GLSL reading: expressions as source of functions, for GLSL 3.30 core and GLSL ES 3.00.
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "sdf/expr/expr.h"
+
+namespace sdf {
+
+/// Gathers functions over one set of uniforms. What depends on parameters alone is left to the CPU: a shader
+/// reads it as a number, so that a new value of a parameter compiles nothing and costs nothing a pixel.
+class GlslWriter {
+ public:
+  /// Adds a function of the point p and the unit normal n:
+  ///
+  ///     void name(vec3 p, vec3 n, out float values[outputs.size()])
+  ///
+  /// or, for one output, `float name(vec3 p, vec3 n)`, for three `vec3 name(…)`, for four `vec4 name(…)`.
+  /// Common parts are computed once. Values agree with the batch reading's but for the driver's rounding of
+  /// divisions, roots and transcendental functions; min and max of a NaN are the driver's choice. Cost:
+  /// linear in the size of the graph.
+  void add(const std::string& name, std::span<const Expr> outputs);
+
+  /// Declarations and functions, without `#version` and precision.
+  std::string source() const;
+  /// Values of the uniform `vec4 sdfValues[]`, in order, filled up to whole vectors: parameters have these
+  /// values or, where they are not named, their present ones. Empty if there is no such uniform.
+  std::vector<float> uniformValues(const std::map<std::string, double>& parameters) const;
+
+ private:
+  class Function;
+  std::string uniform(const Expr& e);
+
+  std::string functions_;
+  std::vector<Expr> uniforms_;
+  std::unordered_map<Expr, std::size_t> slots_;
+};
+
+}  // namespace sdf
