@@ -1,0 +1,191 @@
+#include "viewer/render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "viewer/gpu/context.h"
+
+namespace sdf::viewer {
+namespace {
+
+constexpr int kCoarse = 16, kFine = 4;  // sides of the cone pass's tiles, pixels
+
+/// The eye as the shaders want it.
+struct Frustum {
+  glm::dvec3 right, up, forward;  // forward as long as the picture plane is far away, in picture heights
+  double ahead = 0.0;             // of the eye, where rays begin
+};
+
+Frustum frustumOf(const Eye& eye) {
+  const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up)), up = glm::cross(right, forward);
+  return {eye.mirrored ? -right : right, up, forward / (2.0 * std::tan(0.5 * glm::radians(eye.fov))), 0.0};
+}
+
+/// How far rays may start before the eye: up to a ball around the scene.
+double aheadOf(const Frustum& f, const Eye& eye, const std::optional<Box>& bounds) {
+  if (!bounds) return 0.0;
+  const glm::dvec3 toCentre = bounds->centre() - eye.from;
+  const double radius = 0.5 * glm::length(bounds->size()), focal = glm::length(f.forward);
+  const double along = glm::dot(toCentre, f.forward) / focal - radius;
+  // Near the scene there is nothing to gain.
+  return along > 4.0 * radius ? along / focal : 0.0;
+}
+
+int tiles(int pixels, int side) { return (pixels + side - 1) / side; }
+
+Status ensure(std::optional<Target>& target, int width, int height) {
+  if (target && target->width() == width && target->height() == height) return okStatus();
+  auto made = Target::create(width, height, {PixelFormat::Rgba32f});
+  if (!made) return made.error();
+  target = std::move(*made);
+  return okStatus();
+}
+
+}  // namespace
+
+Frame frameOf(const Scene& scene, Parameters parameters) {
+  Frame frame;
+  frame.look = lookOf(scene, parameters);
+  frame.parameters = std::move(parameters);
+  return frame;
+}
+
+Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  auto shaders = assemble(scene, options);
+  if (!shaders) return shaders.error();
+  auto picture = Program::overScreen(shaders->picture);
+  if (!picture) return picture.error();
+  std::optional<Program> cones;
+  if (!shaders->cones.empty()) {
+    auto made = Program::overScreen(shaders->cones);
+    if (!made) return made.error();
+    cones = std::move(*made);
+  }
+  Renderer renderer(scene, std::move(*shaders), std::move(*picture), std::move(cones));
+  renderer.compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return renderer;
+}
+
+Renderer::Renderer(const Scene& scene, SceneShaders shaders, Program picture, std::optional<Program> cones)
+    : shaders_(std::move(shaders)),
+      picture_(std::move(picture)),
+      cones_(std::move(cones)),
+      shadow_(scene.shadow),
+      tapSpacing_(scene.ambientOcclusion.spacing),
+      maxDistance_(scene.maxDistance),
+      gamma_(scene.gamma.value_or(0.0)) {
+  const Box bounds = scene.whole().bounds;
+  if (bounds.finite() && !bounds.empty()) bounds_ = bounds;
+}
+
+void Renderer::setFrame(const Program& program, const Frame& frame, int width, int height) const {
+  const Eye& eye = frame.look.eye;
+  Frustum f = frustumOf(eye);
+  f.ahead = aheadOf(f, eye, bounds_);
+  const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
+  program.set("size", glm::vec2(width, height));
+  program.set("from", glm::vec3(eye.from + f.ahead * f.forward));
+  program.set("right", glm::vec3(f.right));
+  program.set("up", glm::vec3(f.up));
+  program.set("forward", glm::vec3(f.forward));
+  real("ahead", f.ahead);
+  real("maxDistance", maxDistance_);
+  real("pixelRadius", std::tan(0.5 * glm::radians(eye.fov)) / height);
+  real("epsilon", frame.epsilon);
+  real("threshold", frame.threshold);
+  program.set("maxSteps", frame.maxSteps);
+  const std::vector<float> values = shaders_.values.uniformValues(frame.parameters);
+  std::vector<glm::vec4> rows(values.size() / 4);
+  for (std::size_t i = 0; i < values.size(); ++i) rows[i / 4][static_cast<int>(i % 4)] = values[i];
+  if (!rows.empty()) program.set("sdfValues", rows);
+}
+
+void Renderer::setLook(const Program& program, const Frame& frame) const {
+  const Look& look = frame.look;
+  const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
+  std::vector<glm::vec4> vectors, colors;
+  for (const LookLight& light : look.lights) {
+    vectors.push_back(light.vector);
+    colors.push_back(light.color);
+  }
+  if (!vectors.empty()) {
+    program.set("lightVector", vectors);
+    program.set("lightColor", colors);
+  }
+  program.set("ambient", look.ambient);
+  program.set("fogColor", look.fogColor);
+  real("fogDensity", look.fogDensity);
+  real("shadowStart", shadow_.start);
+  real("shadowReach", shadow_.reach);
+  real("shadowHit", std::min(1e-3, 0.5 * shadow_.start));
+  real("sharpness", look.sharpness);
+  program.set("shadowSteps", shadow_.steps);
+  real("tapSpacing", tapSpacing_);
+  real("tapStrength", look.occlusionStrength);
+  real("gamma", gamma_);
+  program.set("samples", frame.samples);
+  // The slice lies across the axis that the eye looks along most.
+  const glm::dvec3 way = glm::abs(look.eye.to - look.eye.from);
+  const int axis = way.x >= way.y && way.x >= way.z ? 0 : way.y >= way.z ? 1 : 2;
+  glm::vec3 normal(0.0f);
+  normal[axis] = 1.0f;
+  program.set("slicePoint", glm::vec3(look.eye.to));
+  program.set("sliceNormal", normal);
+  real("isolines", std::pow(10.0, std::floor(std::log10(glm::length(look.eye.to - look.eye.from) / 10.0))));
+}
+
+Status Renderer::drawCones(const Frame& frame, int width, int height) {
+  if (auto s = ensure(coarse_, tiles(width, kCoarse), tiles(height, kCoarse)); !s) return s;
+  if (auto s = ensure(fine_, tiles(width, kFine), tiles(height, kFine)); !s) return s;
+  setFrame(*cones_, frame, width, height);
+  cones_->set("coarser", 0);
+  for (const auto& [target, side] : {std::pair(&*coarse_, kCoarse), std::pair(&*fine_, kFine)}) {
+    target->bind();
+    coarse_->bindTexture(0);
+    cones_->set("first", side == kCoarse ? 1 : 0);
+    cones_->set("tile", static_cast<float>(side));
+    cones_->draw();
+  }
+  return okStatus();
+}
+
+Status Renderer::draw(const Frame& frame, const Target& target) {
+  if (cones_)
+    if (auto s = drawCones(frame, target.width(), target.height()); !s) return s;
+  setFrame(picture_, frame, target.width(), target.height());
+  setLook(picture_, frame);
+  target.bind();
+  if (cones_) {
+    fine_->bindTexture(0);
+    picture_.set("starts", 0);
+  }
+  picture_.draw();
+  return check("draw the scene");
+}
+
+Result<Readings> Renderer::readings(const Target& target) const {
+  const auto mean = [](const std::vector<glm::vec4>& pixels) {
+    glm::dvec4 sum(0.0);
+    for (const glm::vec4& p : pixels) sum += glm::dvec4(p);
+    return sum;
+  };
+  auto counts = target.pixels(1);
+  if (!counts) return counts.error();
+  const double pixels = static_cast<double>(counts->size());
+  glm::dvec4 sum = mean(*counts);
+  if (cones_)
+    for (const auto* level : {&*coarse_, &*fine_}) {
+      auto starts = level->pixels();
+      if (!starts) return starts.error();
+      sum.x += mean(*starts).y;
+    }
+  sum /= pixels;
+  return Readings{sum.x, sum.y, sum.z, sum.w};
+}
+
+}  // namespace sdf::viewer

@@ -1,0 +1,63 @@
+// Draws a scene with OpenGL, in the current context.
+#pragma once
+#include <optional>
+
+#include "viewer/gpu/program.h"
+#include "viewer/gpu/target.h"
+#include "viewer/render/look.h"
+#include "viewer/shaders/assemble.h"
+
+namespace sdf::viewer {
+
+/// What may change from one frame to the next without compiling.
+struct Frame {
+  Parameters parameters;
+  Look look;
+  int samples = 1;         ///< a side: a pixel takes its square
+  int maxSteps = 512;      ///< readings that a ray may take
+  double epsilon = 1e-5;   ///< least distance that counts as a hit, scene units
+  double threshold = 0.1;  ///< share of the pixel's cone that counts as a hit
+};
+
+/// Readings of the distance a pixel, means over the picture; with `countReadings` only.
+struct Readings {
+  double primary = 0.0;  ///< a primary ray, its part of the cone pass included
+  double shadow = 0.0, occlusion = 0.0, reflection = 0.0;
+};
+
+/// The frame of the scene's own look.
+Frame frameOf(const Scene& scene, Parameters parameters = {});
+
+class Renderer {
+ public:
+  /// Compiles the scene's shaders. Errors: Scene as assemble; Graphics with the driver's log.
+  static Result<Renderer> make(const Scene& scene, const ShaderOptions& options = {});
+
+  /// Draws into the target, whose first layer is the picture (alpha 0 where a primary ray ran out of steps)
+  /// and, with countReadings, whose second (floats) holds what readings(target) then sums up. Errors: Limits,
+  /// Graphics.
+  Status draw(const Frame& frame, const Target& target);
+
+  /// Errors: as Target::pixels.
+  Result<Readings> readings(const Target& target) const;
+
+  const SceneShaders& shaders() const { return shaders_; }
+  double compileSeconds() const { return compileSeconds_; }
+
+ private:
+  Renderer(const Scene& scene, SceneShaders shaders, Program picture, std::optional<Program> cones);
+  void setFrame(const Program& program, const Frame& frame, int width, int height) const;
+  void setLook(const Program& program, const Frame& frame) const;
+  Status drawCones(const Frame& frame, int width, int height);
+
+  SceneShaders shaders_;
+  Program picture_;
+  std::optional<Program> cones_;
+  std::optional<Target> coarse_, fine_;
+  std::optional<Box> bounds_;  // of the whole scene, if it is finite
+  Shadow shadow_;
+  double tapSpacing_, maxDistance_, gamma_;
+  double compileSeconds_ = 0.0;
+};
+
+}  // namespace sdf::viewer

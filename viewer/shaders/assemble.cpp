@@ -1,0 +1,187 @@
+#include "viewer/shaders/assemble.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/expr/gradient.h"
+#include "viewer/shaders/parts.h"
+
+namespace sdf::viewer {
+namespace {
+
+// A gradient of more operations than this is taken by differences: drivers inline and unroll, and take
+// seconds.
+constexpr std::size_t kLongGradient = 6000;
+
+constexpr const char* kAttributeNames[kAttributeCount] = {
+    "RED",          "GREEN",          "BLUE",           "AMBIENT_RED",   "AMBIENT_GREEN", "AMBIENT_BLUE",
+    "SPECULAR_RED", "SPECULAR_GREEN", "SPECULAR_BLUE",  "SHININESS",     "REFLECTIVITY",  "FRESNEL_POWER",
+    "FRESNEL_BIAS", "EMISSION_RED",   "EMISSION_GREEN", "EMISSION_BLUE", "MATERIAL_ID"};
+
+std::string number(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", v);
+  return std::string("float(") + text + ")";
+}
+
+/// 1 / L for the L that the shape claims everywhere, or that its formula has within its bounds.
+Result<double> inverseSlope(const Shape& shape) {
+  double slope = shape.claim.region.contains(Box::everything()) ? shape.claim.lipschitz : kInfinity;
+  if (slope == kInfinity) slope = shape.distance.lipschitz();
+  if (slope == kInfinity && shape.bounds.finite())
+    slope = lipschitzOver(Tape(shape.distance), shape.bounds.grown(0.5 * shape.bounds.longestSide()));
+  if (!(slope < kInfinity))
+    return Error{
+        ErrorKind::Scene,
+        "the distance has no known slope, so its rays cannot be marched; give its field() bounds and a "
+        "lipschitz constant"};
+  return slope > 0.0 ? 1.0 / slope : 1.0;
+}
+
+class Assembler {
+ public:
+  Assembler(const Scene& scene, const ShaderOptions& options, const Shape& whole, double inverse)
+      : scene_(scene), options_(options), whole_(whole), inverse_(inverse) {}
+
+  SceneShaders run() {
+    SceneShaders result;
+    result.lights = static_cast<int>(scene_.lights.size());
+    result.values.add("sdfDistance", {&whole_.distance, 1});
+    if (options_.method == Method::AutoRelaxed && !stepsCount())
+      result.cones =
+          header() + result.values.source() + defines(false) + parts::kCamera + parts::kField + parts::kCones;
+    const std::string body =
+        options_.view == View::Picture ? picture(result.values) : debugView(result.values);
+    result.picture =
+        header() + result.values.source() + defines(!result.cones.empty()) + body + parts::kPicture;
+    return result;
+  }
+
+ private:
+  bool stepsCount() const { return scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps; }
+  bool taps() const { return scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Taps; }
+  bool shadows() const { return scene_.shadow.kind != Shadow::Kind::None && !scene_.lights.empty(); }
+
+  std::string header() const {
+    return options_.es
+               ? "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+               : "#version 330 core\n";
+  }
+
+  bool mirrors() const {
+    return scene_.reflectionBounces > 0 &&
+           !whole_.surface[static_cast<int>(Attribute::Reflectivity)].isConstant(0.0);
+  }
+
+  std::string defines(bool cones) const {
+    std::string text;
+    const auto define = [&](const std::string& name, const std::string& value) {
+      text += "#define " + name + " " + value + "\n";
+    };
+    const auto count = [&](const std::string& name, const std::string& what) {
+      define(name, options_.countReadings ? what : "");
+    };
+    if (options_.method == Method::Plain || stepsCount()) text += "#define METHOD_PLAIN\n";
+    define("INVERSE_SLOPE", number(inverse_));
+    define("LIGHTS", std::to_string(scene_.lights.size()));
+    define("TAPS", std::to_string(scene_.ambientOcclusion.count));
+    define("BOUNCES", std::to_string(mirrors() ? scene_.reflectionBounces : 0));
+    define("OCCLUSION", taps() ? "occlusion(p, n)" : "1.0");
+    define("STEP_OCCLUSION", stepsCount() ? "max(0.0, 1.0 - tapStrength * float(readings))" : "1.0");
+    define("DIRECT", scene_.lights.empty() ? "vec3(0.0)" : "direct(p, n, d, s)");
+    define("SHADE_LIGHT", shadows()
+                              ? "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
+                                "min(shadowReach, far) : shadowReach);"
+                              : "");
+    define("START", cones ? "texelFetch(starts, ivec2(gl_FragCoord.xy) / 4, 0).r" : "0.0");
+    if (cones) text += "uniform sampler2D starts;\n";
+    const bool colours = options_.view == View::Picture || options_.view == View::Material;
+    define("ENCODE(c)", colours ? "encode(c)" : "(c)");
+    count("COUNT_MARCH", "counted[bounce == 0 ? 0 : 3] += float(readings);");
+    count("COUNT_PRIMARY", "counted[0] += float(readings);");
+    count("COUNT_SHADOW", "counted[1] += 1.0;");
+    count("COUNT_OCCLUSION", "counted[2] += 1.0;");
+    count("STORE_COUNTS", "counts = counted / float(samples * samples);");
+    if (options_.countReadings) text += "layout(location = 1) out vec4 counts;\nvec4 counted = vec4(0.0);\n";
+    define("ATTRIBUTES", std::to_string(kAttributeCount));
+    for (int i = 0; i < kAttributeCount; ++i)
+      text += std::string("const int ") + kAttributeNames[i] + " = " + std::to_string(i) + ";\n";
+    return text;
+  }
+
+  std::string marching() const { return std::string(parts::kCamera) + parts::kField + parts::kMarch; }
+
+  // Adds what the gradient needs to the writer.
+  std::string gradient(GlslWriter& writer) const {
+    const Vec3E g = gradientOf(whole_.distance);
+    const Expr all[] = {g.x, g.y, g.z};
+    if (topologicalOrder(all).size() > kLongGradient)
+      return std::string(parts::kGradientByTaps) + parts::kNormal;
+    writer.add("sdfGradient", all);
+    return std::string(parts::kGradient) + parts::kNormal;
+  }
+
+  std::string shadowPart() const {
+    const char* kinds[] = {"", parts::kHardShadow, parts::kSoftShadow, parts::kImprovedShadow,
+                           parts::kSignedShadow};
+    return shadows() ? std::string(parts::kShadowSettings) + kinds[static_cast<int>(scene_.shadow.kind)] : "";
+  }
+
+  std::string occlusionPart() const {
+    if (taps()) return parts::kOcclusionTaps;
+    return stepsCount() ? "uniform float tapStrength;\n" : "";
+  }
+
+  std::string picture(GlslWriter& writer) const {
+    writer.add("sdfSurface", whole_.surface);
+    const Vec3E& b = scene_.background;
+    const Expr background[] = {b.x, b.y, b.z};
+    writer.add("sdfBackground", background);
+    std::string text = marching() + gradient(writer) + shadowPart() + occlusionPart();
+    if (!scene_.lights.empty()) text += std::string(parts::kLightSettings) + parts::kLights;
+    return text + parts::kRadiance + parts::kColor;
+  }
+
+  std::string debugView(GlslWriter& writer) const {
+    const std::string start = marching() + parts::kHit;
+    switch (options_.view) {
+      case View::Steps:
+        return start + parts::kStepsView;
+      case View::Slice:
+        return start + parts::kSliceView;
+      case View::Normals:
+        return start + gradient(writer) + parts::kNormalsView;
+      case View::Gradient:
+        return start + gradient(writer) + parts::kGradientView;
+      case View::Occlusion:
+        return start + gradient(writer) + occlusionPart() + parts::kOcclusionView;
+      case View::Material:
+        writer.add("sdfSurface", whole_.surface);
+        return start + gradient(writer) + parts::kMaterialView;
+      default:
+        break;
+    }
+    return shadows() ? start + shadowPart() + parts::kLightSettings + parts::kShadowView
+                     : start +
+                           "vec3 colorOf(Ray ray, float t, out bool budget) {\n  int readings;\n"
+                           "  return hit(ray, t, budget, readings) ? vec3(1.0) : NOTHING;\n}\n";
+  }
+
+  const Scene& scene_;
+  const ShaderOptions& options_;
+  const Shape& whole_;
+  double inverse_;
+};
+
+}  // namespace
+
+Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) {
+  if (const auto sound = checked(scene); !sound) return sound.error();
+  const Shape whole = scene.whole();
+  const auto inverse = inverseSlope(whole);
+  if (!inverse) return inverse.error();
+  return Assembler(scene, options, whole, *inverse).run();
+}
+
+}  // namespace sdf::viewer

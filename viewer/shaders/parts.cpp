@@ -1,0 +1,398 @@
+#include "parts.h"
+
+namespace sdf::viewer::parts {
+
+// A ray's t is counted from a plane `ahead` picture distances before the eye: far from the scene, positions
+// near it would otherwise be rounded to steps of the eye's distance. `from` lies on that plane.
+const char* const kCamera = R"(
+uniform vec2 size;            // of the picture, pixels
+uniform vec3 from, right, up;
+uniform vec3 forward;         // as long as the picture plane is far away, in picture heights
+uniform float ahead;          // of the eye, where t = 0: in lengths of `forward`
+uniform float maxDistance;    // from the eye
+uniform float pixelRadius;    // of a pixel's cone at distance 1
+uniform float epsilon;        // least distance that counts as a hit
+uniform float threshold;      // share of the pixel's cone that does
+uniform int maxSteps;
+
+struct Ray {
+  vec3 origin, direction;
+  float before;               // distance from the eye to t = 0
+};
+
+Ray rayThrough(vec2 pixel) {
+  vec2 uv = (pixel - 0.5 * size) / size.y;
+  vec3 across = uv.x * right + uv.y * up, way = across + forward;
+  float far = length(way);
+  return Ray(from + ahead * across, way / far, ahead * far);
+}
+)";
+
+const char* const kField = R"(
+float field(vec3 p) { return sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE; }
+)";
+
+const char* const kMarch = R"(
+const int MISS = 0, HIT = 1, BUDGET = 2;
+
+float march(Ray ray, float t, float tMax, out int status, out int readings) {
+  float r = 0.0, z = 0.0, slope = -1.0;
+  status = BUDGET;
+  readings = 0;
+  while (readings < maxSteps) {
+    float next = field(ray.origin + (t + z) * ray.direction);
+    ++readings;
+    if (z > r && z > r + next) {  // the balls do not overlap: something may lie between
+      z = r;
+      slope = -1.0;
+      continue;
+    }
+    if (z > 0.0) slope += 0.3 * ((next - r) / z - slope);
+    t += z;
+    float near = epsilon + threshold * pixelRadius * (ray.before + t);
+    if (next <= near) {
+      if (z > 0.0 && next < r) t += clamp(next * z / (r - next), -z, 4.0 * near);  // where the secant meets 0
+      status = HIT;
+      return t;
+    }
+    r = next;
+    if (t + r >= tMax) {
+      status = MISS;
+      return tMax;
+    }
+#ifdef METHOD_PLAIN
+    z = r;
+#else
+    z = min(max(2.0 * r / (1.0 - slope), r), tMax - t);
+#endif
+  }
+  return t;
+}
+)";
+
+const char* const kGradient = R"(
+vec3 gradientAt(vec3 p) { return sdfGradient(p, vec3(0.0)); }
+)";
+
+// Four corners of a cube: Evans 2006; written as a loop, so that the distance is inlined once.
+const char* const kGradientByTaps = R"(
+vec3 gradientAt(vec3 p) {
+  float h = 1e-4 * max(1.0, max(abs(p.x), max(abs(p.y), abs(p.z))));
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    vec3 corner = vec3(float(((i + 3) >> 1) & 1), float((i >> 1) & 1), float(i & 1)) * 2.0 - 1.0;
+    sum += corner * sdfDistance(p + h * corner, vec3(0.0));
+  }
+  return 0.25 / h * sum;
+}
+)";
+
+const char* const kNormal = R"(
+vec3 normalAt(vec3 p, vec3 d) {
+  vec3 g = gradientAt(p);
+  float far = length(g);
+  return far > 0.0 ? g / far : -d;
+}
+)";
+
+const char* const kShadowSettings = R"(
+uniform float shadowStart, shadowReach, shadowHit, sharpness;
+uniform int shadowSteps;
+)";
+
+const char* const kHardShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart;
+  for (int i = 0; i < shadowSteps; ++i) {
+    float g = field(p + t * l);
+    COUNT_SHADOW
+    if (g <= shadowHit) return 0.0;
+    t += g;
+    if (t >= reach) break;
+  }
+  return 1.0;
+}
+)";
+
+const char* const kSoftShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart, light = 1.0;
+  for (int i = 0; i < shadowSteps; ++i) {
+    float g = field(p + t * l);
+    COUNT_SHADOW
+    if (g <= shadowHit) return 0.0;
+    light = min(light, sharpness * g / t);
+    t += g;
+    if (t >= reach) break;
+  }
+  return light;
+}
+)";
+
+const char* const kImprovedShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart, light = 1.0, step = 0.0, before = 0.0;
+  for (int i = 0; i < shadowSteps; ++i) {
+    float g = field(p + t * l);
+    COUNT_SHADOW
+    if (g <= shadowHit) return 0.0;
+    float y = step > 0.0 ? (step * step + g * g - before * before) / (2.0 * step) : 0.0;
+    float d = step > 0.0 ? sqrt(max(0.0, g * g - y * y)) : g;
+    if (t - y > 0.0) light = min(light, sharpness * d / (t - y));
+    step = before = g;
+    t += g;
+    if (t >= reach) break;
+  }
+  return light;
+}
+)";
+
+const char* const kSignedShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart, x = 1.0;
+  for (int i = 0; i < shadowSteps; ++i) {
+    float g = field(p + t * l);
+    COUNT_SHADOW
+    x = min(x, sharpness * g / t);
+    if (x <= -1.0) return 0.0;
+    t += max(abs(g), shadowHit);
+    if (t >= reach) break;
+  }
+  return 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x);
+}
+)";
+
+const char* const kOcclusionTaps = R"(
+uniform float tapSpacing, tapStrength;
+
+float occlusion(vec3 p, vec3 n) {
+  float closed = 0.0;
+  for (int i = 1; i <= TAPS; ++i) {
+    float h = tapSpacing * float(i);
+    closed += (h - field(p + h * n)) / h;
+    COUNT_OCCLUSION
+  }
+  return clamp(1.0 - tapStrength * closed, 0.0, 1.0);
+}
+)";
+
+const char* const kLightSettings = R"(
+uniform vec4 lightVector[LIGHTS];  // xyz: towards the light, of length 1, if w is 0; its position if w is 1
+uniform vec4 lightColor[LIGHTS];   // times its intensity; w: 1 if it casts shadows
+)";
+
+const char* const kLights = R"(
+vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
+  vec3 sum = vec3(0.0);
+  vec3 diffuse = vec3(s[RED], s[GREEN], s[BLUE]), specular = vec3(s[SPECULAR_RED], s[SPECULAR_GREEN], s[SPECULAR_BLUE]);
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 way = lightVector[i].xyz - lightVector[i].w * p;
+    float far = length(way), cosine = dot(n, way) / far;
+    vec3 l = way / far;
+    float gloss = max(dot(2.0 * cosine * n - l, -d), 0.0);
+    float highlight = gloss > 0.0 ? pow(gloss, s[SHININESS]) : (s[SHININESS] > 0.0 ? 0.0 : 1.0);
+    vec3 light = diffuse * max(cosine, 0.0) + specular * highlight;
+    if (light == vec3(0.0)) continue;
+    SHADE_LIGHT
+    sum += lightColor[i].rgb * light;
+  }
+  return sum;
+}
+)";
+
+const char* const kRadiance = R"(
+uniform vec3 ambient;
+uniform vec3 fogColor;
+uniform float fogDensity;
+
+vec3 radiance(Ray ray, float t, out bool budget) {
+  vec3 total = vec3(0.0), through = vec3(1.0);
+  float tMax = maxDistance - ray.before;
+  budget = false;
+  for (int bounce = 0; bounce <= BOUNCES; ++bounce) {
+    int status, readings;
+    t = march(ray, t, tMax, status, readings);
+    COUNT_MARCH
+    if (status == MISS) {
+      total += through * sdfBackground(ray.direction, vec3(0.0));
+      break;
+    }
+    if (status == BUDGET) budget = true;
+    vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = normalAt(p, d);
+    float s[ATTRIBUTES];
+    sdfSurface(p, n, s);
+    vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
+    local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
+    local *= STEP_OCCLUSION;
+    float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t)), mirror = 0.0;
+#if BOUNCES > 0
+    if (bounce < BOUNCES && s[REFLECTIVITY] > 0.0) {
+      float edge = 1.0 - max(dot(-d, n), 0.0);
+      float rim = s[FRESNEL_POWER] == 0.0 ? 1.0 : pow(edge, s[FRESNEL_POWER]);
+      mirror = min(s[REFLECTIVITY] * (s[FRESNEL_BIAS] + rim), 1.0);
+    }
+#endif
+    total += through * mix(fogColor, (1.0 - mirror) * local, clear);
+    through *= clear * mirror;
+    if (max(through.r, max(through.g, through.b)) < 1.0 / 1024.0) break;
+    float off = 2.0 * (epsilon + threshold * pixelRadius * (ray.before + t));
+    ray = Ray(p + off * n, reflect(d, n), ray.before + t);
+    t = 0.0;
+    tMax = maxDistance;
+  }
+  return total;
+}
+)";
+
+const char* const kPicture = R"(
+uniform int samples;   // a side: a pixel takes its square
+uniform float gamma;   // of the output; 0: sRGB
+
+vec3 encode(vec3 c) {
+  c = clamp(c, 0.0, 1.0);
+  if (gamma > 0.0) return gamma == 1.0 ? c : pow(c, vec3(1.0 / gamma));
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+
+layout(location = 0) out vec4 color;  // alpha is 0 where a primary ray ran out of steps
+
+void main() {
+  vec3 sum = vec3(0.0);
+  bool spent = false;
+  float start = START;
+  for (int i = 0; i < samples * samples; ++i) {
+    vec2 within = (vec2(float(i % samples), float(i / samples)) + 0.5) / float(samples);
+    bool budget;
+    sum += colorOf(rayThrough(floor(gl_FragCoord.xy) + within), start, budget);
+    spent = spent || budget;
+  }
+  color = vec4(ENCODE(sum / float(samples * samples)), spent ? 0.0 : 1.0);
+  STORE_COUNTS
+}
+)";
+
+const char* const kColor = R"(
+vec3 colorOf(Ray ray, float t, out bool budget) { return radiance(ray, t, budget); }
+)";
+
+const char* const kHit = R"(
+// The primary ray of a debug view.
+bool hit(Ray ray, inout float t, out bool budget, out int readings) {
+  int status;
+  t = march(ray, t, maxDistance - ray.before, status, readings);
+  budget = status == BUDGET;
+  COUNT_PRIMARY
+  return status != MISS;
+}
+const vec3 NOTHING = vec3(0.1);
+)";
+
+const char* const kNormalsView = R"(
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  int readings;
+  if (!hit(ray, t, budget, readings)) return NOTHING;
+  return 0.5 + 0.5 * normalAt(ray.origin + t * ray.direction, ray.direction);
+}
+)";
+
+const char* const kStepsView = R"(
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  int readings;
+  hit(ray, t, budget, readings);
+  if (budget) return vec3(1.0, 0.0, 1.0);
+  float share = log2(1.0 + float(readings)) / log2(1.0 + float(maxSteps));
+  return clamp(1.5 - abs(4.0 * share - vec3(3.0, 2.0, 1.0)), 0.0, 1.0);
+}
+)";
+
+const char* const kSliceView = R"(
+uniform vec3 slicePoint, sliceNormal;
+uniform float isolines;  // their spacing
+
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  budget = false;
+  t = dot(slicePoint - ray.origin, sliceNormal) / dot(ray.direction, sliceNormal);
+  if (!(t > 0.0)) return NOTHING;
+  float f = sdfDistance(ray.origin + t * ray.direction, vec3(0.0));
+  float pixel = 1.5 * pixelRadius * (ray.before + t);
+  float phase = f / isolines, off = abs(phase - floor(phase + 0.5)) * isolines;
+  vec3 c = (f > 0.0 ? vec3(0.9, 0.6, 0.3) : vec3(0.35, 0.6, 0.95)) * (1.0 - 0.8 * exp(-abs(f) / isolines));
+  c *= mix(0.6, 1.0, clamp(off / pixel, 0.0, 1.0));
+  return mix(vec3(1.0), c, clamp(abs(f) / (2.0 * pixel), 0.0, 1.0));
+}
+)";
+
+const char* const kGradientView = R"(
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  int readings;
+  if (!hit(ray, t, budget, readings)) return NOTHING;
+  float off = clamp(length(gradientAt(ray.origin + t * ray.direction)) - 1.0, -1.0, 1.0);
+  return vec3(max(off, 0.0), 1.0 - abs(off), max(-off, 0.0));
+}
+)";
+
+const char* const kMaterialView = R"(
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  int readings;
+  if (!hit(ray, t, budget, readings)) return NOTHING;
+  vec3 p = ray.origin + t * ray.direction;
+  float s[ATTRIBUTES];
+  sdfSurface(p, normalAt(p, ray.direction), s);
+  return vec3(s[RED], s[GREEN], s[BLUE]);
+}
+)";
+
+const char* const kOcclusionView = R"(
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  int readings;
+  if (!hit(ray, t, budget, readings)) return NOTHING;
+  vec3 p = ray.origin + t * ray.direction, n = normalAt(p, ray.direction);
+  return vec3(OCCLUSION * STEP_OCCLUSION);
+}
+)";
+
+const char* const kShadowView = R"(
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  int readings;
+  if (!hit(ray, t, budget, readings)) return NOTHING;
+  vec3 p = ray.origin + t * ray.direction;
+  float arrives = 0.0, asked = 0.0;
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 way = lightVector[i].xyz - lightVector[i].w * p;
+    float far = length(way), light = lightColor[i].w;
+    vec3 l = way / far;
+    if (light == 0.0) continue;
+    asked += 1.0;
+    arrives += shadow(p, l, lightVector[i].w > 0.0 ? min(shadowReach, far) : shadowReach);
+  }
+  return vec3(asked > 0.0 ? arrives / asked : 1.0);
+}
+)";
+
+// Two rays through one tile are no farther apart at equal t than their pixels' distance times
+// (ahead + t / |forward|): what the ball around the tile's middle ray leaves of that is free for both.
+const char* const kCones = R"(
+uniform sampler2D coarser;  // starts of tiles four times as large; not read at the first level
+uniform bool first;
+uniform float tile;         // its side in pixels
+layout(location = 0) out vec4 start;
+
+void main() {
+  Ray ray = rayThrough((floor(gl_FragCoord.xy) + 0.5) * tile);
+  float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
+  float t = first ? 0.0 : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).r;
+  int readings = 0;
+  while (readings < 64) {
+    if (t >= maxDistance) break;
+    float wide = spread * ahead + widening * t;
+    float g = field(ray.origin + t * ray.direction);
+    ++readings;
+    float on = (g - wide) / (1.0 + widening);
+    if (on <= 0.25 * wide + epsilon) break;
+    t += on;
+  }
+  start = vec4(t, float(readings), 0.0, 0.0);
+}
+)";
+
+}  // namespace sdf::viewer::parts

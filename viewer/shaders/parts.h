@@ -1,0 +1,47 @@
+// The shaders' fixed parts, in the order in which they are put together. Each states what it needs of the
+// ones before.
+#pragma once
+
+namespace sdf::viewer::parts {
+
+/// The frame's uniforms, and rayThrough(pixel).
+extern const char* const kCamera;
+/// Of sdfDistance: field(p), the radius of the ball around p that is free of the surface.
+extern const char* const kField;
+/// march(...): where a ray hits. METHOD_PLAIN chooses plain sphere tracing. Counts readings where COUNT says
+/// so.
+extern const char* const kMarch;
+/// gradientAt(p): exact, or by differences for scenes whose gradient would be too long a program.
+extern const char* const kGradient;
+extern const char* const kGradientByTaps;
+/// normalAt(p, d), d being the way of the ray.
+extern const char* const kNormal;
+/// shadow(p, l, reach), one of four, and the uniforms of all.
+extern const char* const kShadowSettings;
+extern const char* const kHardShadow;
+extern const char* const kSoftShadow;
+extern const char* const kImprovedShadow;
+extern const char* const kSignedShadow;
+/// occlusion(p, n) by taps along the normal.
+extern const char* const kOcclusionTaps;
+extern const char* const kLightSettings;
+/// Phong's lights over the attributes s[]: direct(p, n, d, s).
+extern const char* const kLights;
+/// radiance(ray, t): the whole stack along a ray and its reflections.
+extern const char* const kRadiance;
+/// colorOf(ray, t, budget) of the picture, and of each debug view over hit(...).
+extern const char* const kColor;
+extern const char* const kHit;
+extern const char* const kNormalsView;
+extern const char* const kStepsView;
+extern const char* const kSliceView;
+extern const char* const kGradientView;
+extern const char* const kMaterialView;
+extern const char* const kOcclusionView;
+extern const char* const kShadowView;
+/// main() of the picture: samples, and the output's encoding. Needs colorOf(ray, t).
+extern const char* const kPicture;
+/// main() of the cone pass.
+extern const char* const kCones;
+
+}  // namespace sdf::viewer::parts
