@@ -1,0 +1,154 @@
+#include "viewer/headless.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "command_line/frames.h"
+#include "sdf/base/file.h"
+#include "sdf/script/script.h"
+#include "viewer/gpu/context.h"
+#include "viewer/gpu/png.h"
+#include "viewer/render/renderer.h"
+
+namespace sdf::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+class Headless {
+ public:
+  Headless(const Options& options, Scene scene) : options_(options), scene_(std::move(scene)) {}
+
+  Status pictures() {
+    const int count = options_.frames.value_or(1);
+    for (int i = 0; i < count; ++i)
+      if (auto s = checkWritable(nameOf(i)); !s) return s;
+    auto renderer = Renderer::make(scene_, options_.shader);
+    if (!renderer) return renderer.error();
+    auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8});
+    if (!target) return target.error();
+    for (int i = 0; i < count; ++i) {
+      if (auto s = renderer->draw(frame(options_.time + i / options_.framesPerSecond), *target); !s) return s;
+      if (auto s = write(*target, nameOf(i)); !s) return s;
+    }
+    return okStatus();
+  }
+
+  Status bench(std::ostream& out, const std::string& driver) {
+    ShaderOptions counting = options_.shader;
+    counting.countReadings = true;
+    auto renderer = Renderer::make(scene_, options_.shader);
+    auto counter = Renderer::make(scene_, counting);
+    for (const auto* made : {&renderer, &counter})
+      if (!*made) return made->error();
+    auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8, PixelFormat::Rgba32f});
+    if (!target) return target.error();
+    const Frame f = frame(options_.time);
+    std::vector<double> times;
+    for (int i = 0; i <= *options_.bench; ++i) {
+      const auto start = Clock::now();
+      if (auto s = renderer->draw(f, *target); !s) return s;
+      if (auto s = target->picture(); !s) return s.error();  // waits until all is drawn
+      times.push_back(millisecondsSince(start));
+    }
+    if (auto s = counter->draw(f, *target); !s) return s;
+    const auto readings = counter->readings(*target);
+    if (!readings) return readings.error();
+    const auto pixels = target->pixels();
+    if (!pixels) return pixels.error();
+    const auto spent =
+        std::count_if(pixels->begin(), pixels->end(), [](const glm::vec4& p) { return p.a < 0.5f; });
+    const double first = times.front();
+    times.erase(times.begin());
+    std::sort(times.begin(), times.end());
+    const double area = static_cast<double>(pixels->size()) * options_.samples * options_.samples;
+    out << nlohmann::ordered_json{{"driver", driver},
+                                  {"width", options_.width},
+                                  {"height", options_.height},
+                                  {"samples", options_.samples * options_.samples},
+                                  {"compile_ms", renderer->compileSeconds() * 1e3},
+                                  {"first_frame_ms", first},
+                                  {"frame_ms", times[times.size() / 2]},
+                                  {"shader_bytes", renderer->shaders().picture.size()},
+                                  {"readings_a_ray",
+                                   {{"primary", readings->primary},
+                                    {"shadow", readings->shadow},
+                                    {"occlusion", readings->occlusion},
+                                    {"reflection", readings->reflection}}},
+                                  {"rays", area},
+                                  {"pixels_out_of_steps", spent}}
+               .dump(2)
+        << '\n';
+    return okStatus();
+  }
+
+  Status shader() const {
+    const auto shaders = assemble(scene_, options_.shader);
+    if (!shaders) return shaders.error();
+    return writeFile(*options_.glsl, [&](std::ostream& out) {
+      out << shaders->picture;
+      return okStatus();
+    });
+  }
+
+ private:
+  std::filesystem::path nameOf(int i) const {
+    return options_.frames ? command_line::frameName(*options_.picture, i + 1) : *options_.picture;
+  }
+
+  Frame frame(double time) const {
+    Parameters parameters = options_.parameters;
+    parameters["time"] = time;
+    Frame f = frameOf(scene_, std::move(parameters));
+    if (options_.eye) f.look.eye = *options_.eye;
+    f.samples = options_.samples;
+    f.maxSteps = options_.maxSteps;
+    return f;
+  }
+
+  // Alpha marks pixels that ran out of steps: told, not shown.
+  Status write(const Target& target, const std::filesystem::path& file) const {
+    auto drawn = target.picture();
+    if (!drawn) return drawn.error();
+    std::size_t spent = 0;
+    for (std::size_t i = 3; i < drawn->bytes.size(); i += 4) {
+      spent += drawn->bytes[i] < 128;
+      drawn->bytes[i] = 255;
+    }
+    if (spent > 0)
+      std::cerr << "sdfview: warning: " << spent
+                << " pixels ran out of steps; give more with --steps, or see them with "
+                << "--view steps\n";
+    return writePng(file, *drawn);
+  }
+
+  const Options& options_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Status runHeadless(const Options& options, std::ostream& out) {
+  ScriptOptions script;
+  script.values = options.parameters;
+  script.time = options.time;
+  auto scene = loadScene(options.scene, script);
+  if (!scene) return scene.error();
+  Headless headless(options, std::move(*scene));
+  if (options.glsl)
+    if (auto s = headless.shader(); !s) return s;
+  if (!options.picture && !options.bench) return okStatus();
+  auto context = Context::headless();
+  if (!context) return context.error();
+  if (options.picture)
+    if (auto s = headless.pictures(); !s) return s;
+  return options.bench ? headless.bench(out, (*context)->description()) : okStatus();
+}
+
+}  // namespace sdf::viewer

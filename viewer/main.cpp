@@ -1,0 +1,26 @@
+#include <iostream>
+
+#include "viewer/headless.h"
+#include "viewer/options.h"
+
+namespace {
+
+/// Prints the error and returns the exit status for it. A driver's log has lines of its own.
+int fail(const sdf::Error& error) {
+  std::cerr << "sdfview: " << error.message << std::endl;
+  return static_cast<int>(error.kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  auto parsed = sdf::viewer::parseOptions(argc, argv);
+  if (!parsed) return fail(parsed.error());
+  if (const auto* answer = std::get_if<sdf::command_line::Answer>(&*parsed)) {
+    std::cout << answer->text;
+    return 0;
+  }
+  const auto& options = std::get<sdf::viewer::Options>(*parsed);
+  const sdf::Status done = sdf::viewer::runHeadless(options, std::cout);
+  return done ? 0 : fail(done.error());
+}

@@ -1,0 +1,32 @@
+// What sdfview's command line asks for.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "command_line/values.h"
+#include "viewer/render/look.h"
+#include "viewer/shaders/assemble.h"
+
+namespace sdf::viewer {
+
+struct Options {
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> picture, glsl;
+  std::optional<int> bench;  ///< frames
+  int width = 1280, height = 720;
+  int samples = 1;  ///< a side
+  int maxSteps = 512;
+  double time = 0.0;
+  std::optional<int> frames;
+  double framesPerSecond = 24.0;
+  ShaderOptions shader;
+  std::optional<Eye> eye;
+  Parameters parameters;
+};
+
+/// Errors: Usage.
+Result<std::variant<Options, command_line::Answer>> parseOptions(int argc, const char* const* argv);
+
+}  // namespace sdf::viewer
