@@ -1,0 +1,50 @@
+#include "viewer/gpu_render.h"
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+
+#include "sdf/expr/vec.h"
+#include "viewer/gpu/context.h"
+
+namespace sdf::test {
+namespace {
+
+template <class T>
+T take(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(result).value();
+}
+
+// Never closed: at the end of the process the driver's own threads may be gone already.
+void makeContextCurrent() {
+  static viewer::Context* const context = take(viewer::Context::headless()).release();
+  if (const Status s = context->makeCurrent(); !s) throw std::runtime_error(s.error().message);
+}
+
+}  // namespace
+
+std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& options) {
+  makeContextCurrent();
+  auto renderer = take(viewer::Renderer::make(scene, options.shader));
+  const auto target =
+      take(viewer::Target::create(options.width, options.height, {viewer::PixelFormat::Rgba32f}));
+  viewer::Frame frame = viewer::frameOf(scene);
+  frame.samples = options.samples;
+  frame.maxSteps = options.maxSteps;
+  frame.epsilon = options.epsilon;
+  frame.threshold = options.threshold;
+  if (const Status s = renderer.draw(frame, target); !s) throw std::runtime_error(s.error().message);
+  return take(target.pixels());
+}
+
+double hitThreshold(const Scene& scene, const GpuRenderOptions& options, double distance) {
+  const double pixelRadius = std::tan(0.5 * glm::radians(uniformValue(scene.camera.fov))) / options.height;
+  return options.epsilon + options.threshold * pixelRadius * distance;
+}
+
+std::vector<glm::dvec3> colors(const std::vector<glm::vec4>& pixels) {
+  return {pixels.begin(), pixels.end()};
+}
+
+}  // namespace sdf::test

@@ -1,0 +1,30 @@
+// The shaders' picture of a scene, in a context that the whole process shares.
+#pragma once
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "sdf/scene/scene.h"
+#include "viewer/render/renderer.h"
+
+namespace sdf::test {
+
+struct GpuRenderOptions {
+  int width = 160, height = 90;
+  viewer::ShaderOptions shader;
+  int samples = 1;  ///< samples x samples rays a pixel
+  int maxSteps = viewer::Frame{}.maxSteps;
+  double epsilon = viewer::Frame{}.epsilon;
+  double threshold = viewer::Frame{}.threshold;
+};
+
+/// Encoded as the scene asks, in floats, rows from the top; alpha 0 where steps ran out. Parameters and time
+/// stand at their present values. Throws std::runtime_error where there is no OpenGL or the scene is refused.
+std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& options);
+
+/// How far from the surface these options let a hit be at a distance from the eye, scene units.
+double hitThreshold(const Scene& scene, const GpuRenderOptions& options, double distance);
+
+/// Without alpha.
+std::vector<glm::dvec3> colors(const std::vector<glm::vec4>& pixels);
+
+}  // namespace sdf::test
