@@ -1,6 +1,6 @@
 -- A small planet: noise raises its land, a second sphere is the sea, and colours follow the height.
 
-local relief = param("relief", 0.12, {min = 0, max = 0.3})
+local relief = param("relief", 0.12, {min = 0, max = 0.15})
 
 local land = sphere(1):displace(function(x, y, z)
   return -relief * noise(1.8 * x, 1.8 * y, 1.8 * z, {octaves = 4})

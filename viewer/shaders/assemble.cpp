@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/gradient.h"
+#include "sdf/shape/booleans.h"
 #include "viewer/shaders/parts.h"
 
 namespace sdf::viewer {
@@ -39,18 +41,58 @@ Result<double> inverseSlope(const Shape& shape) {
   return slope > 0.0 ? 1.0 / slope : 1.0;
 }
 
+/// A scene's half spaces, which rays meet without marching, and what else there is.
+struct Split {
+  std::vector<Expr> planes;  ///< of each its distance, and how that changes along the direction in normal()
+  std::vector<Shape> others;
+};
+
+Split split(const Scene& scene) {
+  Split result;
+  for (const Part& part : scene.parts) {
+    const Vec3E g = gradientOf(part.shape.distance);
+    if (dependsOnSpace(g.x) || dependsOnSpace(g.y) || dependsOnSpace(g.z)) {
+      result.others.push_back(part.shape);
+    } else {
+      result.planes.push_back(part.shape.distance);
+      result.planes.push_back(dot(g, normal()));
+    }
+  }
+  return result;
+}
+
+/// What is read along rays: the whole, or a part of it, divided by its slope.
+struct Read {
+  Shape shape;
+  double inverse = 1.0;
+};
+
+Result<Read> read(Shape shape) {
+  const auto inverse = inverseSlope(shape);
+  if (!inverse) return inverse.error();
+  return Read{std::move(shape), *inverse};
+}
+
 class Assembler {
  public:
-  Assembler(const Scene& scene, const ShaderOptions& options, const Shape& whole, double inverse)
-      : scene_(scene), options_(options), whole_(whole), inverse_(inverse) {}
+  Assembler(const Scene& scene, const ShaderOptions& options, Read whole, std::optional<Read> rest,
+            std::vector<Expr> planes)
+      : scene_(scene),
+        options_(options),
+        whole_(std::move(whole.shape)),
+        inverse_(whole.inverse),
+        rest_(std::move(rest)),
+        planes_(std::move(planes)) {}
 
   SceneShaders run() {
     SceneShaders result;
     result.lights = static_cast<int>(scene_.lights.size());
     result.values.add("sdfDistance", {&whole_.distance, 1});
+    if (!planes_.empty()) result.values.add("sdfPlanes", planes_);
+    if (rest_) result.values.add("sdfRest", {&rest_->shape.distance, 1});
     if (options_.method == Method::AutoRelaxed && !stepsCount())
       result.cones =
-          header() + result.values.source() + defines(false) + parts::kCamera + parts::kField + parts::kCones;
+          header() + result.values.source() + defines(false) + parts::kCamera + parts::kRest + parts::kCones;
     const std::string body =
         options_.view == View::Picture ? picture(result.values) : debugView(result.values);
     result.picture =
@@ -84,6 +126,10 @@ class Assembler {
     };
     if (options_.method == Method::Plain || stepsCount()) text += "#define METHOD_PLAIN\n";
     define("INVERSE_SLOPE", number(inverse_));
+    define("REST", planes_.empty() ? "sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE"
+                   : rest_         ? "sdfRest(p, vec3(0.0)) * " + number(rest_->inverse)
+                                   : "1e30");
+    define("PLANES", std::to_string(planes_.size()));
     define("LIGHTS", std::to_string(scene_.lights.size()));
     define("TAPS", std::to_string(scene_.ambientOcclusion.count));
     define("BOUNCES", std::to_string(mirrors() ? scene_.reflectionBounces : 0));
@@ -110,7 +156,10 @@ class Assembler {
     return text;
   }
 
-  std::string marching() const { return std::string(parts::kCamera) + parts::kField + parts::kMarch; }
+  std::string marching() const {
+    return std::string(parts::kCamera) + parts::kField + parts::kRest +
+           (planes_.empty() ? parts::kNoPlanes : parts::kPlanes) + parts::kMarch;
+  }
 
   // Adds what the gradient needs to the writer.
   std::string gradient(GlslWriter& writer) const {
@@ -170,18 +219,27 @@ class Assembler {
 
   const Scene& scene_;
   const ShaderOptions& options_;
-  const Shape& whole_;
+  Shape whole_;
   double inverse_;
+  std::optional<Read> rest_;  // if there are planes, and more than planes
+  std::vector<Expr> planes_;
 };
 
 }  // namespace
 
 Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) {
   if (const auto sound = checked(scene); !sound) return sound.error();
-  const Shape whole = scene.whole();
-  const auto inverse = inverseSlope(whole);
-  if (!inverse) return inverse.error();
-  return Assembler(scene, options, whole, *inverse).run();
+  auto whole = read(scene.whole());
+  if (!whole) return whole.error();
+  // Occlusion by steps counts the readings of the whole.
+  Split parts = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps ? Split() : split(scene);
+  std::optional<Read> rest;
+  if (!parts.planes.empty() && !parts.others.empty()) {
+    auto others = read(unite(parts.others));
+    if (!others) return others.error();
+    rest = std::move(*others);
+  }
+  return Assembler(scene, options, std::move(*whole), std::move(rest), std::move(parts.planes)).run();
 }
 
 }  // namespace sdf::viewer

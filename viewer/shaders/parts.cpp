@@ -32,15 +32,43 @@ const char* const kField = R"(
 float field(vec3 p) { return sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE; }
 )";
 
+const char* const kRest = R"(
+float rest(vec3 p) { return REST; }
+)";
+
+const char* const kPlanes = R"(
+// Where the ray enters the first of the half spaces.
+float planesFrom(Ray ray) {
+  float planes[PLANES], nearest = 1e30;
+  sdfPlanes(ray.origin, ray.direction, planes);
+  for (int i = 0; i < PLANES; i += 2) {
+    float height = planes[i], fall = -planes[i + 1];  // height falls by so much a unit
+    if (height <= 0.0) return 0.0;
+    if (fall > 0.0) nearest = min(nearest, height / fall);
+  }
+  return nearest;
+}
+)";
+
+const char* const kNoPlanes = R"(
+float planesFrom(Ray ray) { return 1e30; }
+)";
+
 const char* const kMarch = R"(
 const int MISS = 0, HIT = 1, BUDGET = 2;
 
 float march(Ray ray, float t, float tMax, out int status, out int readings) {
-  float r = 0.0, z = 0.0, slope = -1.0;
+  float r = 0.0, z = 0.0, slope = -1.0, plane = planesFrom(ray);
+  bool ends = plane < tMax;  // in a plane
+  tMax = min(plane, tMax);
   status = BUDGET;
   readings = 0;
+  if (t >= tMax) {  // the cone pass saw nothing
+    status = ends ? HIT : MISS;
+    return tMax;
+  }
   while (readings < maxSteps) {
-    float next = field(ray.origin + (t + z) * ray.direction);
+    float next = rest(ray.origin + (t + z) * ray.direction);
     ++readings;
     if (z > r && z > r + next) {  // the balls do not overlap: something may lie between
       z = r;
@@ -57,7 +85,7 @@ float march(Ray ray, float t, float tMax, out int status, out int readings) {
     }
     r = next;
     if (t + r >= tMax) {
-      status = MISS;
+      status = ends ? HIT : MISS;
       return tMax;
     }
 #ifdef METHOD_PLAIN
@@ -385,7 +413,7 @@ void main() {
   while (readings < 64) {
     if (t >= maxDistance) break;
     float wide = spread * ahead + widening * t;
-    float g = field(ray.origin + t * ray.direction);
+    float g = rest(ray.origin + t * ray.direction);
     ++readings;
     float on = (g - wide) / (1.0 + widening);
     if (on <= 0.25 * wide + epsilon) break;

@@ -8,6 +8,10 @@ namespace sdf::viewer::parts {
 extern const char* const kCamera;
 /// Of sdfDistance: field(p), the radius of the ball around p that is free of the surface.
 extern const char* const kField;
+/// rest(p): the same of the scene without its planes, which rays meet by planesFrom(ray).
+extern const char* const kRest;
+extern const char* const kPlanes;
+extern const char* const kNoPlanes;
 /// march(...): where a ray hits. METHOD_PLAIN chooses plain sphere tracing. Counts readings where COUNT says
 /// so.
 extern const char* const kMarch;

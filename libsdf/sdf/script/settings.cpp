@@ -85,7 +85,7 @@ int setShadows(lua_State* L) {
   s.kind = static_cast<Shadow::Kind>(
       o.choice("kind", {"none", "hard", "soft", "improved", "signed"}, static_cast<int>(Shadow::Kind::Soft)));
   s.sharpness = o.number("sharpness", s.sharpness, Rule::Positive);
-  s.start = o.plain("start", s.start, Rule::NotNegative);
+  s.start = o.plain("start", s.start, Rule::Positive);
   s.reach = o.plain("reach", s.reach, Rule::Positive);
   s.steps = o.integer("steps", s.steps, 1);
   return 0;

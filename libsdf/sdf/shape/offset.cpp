@@ -16,15 +16,19 @@ bool dependsOnZ(const Expr& e) {
   });
 }
 
-// f + offset over the sum of their constants; `slope` is that of the offset.
+// f + offset over the sum of their constants; `slope` is that of the offset. The solid keeps within f <= -lo,
+// lo being the least offset, so that (f + lo) / L is a bound, too, and a much larger one away from the
+// surface.
 Shape displaced(const Shape& shape, const Expr& offset, const Expr& slope) {
   const double growth = growthOf(shape.claim), steepest = globalLipschitz(shape);
   const Expr sum = max(slope + steepest, 1.0);
   const bool known = std::isfinite(steepest) && std::isfinite(uniformValue(slope));
   Shape result = shape;
   result.distance = shape.distance + offset;
-  if (known) result.distance = result.distance * (1.0 / sum);
   const double raised = -offset.range().lo;
+  if (known) result.distance = result.distance * (1.0 / sum);
+  if (known && std::isfinite(raised))
+    result.distance = max(result.distance, (shape.distance - raised) * (1.0 / std::max(steepest, 1.0)));
   if (raised > 0.0) result.bounds = grow(shape.bounds, growth * raised);
   result.claim = {ClaimKind::Field, known ? 1.0 : kInfinity};
   result.claim.growth = known ? growth * sum.range().hi : growth;
