@@ -107,6 +107,10 @@ class Comparison {
       save("theirs36", their36);
       saveDifference("difference36", our, their36);
       result["psnr_36_samples"] = test::psnr(our, their36);
+      Frame smoothFrame = frame;
+      smoothFrame.samples = 6;
+      result["psnr_both_36_samples"] =
+          test::psnr(colors(target, [&] { must(ours.draw(smoothFrame, target)); }), their36);
     }
     const auto [theirMs, ourMs] = times(drawTheirs, drawOurs);
     result["their_ms"] = theirMs;
