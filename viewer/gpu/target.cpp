@@ -111,6 +111,17 @@ void Target::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
+void Target::show(int width, int height) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  const bool same = width == width_ && height == height_;
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                    same ? GL_NEAREST : GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+}
+
 void Target::bindTexture(int unit, int layer) const {
   glActiveTexture(GL_TEXTURE0 + GLenum(unit));
   glBindTexture(GL_TEXTURE_2D, textures_[std::size_t(layer)].id());

@@ -29,6 +29,10 @@ class Target {
   /// Makes it what is drawn into, the whole of it.
   void bind() const;
 
+  /// Copies the first layer to the window that is current, stretched over this many pixels, and makes the
+  /// window what is drawn into.
+  void show(int width, int height) const;
+
   /// Makes a layer what samplers of this unit read, without filtering, the edge going on outside.
   void bindTexture(int unit, int layer = 0) const;
 

@@ -18,11 +18,13 @@ struct Eye {
   glm::dvec3 from{0.0, 1.5, 6.0}, to{0.0}, up{0.0, 1.0, 0.0};
   double fov = 45.0;  ///< vertical, degrees
   bool mirrored = false;
+  bool operator==(const Eye&) const = default;
 };
 
 struct LookLight {
   glm::vec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
   glm::vec4 color;   ///< times its intensity; w: 1 if it casts shadows
+  bool operator==(const LookLight&) const = default;
 };
 
 struct Look {
