@@ -1,0 +1,87 @@
+#include "viewer/app/canvas.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "viewer/gpu/context.h"
+
+namespace sdf::viewer {
+namespace {
+
+constexpr int kRgba = 4, kRgb = 3;
+
+double secondsNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+int scaled(int pixels, double scale) { return std::max(1, static_cast<int>(std::lround(pixels * scale))); }
+
+double shareOutOfSteps(const Picture& picture) {
+  std::size_t out = 0;
+  for (std::size_t i = kRgba - 1; i < picture.bytes.size(); i += kRgba) out += picture.bytes[i] == 0;
+  return static_cast<double>(out) * kRgba / static_cast<double>(picture.bytes.size());
+}
+
+Picture withoutAlpha(const Picture& picture) {
+  Picture result{picture.width, picture.height, kRgb, {}};
+  for (std::size_t i = 0; i < picture.bytes.size(); ++i)
+    if (i % kRgba != kRgb) result.bytes.push_back(picture.bytes[i]);
+  return result;
+}
+
+}  // namespace
+
+Result<bool> Canvas::update(Session& session, int width, int height, double now) {
+  if (width < 1 || height < 1) return false;
+  const Shown wanted{session.controls, session.compilations(), width, height};
+  const bool first = !shown_, changed = shown_ != wanted;
+  if (changed) lastChange_ = now;
+  if (!changed && (whole_ || now - lastChange_ < kStill)) return false;
+  const bool moving = changed && !first;
+  shown_ = wanted;
+  const Status drawn = draw(session, moving ? pace_.scale() : 1.0, moving ? 1 : session.controls.samples);
+  if (!drawn) return drawn.error();
+  return true;
+}
+
+Status Canvas::draw(Session& session, double scale, int samples) {
+  const int width = scaled(shown_->width, scale), height = scaled(shown_->height, scale);
+  if (!target_ || target_->width() != width || target_->height() != height) {
+    auto made = Target::create(width, height, {PixelFormat::Rgba8});
+    if (!made) return made.error();
+    target_ = std::move(*made);
+  }
+  Frame frame = session.frame();
+  frame.samples = samples;
+  const double start = secondsNow();
+  if (const Status drawn = session.renderer().draw(frame, *target_); !drawn) return drawn;
+  glFinish();
+  statistics_ = {width, height, samples, secondsNow() - start, {}};
+  const double rays = double(width) * height * samples * samples;
+  pace_.drew(statistics_.seconds, rays / (double(shown_->width) * shown_->height));
+  whole_ = scale == 1.0 && samples == session.controls.samples;
+  if (!whole_) return okStatus();
+
+  const auto picture = target_->picture();  // also where a lost context shows
+  if (!picture) return picture.error();
+  statistics_.outOfSteps = shareOutOfSteps(*picture);
+  return okStatus();
+}
+
+void Canvas::show() const {
+  if (target_) target_->show(shown_->width, shown_->height);
+}
+
+Result<Picture> Canvas::picture(Session& session) {
+  if (!shown_) return Error{ErrorKind::Limits, "there is no picture yet"};
+  if (!whole_)
+    if (const Status drawn = draw(session, 1.0, session.controls.samples); !drawn) return drawn.error();
+  const auto picture = target_->picture();
+  if (!picture) return picture.error();
+  return withoutAlpha(*picture);
+}
+
+}  // namespace sdf::viewer

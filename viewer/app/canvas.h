@@ -1,0 +1,59 @@
+// The picture in the window: drawn when something changed, coarsely while it keeps changing.
+#pragma once
+#include <optional>
+
+#include "viewer/app/pace.h"
+#include "viewer/app/session.h"
+#include "viewer/gpu/target.h"
+
+namespace sdf::viewer {
+
+/// What the last frame was.
+struct FrameStatistics {
+  int width = 0, height = 0;         ///< pixels drawn
+  int samples = 1;                   ///< a side
+  double seconds = 0.0;              ///< until it was finished
+  std::optional<double> outOfSteps;  ///< share of pixels whose ray ran out of steps; of whole pictures only
+};
+
+/// Works in the current context, which must be the same for its whole life.
+class Canvas {
+ public:
+  /// Seconds without a change after which a picture is drawn with all pixels and samples.
+  static constexpr double kStill = 0.15;
+
+  /// Draws the settled session for a window of this size if the picture is not what it should be at this time
+  /// (of any clock, seconds). Is the picture another one now? A window of 0 pixels, being minimised, keeps
+  /// the picture that it had. Errors: Limits, Graphics.
+  Result<bool> update(Session& session, int width, int height, double now);
+
+  /// Has the last picture all its pixels and samples? Otherwise another update is due, kStill after the last
+  /// change.
+  bool whole() const { return whole_; }
+
+  /// Copies the picture, if there is one, to the window that is current.
+  void show() const;
+
+  /// The whole picture, RGB, drawn now if it is not there yet. Errors: as update; Limits before the first
+  /// update.
+  Result<Picture> picture(Session& session);
+
+  const FrameStatistics& statistics() const { return statistics_; }
+
+ private:
+  struct Shown {
+    Controls controls;
+    int compilations, width, height;  // of the window
+    bool operator==(const Shown&) const = default;
+  };
+  Status draw(Session& session, double scale, int samples);
+
+  std::optional<Shown> shown_;
+  std::optional<Target> target_;
+  Pace pace_;
+  FrameStatistics statistics_;
+  double lastChange_ = 0.0;
+  bool whole_ = false;
+};
+
+}  // namespace sdf::viewer

@@ -1,0 +1,41 @@
+// Keys and mouse as changes of a session.
+#pragma once
+#include <glm/vec2.hpp>
+#include <set>
+
+#include "viewer/app/requests.h"
+#include "viewer/app/session.h"
+
+namespace sdf::viewer {
+
+/// Drags: left orbits, middle or shift and left pans, right turns the camera; the wheel goes nearer. Keys: W
+/// A S D E Q fly, 1 to 6 look from the sides, 0 through the scene's camera, space plays and pauses, V shows
+/// the next view, Tab hides the panels, P saves the picture, C copies the camera, Escape ends. Keys, buttons,
+/// actions and modifiers are GLFW's numbers.
+class Input {
+ public:
+  void key(int key, int action, Session& session, Requests& requests);
+  void button(int button, int action, int modifiers);
+  /// The pointer's place in a window of this height, in the same unit, from the top left.
+  void cursor(glm::dvec2 place, double windowHeight, Session& session);
+  void scroll(double steps, Session& session);
+  /// Lets go of all keys and buttons, as when another window gets them.
+  void release();
+
+  /// Moves on for as long as keys that fly are held.
+  void fly(double seconds, Session& session) const;
+  bool flying() const { return !held_.empty(); }
+  bool panelsHidden() const { return panelsHidden_; }
+
+ private:
+  enum class Drag { None, Orbit, Pan, Turn };
+  static void press(int key, Session& session, Requests& requests);
+
+  Drag drag_ = Drag::None;
+  int dragButton_ = 0;
+  glm::dvec2 last_{0.0};
+  std::set<int> held_;  // keys that fly
+  bool panelsHidden_ = false;
+};
+
+}  // namespace sdf::viewer

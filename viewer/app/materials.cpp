@@ -1,0 +1,55 @@
+#include "viewer/app/materials.h"
+
+#include <algorithm>
+
+namespace sdf::viewer {
+namespace {
+
+/// The largest value that a slider offers.
+double largest(Attribute attribute) {
+  switch (attribute) {
+    case Attribute::Shininess:
+      return 512.0;
+    case Attribute::FresnelPower:
+      return 10.0;
+    case Attribute::EmissionRed:
+    case Attribute::EmissionGreen:
+    case Attribute::EmissionBlue:
+      return 4.0;
+    default:
+      return 1.0;
+  }
+}
+
+/// Where ambient light is answered like any other, editing the colour edits both.
+Attribute leading(const Part& part, Attribute attribute) {
+  const int a = static_cast<int>(attribute), offset = static_cast<int>(Attribute::AmbientRed);
+  const bool ambient = attribute >= Attribute::AmbientRed && attribute <= Attribute::AmbientBlue;
+  const auto& surface = part.shape.surface;
+  return ambient && surface[a] == surface[a - offset] ? static_cast<Attribute>(a - offset) : attribute;
+}
+
+}  // namespace
+
+std::optional<ParameterInfo> surfaceParameter(const Part& part, Attribute attribute) {
+  const Attribute named = leading(part, attribute);
+  const Expr& e = part.shape.surface[static_cast<int>(attribute)];
+  if (!e.isConstant() || attribute == Attribute::MaterialId) return std::nullopt;
+  const double value = e.constantValue();
+  return ParameterInfo{part.name + "=" + std::to_string(static_cast<int>(named)), value, std::min(value, 0.0),
+                       std::max(value, largest(named))};
+}
+
+Scene withSurfaceParameters(Scene scene, const std::set<std::string>& parts) {
+  for (Part& part : scene.parts) {
+    if (!parts.contains(part.name)) continue;
+    Attributes surface = part.shape.surface;
+    for (int i = 0; i < kAttributeCount; ++i)
+      if (const auto info = surfaceParameter(part, static_cast<Attribute>(i)))
+        surface[i] = Expr::parameter(*info);
+    part.shape.surface = surface;
+  }
+  return scene;
+}
+
+}  // namespace sdf::viewer

@@ -1,0 +1,24 @@
+// Dynamic resolution: how many pixels a moving picture may have.
+#pragma once
+
+namespace sdf::viewer {
+
+/// Learns from the frames that were drawn what share of the window's pixels can be drawn in time.
+class Pace {
+ public:
+  /// Seconds that a moving picture's frame may take: 20 frames a second, and a fifth to spare for the panels.
+  static constexpr double kBudget = 0.04;
+  /// The coarsest picture, as a share of each side.
+  static constexpr double kCoarsest = 0.125;
+
+  /// A frame took this long with that many rays, counted in rays of a whole picture with one a pixel.
+  void drew(double seconds, double rays);
+
+  /// Share of each side that the next frame may have: 1, or less by powers of the square root of 2.
+  double scale() const;
+
+ private:
+  double wholeFrame_ = 0.0;  // seconds, by the frames so far
+};
+
+}  // namespace sdf::viewer

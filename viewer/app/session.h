@@ -1,0 +1,118 @@
+// What the window shows, without the window: the scene, what the user has changed, and the shaders for it.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "viewer/app/watch.h"
+#include "viewer/render/renderer.h"
+
+namespace sdf::viewer {
+
+/// What a session begins with.
+struct SessionOptions {
+  std::filesystem::path scene;
+  Parameters overrides;  ///< without "time"
+  double time = 0.0;     ///< seconds
+  int samples = 1;       ///< a side, of pictures that stand still
+  int maxSteps = Frame{}.maxSteps;
+  Method method = Method::AutoRelaxed;
+  View view = View::Picture;
+  std::optional<Eye> eye;  ///< none: the scene's camera
+};
+
+/// Changes of the look; what is not here is as in the scene.
+struct LookEdits {
+  std::map<std::size_t, LookLight> lights;  ///< by index
+  std::optional<glm::vec3> ambient, fogColor;
+  std::optional<float> fogDensity;
+  bool operator==(const LookEdits&) const = default;
+};
+
+/// All that the user can change. Equal controls of the same scene give the same picture.
+struct Controls {
+  Parameters parameters;                  ///< those moved, by name; without "time"
+  Parameters materials;                   ///< surface parameters that were moved, by name
+  std::set<std::string> editedMaterials;  ///< parts whose surface parameters can be moved
+  LookEdits look;
+  std::optional<Eye> eye;  ///< none: the scene's camera
+  double time = 0.0;
+  View view = View::Picture;
+  Method method = Method::AutoRelaxed;
+  int samples = 1;
+  int maxSteps = Frame{}.maxSteps;
+  bool operator==(const Controls&) const = default;
+};
+
+/// Works in the current context, which must be the same for its whole life.
+class Session {
+ public:
+  /// Errors: those of loadScene and of Renderer::make.
+  static Result<Session> open(const SessionOptions& options);
+
+  /// For everyone to change; settle() then sees to it.
+  Controls controls;
+  bool playing = false;
+
+  /// Lets the clock run, if it is playing.
+  void advance(double seconds) {
+    if (playing) controls.time += seconds;
+  }
+
+  /// Makes the renderer fit the controls. Only another view, method or set of materials to edit compiles; if
+  /// that fails, they go back to what is shown, and message() says why.
+  void settle();
+
+  /// Loads the scene again if its file was written: parameters that are still there keep their values, the
+  /// camera and the clock stay, edits of the look and of materials give way to what the file says. On an
+  /// error the scene stays, and message() says what is wrong, and in which line.
+  void followFile();
+  /// The same, whether written or not.
+  void reload();
+  /// All parameters as the file has them.
+  void resetParameters();
+
+  const Scene& scene() const { return scene_; }
+  const std::filesystem::path& file() const { return file_; }
+  /// What is wrong with the file or else with what the controls last asked for; "" if all is well.
+  const std::string& message() const { return fileMessage_.empty() ? buildMessage_ : fileMessage_; }
+  Renderer& renderer() { return renderer_; }
+  const Renderer& renderer() const { return renderer_; }
+  /// How often shaders were compiled: a picture drawn at another count is of another scene.
+  int compilations() const { return compilations_; }
+
+  bool hasClock() const;
+  double value(const ParameterInfo& parameter) const;  ///< also of surface parameters
+  Look look() const;
+  Eye eye() const { return look().eye; }
+  Frame frame() const;
+
+  /// Readings of the present picture at this size. Compiles shaders that count. Errors: Limits, Graphics.
+  Result<Readings> measure(int width, int height) const;
+
+ private:
+  /// What the renderer was made for.
+  struct Built {
+    View view;
+    Method method;
+    std::set<std::string> materials;
+    bool operator==(const Built&) const = default;
+  };
+  Session(const SessionOptions& options, Scene scene, Renderer renderer);
+  static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
+  Status load();
+  Built wanted() const { return {controls.view, controls.method, controls.editedMaterials}; }
+  Parameters values() const;
+
+  std::filesystem::path file_;
+  Watch watch_;
+  Scene scene_;
+  Renderer renderer_;
+  Built built_;
+  std::string fileMessage_, buildMessage_;
+  int compilations_ = 1;
+};
+
+}  // namespace sdf::viewer

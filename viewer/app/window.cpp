@@ -1,0 +1,212 @@
+#include "viewer/app/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
+#include <imgui/backends/imgui_impl_glfw.h>
+#include <imgui/backends/imgui_impl_opengl3.h>
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "viewer/gpu/context.h"
+#include "viewer/gpu/png.h"
+
+namespace sdf::viewer {
+namespace {
+
+constexpr double kLookEvery = 0.25;   // seconds between looks at the file
+constexpr double kLongestStep = 0.1;  // seconds that the clock moves at once, however long a frame took
+// Dear ImGui answers an event one frame later, and shows what came of it in the next.
+constexpr int kRepaints = 3;
+
+Error cannotOpen() {
+  const char* reason = nullptr;
+  glfwGetError(&reason);
+  return {ErrorKind::Graphics, std::string("cannot open a window: ") +
+                                   (reason ? reason : "GLFW gives no reason") +
+                                   "; use --render OUT.png for a picture without one"};
+}
+
+glm::ivec2 pixelsOf(GLFWwindow* window) {
+  glm::ivec2 size(0);
+  glfwGetFramebufferSize(window, &size.x, &size.y);
+  return size;
+}
+
+void startPanels(GLFWwindow* window) {
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // nothing is left in the user's folders
+  float scale = 1.0f, ignored = 1.0f;
+  glfwGetWindowContentScale(window, &scale, &ignored);
+  ImGui::GetIO().FontGlobalScale = scale;
+  // It calls what listened before it.
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+}  // namespace
+
+Result<Window::Handle> Window::create(const WindowOptions& options) {
+  if (!glfwInit()) return cannotOpen();
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+  const std::string title = options.session.scene.filename().string() + " - sdfview";
+  Handle window(glfwCreateWindow(options.width, options.height, title.c_str(), nullptr, nullptr),
+                glfwDestroyWindow);
+  if (!window) return cannotOpen();
+  glfwMakeContextCurrent(window.get());
+  glfwSwapInterval(1);
+  return window;
+}
+
+Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
+  auto window = create(options);
+  if (!window) return window.error();
+  auto session = Session::open(options.session);
+  if (!session) return session.error();
+  std::string picture = options.session.scene.stem().string() + ".png";
+  return std::unique_ptr<Window>(new Window(std::move(*window), std::move(*session), std::move(picture)));
+}
+
+Window::Window(Handle window, Session session, std::string pictureName)
+    : window_(std::move(window)),
+      session_(std::move(session)),
+      gui_(std::move(pictureName)),
+      lastTurn_(glfwGetTime()) {
+  listen();
+  startPanels(handle());
+}
+
+Window::~Window() {
+  glfwMakeContextCurrent(handle());
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Window::listen() {
+  glfwSetWindowUserPointer(handle(), this);
+  const auto self = [](GLFWwindow* window) -> Window& {
+    Window& found = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    found.repaints_ = kRepaints;
+    return found;
+  };
+  static constexpr auto of = self;
+  glfwSetKeyCallback(handle(), [](GLFWwindow* w, int key, int, int action, int) {
+    Window& self = of(w);
+    // Letting go is always heard: the key may have been pressed before a panel took over.
+    if (action == GLFW_RELEASE || !ImGui::GetIO().WantCaptureKeyboard)
+      self.input_.key(key, action, self.session_, self.requests_);
+  });
+  glfwSetMouseButtonCallback(handle(), [](GLFWwindow* w, int button, int action, int modifiers) {
+    Window& self = of(w);
+    if (action == GLFW_RELEASE || !ImGui::GetIO().WantCaptureMouse)
+      self.input_.button(button, action, modifiers);
+  });
+  glfwSetCursorPosCallback(handle(), [](GLFWwindow* w, double x, double y) {
+    Window& self = of(w);
+    int width = 0, height = 0;
+    glfwGetWindowSize(w, &width, &height);
+    self.input_.cursor({x, y}, std::max(height, 1), self.session_);
+  });
+  glfwSetScrollCallback(handle(), [](GLFWwindow* w, double, double steps) {
+    Window& self = of(w);
+    if (!ImGui::GetIO().WantCaptureMouse) self.input_.scroll(steps, self.session_);
+  });
+  glfwSetWindowFocusCallback(handle(), [](GLFWwindow* w, int focused) {
+    Window& self = of(w);
+    if (!focused) self.input_.release();
+  });
+  glfwSetCharCallback(handle(), [](GLFWwindow* w, unsigned) { of(w); });
+  glfwSetWindowRefreshCallback(handle(), [](GLFWwindow* w) { of(w); });
+  glfwSetFramebufferSizeCallback(handle(), [](GLFWwindow* w, int, int) { of(w); });
+}
+
+void Window::wait() const {
+  const glm::ivec2 size = pixelsOf(handle());
+  const bool visible = size.x > 0 && size.y > 0;
+  const bool moving = session_.playing || input_.flying() || repaints_ > 0;
+  if (visible && moving)
+    glfwPollEvents();
+  else
+    glfwWaitEventsTimeout(visible && !canvas_.whole() ? 0.5 * Canvas::kStill : kLookEvery);
+}
+
+Result<bool> Window::turn() {
+  wait();
+  const double now = glfwGetTime(), passed = std::min(now - lastTurn_, kLongestStep);
+  lastTurn_ = now;
+  if (now - lastLook_ >= kLookEvery) {
+    const std::string before = session_.message();
+    session_.followFile();
+    if (session_.message() != before) repaints_ = kRepaints;
+    lastLook_ = now;
+  }
+  session_.advance(passed);
+  input_.fly(passed, session_);
+  session_.settle();
+
+  const glm::ivec2 size = pixelsOf(handle());
+  const auto drawn = canvas_.update(session_, size.x, size.y, now);
+  if (!drawn) return drawn.error();
+  if (*drawn || repaints_ > 0) {
+    repaints_ = std::max(repaints_ - 1, 0);
+    if (const Status shown = show(); !shown) return shown.error();
+  }
+  answer(std::exchange(requests_, {}));
+  return !glfwWindowShouldClose(handle());
+}
+
+Status Window::show() {
+  canvas_.show();
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  if (!input_.panelsHidden()) gui_.panels(session_, canvas_, requests_);
+  gui_.overlay(session_);
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(handle());
+  return check("show the picture");
+}
+
+void Window::answer(const Requests& requests) {
+  const auto tell = [&](std::string notice) {
+    gui_.notice = std::move(notice);
+    repaints_ = kRepaints;
+  };
+  if (requests.savePicture) {
+    const auto picture = canvas_.picture(session_);
+    const Status saved = picture ? writePng(gui_.pictureName, *picture) : Status(picture.error());
+    tell(saved ? "saved " + gui_.pictureName : saved.error().message);
+  }
+  if (requests.copyCamera) {
+    glfwSetClipboardString(handle(), textOf(session_.eye()).c_str());
+    tell("the camera is in the clipboard");
+  }
+  if (requests.measure) {
+    const glm::ivec2 size = pixelsOf(handle());
+    const auto readings = session_.measure(size.x, size.y);
+    if (readings) gui_.readings = *readings;
+    tell(readings ? "" : readings.error().message);
+  }
+  if (requests.close) glfwSetWindowShouldClose(handle(), GLFW_TRUE);
+}
+
+Status runWindow(const WindowOptions& options) {
+  auto window = Window::open(options);
+  if (!window) return window.error();
+  for (;;) {
+    const auto goesOn = (*window)->turn();
+    if (!goesOn) return goesOn.error();
+    if (!*goesOn) return okStatus();
+  }
+}
+
+}  // namespace sdf::viewer

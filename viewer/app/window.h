@@ -1,0 +1,56 @@
+// The viewer's window.
+#pragma once
+#include <memory>
+
+#include "viewer/app/canvas.h"
+#include "viewer/app/gui.h"
+#include "viewer/app/input.h"
+
+struct GLFWwindow;
+
+namespace sdf::viewer {
+
+struct WindowOptions {
+  SessionOptions session;
+  int width = 1280, height = 720;
+};
+
+/// Shows the scene until the window is closed. Must be called on the main thread. Errors: Graphics where no
+/// window can be opened, those of Session::open, and what goes wrong while it draws.
+Status runWindow(const WindowOptions& options);
+
+/// What runWindow runs.
+class Window {
+ public:
+  /// Errors: as runWindow.
+  static Result<std::unique_ptr<Window>> open(const WindowOptions& options);
+  ~Window();
+
+  /// Waits until something happens or a little longer, and shows what came of it. False once the window is to
+  /// close.
+  Result<bool> turn();
+
+  Session& session() { return session_; }
+  const Canvas& canvas() const { return canvas_; }
+  GLFWwindow* handle() const { return window_.get(); }
+
+ private:
+  using Handle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
+  Window(Handle window, Session session, std::string pictureName);
+  static Result<Handle> create(const WindowOptions& options);
+  void listen();
+  void wait() const;
+  Status show();
+  void answer(const Requests& requests);
+
+  Handle window_;  // first: its context must outlive what follows
+  Session session_;
+  Canvas canvas_;
+  Gui gui_;
+  Input input_;
+  Requests requests_;
+  double lastTurn_ = 0.0, lastLook_ = 0.0;  // at the clock, at the file
+  int repaints_ = 0;                        // still due to the panels
+};
+
+}  // namespace sdf::viewer
