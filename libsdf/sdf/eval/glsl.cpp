@@ -137,8 +137,8 @@ void GlslWriter::add(const std::string& name, std::span<const Expr> outputs) {
   Function function(*this);
   function.write(outputs);
   const std::size_t count = outputs.size();
-  const bool returns = count == 1 || count == 3 || count == 4;
-  const std::string type = count == 1 ? "float" : "vec" + std::to_string(count);
+  const bool returns = count == 1 || count == 3;
+  const std::string type = count == 1 ? "float" : "vec3";
   std::string list, stores;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string value = function.name(outputs[i]);

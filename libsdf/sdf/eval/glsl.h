@@ -18,7 +18,7 @@ class GlslWriter {
   ///
   ///     void name(vec3 p, vec3 n, out float values[outputs.size()])
   ///
-  /// or, for one output, `float name(vec3 p, vec3 n)`, for three `vec3 name(…)`, for four `vec4 name(…)`.
+  /// or, for one output, `float name(vec3 p, vec3 n)`, and for three `vec3 name(…)`.
   /// Common parts are computed once. Values agree with the batch reading's but for the driver's rounding of
   /// divisions, roots and transcendental functions; min and max of a NaN are the driver's choice. Cost:
   /// linear in the size of the graph.
