@@ -16,7 +16,7 @@ struct Frame {
   int samples = 1;         ///< a side: a pixel takes its square
   int maxSteps = 512;      ///< readings that a ray may take
   double epsilon = 1e-5;   ///< least distance that counts as a hit, scene units
-  double threshold = 0.1;  ///< share of the pixel's cone that counts as a hit
+  double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit
 };
 
 /// Readings of the distance a pixel, means over the picture; with `countReadings` only.

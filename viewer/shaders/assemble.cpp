@@ -6,6 +6,7 @@
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/gradient.h"
+#include "sdf/expr/hoist.h"
 #include "sdf/shape/booleans.h"
 #include "viewer/shaders/parts.h"
 
@@ -70,6 +71,7 @@ struct Read {
 Result<Read> read(Shape shape) {
   const auto inverse = inverseSlope(shape);
   if (!inverse) return inverse.error();
+  shape.distance = hoisted(shape.distance);
   return Read{std::move(shape), *inverse};
 }
 
