@@ -21,6 +21,9 @@ part("board", box(2, 0.1, 2):translate(0, -0.1, 0):paint {
   name = "board", color = checkerboard({0.12, 0.07, 0.04}, {0.75, 0.65, 0.5}), specular = 0.3, shininess = 30,
   reflectivity = 0.15, fresnel_power = 5, fresnel_bias = 0.1,
 })
+part("frame", (round_box(2.2, 0.14, 2.2, 0.04) - box(2, 1, 2)):translate(0, -0.1, 0):paint {
+  name = "frame", color = {0.3, 0.17, 0.09}, specular = 0.3, shininess = 30,
+})
 
 camera { from = {2.2, 2.6, 4.2}, to = {0, 0.9, 0}, fov = 42 }
 directional_light { direction = {1, 2, 0.8} }

@@ -1,0 +1,131 @@
+// The shaders' pictures of every sample against the CPU's.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "sdf/script/script.h"
+#include "viewer/gpu_render.h"
+#include "viewer/psnr.h"
+#include "viewer/renderers.h"
+
+namespace sdf::test {
+namespace {
+
+constexpr int kPictureWidth = 160, kPictureHeight = 90;
+
+std::vector<std::string> samples() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples"))
+    if (entry.path().extension() == ".lua") names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool countsSteps(const Scene& scene) { return scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps; }
+
+// Where the eye and a checkerboard are in line, whole rows of rays meet the squares' sides, and rounding
+// chooses the colour: this puts them out of line.
+const Vec3E kAside(glm::dvec3(1.4e-3, 1.7e-3, 0.6e-3));
+
+class PictureOf : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    auto loaded = loadScene(SDF_SOURCE_DIR "/samples/" + GetParam() + ".lua");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    scene = std::move(*loaded);
+    scene.camera.from = scene.camera.from + kAside;
+  }
+
+  std::vector<glm::dvec3> onCpu(double epsilon) const {
+    CpuRenderOptions options;
+    options.width = kPictureWidth;
+    options.height = kPictureHeight;
+    options.march.epsilon = epsilon;
+    return encode(renderOnCpu(scene, options).color, scene.gamma);
+  }
+
+  std::vector<glm::dvec3> onGpu(GpuRenderOptions options) const {
+    options.width = kPictureWidth;
+    options.height = kPictureHeight;
+    return colors(renderOnGpu(scene, options));
+  }
+
+  Scene scene;
+};
+
+// Both hit at one distance from the surface, so what differs is rounding: invisible, but where it decides
+// which side of an edge a ray is on. That happens to less than one pixel in a thousand, and a colour then
+// changes by less than a third in the root mean square: 10^-3 / 10 is 40 dB.
+TEST_P(PictureOf, IsTheCpusWhereBothHitAtTheSameDistance) {
+  constexpr double kBar = 40.0;
+  // Positions are rounded to 2^-21 at most; rays that stop only there would take steps without end.
+  constexpr double kEpsilon = 1e-5, kEpsilonOfSteps = 1e-4;
+  GpuRenderOptions options;
+  options.epsilon = countsSteps(scene) ? kEpsilonOfSteps : kEpsilon;
+  options.threshold = 0.0;
+  options.maxSteps = 5000;
+  // Occlusion by steps counts how many it took to come so close.
+  const double db =
+      psnr(onCpu(countsSteps(scene) ? options.epsilon : CpuRenderOptions{}.march.epsilon), onGpu(options));
+  RecordProperty("psnr", std::to_string(db));
+  EXPECT_GE(db, kBar);
+}
+
+// The mean square that a picture changes by if all its edges move by this share of a pixel.
+double changeByMovedEdges(const std::vector<glm::dvec3>& c, double share) {
+  double sum = 0.0;
+  const auto add = [&](std::size_t i, std::size_t j) { sum += glm::dot(c[i] - c[j], c[i] - c[j]); };
+  for (int row = 0; row < kPictureHeight; ++row)
+    for (int column = 0; column < kPictureWidth; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * kPictureWidth + column;
+      if (column + 1 < kPictureWidth) add(i, i + 1);
+      if (row + 1 < kPictureHeight) add(i, i + kPictureWidth);
+    }
+  return share * sum / (3.0 * static_cast<double>(c.size()));
+}
+
+// How much farther out than the threshold hits lie: their distance is read as less than it is around edges
+// that are cut or blended. The planet's relief divides its distance by its slope, and its colours change
+// within a fiftieth of its radius.
+double floating(const std::string& sample) { return sample == "planet" ? 12.0 : 3.0; }
+
+// A hit counts within `threshold` of a pixel's radius, so all edges move outwards by half that share of a
+// pixel.
+TEST_P(PictureOf, HasItsEdgesMovedByTheThresholdOnly) {
+  if (countsSteps(scene)) GTEST_SKIP() << "its light depends on the threshold";
+  const GpuRenderOptions options;
+  const std::vector<glm::dvec3> truth = onCpu(CpuRenderOptions{}.march.epsilon);
+  const double share = floating(GetParam()) * 0.5 * options.threshold;
+  const double db = psnr(truth, onGpu(options));
+  RecordProperty("psnr", std::to_string(db));
+  EXPECT_GE(db, -10.0 * std::log10(changeByMovedEdges(truth, share)));
+}
+
+// Of the pixels that differ by what can be seen, all but a few show the edge of something: a neighbour in the
+// plain picture has the colour of the fast one.
+TEST_P(PictureOf, IsTheSameForEveryWayOfMarching) {
+  GpuRenderOptions plain;
+  plain.shader.method = viewer::Method::Plain;
+  constexpr double kSeen = 1.0 / 16.0;
+  const auto fast = onGpu({}), slow = onGpu(plain);
+  int foreign = 0;
+  for (int row = 1; row + 1 < kPictureHeight; ++row)
+    for (int column = 1; column + 1 < kPictureWidth; ++column) {
+      double nearest = 1.0;
+      for (int j = row - 1; j <= row + 1; ++j)
+        for (int i = column - 1; i <= column + 1; ++i) {
+          const glm::dvec3 d = glm::abs(slow[static_cast<std::size_t>(j) * kPictureWidth + i] -
+                                        fast[static_cast<std::size_t>(row) * kPictureWidth + column]);
+          nearest = std::min(nearest, std::max({d.x, d.y, d.z}));
+        }
+      foreign += nearest > kSeen;
+    }
+  EXPECT_LE(foreign, kPictureWidth * kPictureHeight / 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, PictureOf, testing::ValuesIn(samples()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace sdf::test
