@@ -1,0 +1,355 @@
+// What the window shows, without the window.
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/folder.h"
+#include "viewer/app/canvas.h"
+#include "viewer/app/materials.h"
+#include "viewer/gpu/context.h"
+
+namespace sdf::viewer {
+namespace {
+
+constexpr int kSize = 49;  // pixels; odd, for one in the middle
+
+// Flat red before black; the slider moves it, the clock does nothing that shows.
+constexpr const char* kBall = R"(local x = param("x", 0, {min = -2, max = 2})
+local size = param("size", 1, {min = 0.5, max = 2})
+part("ball", sphere(size):translate(x + 0 * time, 0, 0):paint{color = {0.5, 0, 0}, emission = {1, 0, 0}})
+directional_light{direction = {0, 0, 1}}
+camera{from = {0, 0, 6}, to = {0, 0, 0}, fov = 40}
+gamma(1)
+)";
+
+int compiled = 0;
+PFNGLCOMPILESHADERPROC compileShader = nullptr;
+void countingCompile(GLuint shader) {
+  ++compiled;
+  compileShader(shader);
+}
+
+/// Counts what the driver is asked to compile while it lives.
+class CompileCount {
+ public:
+  CompileCount() {
+    compileShader = epoxy_glCompileShader;
+    epoxy_glCompileShader = countingCompile;
+    compiled = 0;
+  }
+  ~CompileCount() { epoxy_glCompileShader = compileShader; }
+  int value() const { return compiled; }
+};
+
+class SessionTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto opened = Context::headless();
+    ASSERT_TRUE(opened) << opened.error().message;
+    context = std::move(*opened);
+    write(kBall);
+    options.scene = file();
+  }
+  std::filesystem::path file() const { return folder / "ball.lua"; }
+
+  /// As an editor does; the time of writing moves even where the clock of the file system is coarse.
+  void write(const std::string& text) {
+    std::ofstream(file()) << text;
+    ++writes;
+    std::filesystem::last_write_time(
+        file(), std::filesystem::file_time_type::clock::now() + std::chrono::seconds(writes));
+  }
+
+  Session open() {
+    auto session = Session::open(options);
+    if (!session) throw std::runtime_error(session.error().message);
+    return std::move(*session);
+  }
+
+  static Picture picture(Session& session) {
+    session.settle();
+    Canvas canvas;
+    if (!canvas.update(session, kSize, kSize, 0.0)) throw std::runtime_error("cannot draw");
+    auto drawn = canvas.picture(session);
+    if (!drawn) throw std::runtime_error(drawn.error().message);
+    return *drawn;
+  }
+
+  static glm::ivec3 middle(Session& session) {
+    const Picture drawn = picture(session);
+    const std::uint8_t* p = &drawn.bytes[3 * (kSize / 2 * kSize + kSize / 2)];
+    return {p[0], p[1], p[2]};
+  }
+
+  const Folder folder;
+  std::unique_ptr<Context> context;
+  SessionOptions options;
+  int writes = 0;
+};
+using CanvasTest = SessionTest;
+using MaterialsTest = SessionTest;
+using WatchTest = SessionTest;
+
+TEST_F(WatchTest, TellsEachWritingOnce) {
+  Watch watch(file());
+  EXPECT_FALSE(watch.written());
+  write(std::string(kBall) + "-- more\n");
+  EXPECT_TRUE(watch.written());
+  EXPECT_FALSE(watch.written());
+  write(std::string(kBall) + "-- less\n");  // as long as before
+  EXPECT_TRUE(watch.written());
+}
+
+TEST_F(WatchTest, WaitsForAFileThatIsBeingReplaced) {
+  Watch watch(file());
+  std::filesystem::remove(file());
+  EXPECT_FALSE(watch.written());
+  write(kBall);
+  EXPECT_TRUE(watch.written());
+}
+
+TEST_F(SessionTest, ASliderTheClockTheLightAndTheCameraCompileNothing) {
+  Session session = open();
+  const Picture before = picture(session);
+  const int compilations = session.compilations();
+  const CompileCount count;
+  const auto changesThePicture = [&](const char* what) {
+    EXPECT_NE(picture(session).bytes, before.bytes) << what;
+    session.controls = {};
+  };
+  session.controls.parameters["x"] = 1.0;
+  changesThePicture("slider");
+  session.controls.look.lights[0] = session.look().lights[0];
+  session.controls.look.lights[0].color = glm::vec4(0.0f, 4.0f, 0.0f, 1.0f);
+  session.controls.look.ambient = glm::vec3(0.0f, 0.0f, 1.0f);
+  session.controls.look.fogDensity = 0.2f;
+  session.controls.look.fogColor = glm::vec3(0.0f, 1.0f, 0.0f);
+  changesThePicture("light");
+  session.controls.eye = Eye{{0.0, 0.0, 4.0}};
+  changesThePicture("camera");
+  session.controls.samples = 3;
+  changesThePicture("samples");
+  session.controls.maxSteps = 1;
+  changesThePicture("steps");
+  session.controls.time = 2.0;
+  picture(session);
+  EXPECT_EQ(count.value(), 0);
+  EXPECT_EQ(session.compilations(), compilations);
+}
+
+TEST_F(SessionTest, AnotherViewOrMethodCompilesOnce) {
+  Session session = open();
+  session.controls.view = View::Normals;
+  session.settle();
+  EXPECT_EQ(session.compilations(), 2);
+  EXPECT_EQ(middle(session), glm::ivec3(128, 128, 255));  // towards the eye: (n + 1) / 2
+  session.controls.method = Method::Plain;
+  session.settle();
+  session.settle();
+  EXPECT_EQ(session.compilations(), 3);
+}
+
+TEST_F(SessionTest, TheClockRunsWhilePlaying) {
+  options.time = 1.5;
+  Session session = open();
+  EXPECT_TRUE(session.hasClock());
+  session.advance(1.0);
+  EXPECT_EQ(session.controls.time, 1.5);
+  session.playing = true;
+  session.advance(1.0);
+  EXPECT_EQ(session.frame().parameters.at("time"), 2.5);
+}
+
+TEST_F(SessionTest, BeginsWithWhatItIsGiven) {
+  options.overrides = {{"x", 2.0}};
+  options.eye = Eye{{0.0, 0.0, 9.0}};
+  Session session = open();
+  EXPECT_EQ(session.frame().parameters.at("x"), 2.0);
+  EXPECT_EQ(session.eye().from, glm::dvec3(0.0, 0.0, 9.0));
+  options.overrides = {{"y", 2.0}};
+  const auto refused = Session::open(options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::Scene);
+}
+
+TEST_F(SessionTest, ReloadsASavedFileAndKeepsSlidersAndCamera) {
+  Session session = open();
+  session.controls.parameters = {{"x", 1.5}, {"size", 0.7}};
+  session.controls.time = 3.0;
+  session.controls.eye = Eye{{0.0, 0.0, 9.0}};
+  session.controls.look.ambient = glm::vec3(1.0f);
+  session.followFile();
+  EXPECT_EQ(session.compilations(), 1);
+
+  write(R"(local x = param("x", 0, {min = 0, max = 1})
+part("cube", box(x + 0.5))
+)");
+  session.followFile();
+  EXPECT_EQ(session.message(), "");
+  EXPECT_EQ(session.scene().parts[0].name, "cube");
+  EXPECT_EQ(session.controls.parameters, (Parameters{{"x", 1.0}})) << "kept, within the new range";
+  EXPECT_EQ(session.value(session.scene().parameters[0]), 1.0);
+  EXPECT_EQ(session.controls.time, 3.0);
+  EXPECT_EQ(session.eye().from, glm::dvec3(0.0, 0.0, 9.0));
+  EXPECT_FALSE(session.controls.look.ambient);
+}
+
+TEST_F(SessionTest, ABrokenFileLeavesTheSceneAndNamesTheLine) {
+  Session session = open();
+  session.controls.parameters["x"] = 0.25;
+  const Picture before = picture(session);
+  write("part(\"ball\",\n  sphere(-1))\n");
+  session.followFile();
+  EXPECT_NE(session.message().find("ball.lua:2"), std::string::npos) << session.message();
+  EXPECT_EQ(picture(session).bytes, before.bytes);
+
+  session.controls.view = View::Normals;  // works, but the file is still broken
+  session.settle();
+  EXPECT_NE(session.message(), "");
+  write(kBall);
+  session.followFile();
+  EXPECT_EQ(session.message(), "");
+  EXPECT_EQ(session.controls.parameters.at("x"), 0.25);
+}
+
+TEST_F(SessionTest, ASceneThatCannotBeDrawnLeavesTheOneBefore) {
+  Session session = open();
+  write("return field(function(x, y, z) return x * x * y - 1 end)\n");
+  session.followFile();
+  EXPECT_NE(session.message().find("ball.lua: "), std::string::npos) << session.message();
+  EXPECT_NE(session.message().find("slope"), std::string::npos) << session.message();
+  EXPECT_EQ(session.scene().parts[0].name, "ball");
+}
+
+TEST_F(SessionTest, ResettingGivesTheFilesValues) {
+  write(R"(local n = param("n", 1, {min = 1, max = 3})
+for i = 1, value(n) do part("ball " .. i, sphere(0.3):translate(i, 0, 0)) end
+)");
+  options.overrides = {{"n", 3.0}};
+  Session session = open();
+  EXPECT_EQ(session.scene().parts.size(), 3u);
+  session.resetParameters();
+  EXPECT_EQ(session.scene().parts.size(), 1u);
+  EXPECT_EQ(session.value(session.scene().parameters[0]), 1.0);
+}
+
+TEST_F(SessionTest, CountsReadingsOnDemand) {
+  Session session = open();
+  const auto readings = session.measure(kSize, kSize);
+  ASSERT_TRUE(readings) << readings.error().message;
+  EXPECT_GT(readings->primary, 1.0);
+  EXPECT_EQ(readings->reflection, 0.0);
+}
+
+TEST_F(MaterialsTest, AnEditedColourShowsAfterOneCompilation) {
+  Session session = open();
+  EXPECT_EQ(middle(session), glm::ivec3(255, 0, 0));
+  session.controls.editedMaterials = {"ball"};
+  EXPECT_EQ(middle(session), glm::ivec3(255, 0, 0)) << "being editable changes nothing";
+  EXPECT_EQ(session.compilations(), 2);
+  const CompileCount count;
+  const auto set = [&](Attribute attribute, double value) {
+    session.controls.materials[surfaceParameter(session.scene().parts[0], attribute)->name] = value;
+  };
+  set(Attribute::EmissionRed, 0.0);
+  set(Attribute::EmissionGreen, 1.0);
+  set(Attribute::Red, 0.0);
+  EXPECT_EQ(middle(session), glm::ivec3(0, 255, 0));
+  EXPECT_EQ(count.value(), 0);
+}
+
+TEST_F(MaterialsTest, WhatVariesOverAPartIsNoParameter) {
+  write(R"(part("floor", plane():paint{color = checkerboard(0.2, 0.4), shininess = 7}))");
+  const Session session = open();
+  const Part& part = session.scene().parts[0];
+  EXPECT_FALSE(surfaceParameter(part, Attribute::Red));
+  EXPECT_FALSE(surfaceParameter(part, Attribute::MaterialId));
+  EXPECT_EQ(surfaceParameter(part, Attribute::Shininess)->value, 7.0);
+}
+
+TEST_F(CanvasTest, AMovingPictureIsCoarseAndAStillOneWhole) {
+  options.samples = 2;
+  Session session = open();
+  Canvas canvas;
+  EXPECT_TRUE(*canvas.update(session, kSize, kSize, 0.0)) << "the first is whole";
+  EXPECT_TRUE(canvas.whole());
+  EXPECT_EQ(canvas.statistics().samples, 2);
+  EXPECT_EQ(canvas.statistics().outOfSteps, 0.0);
+  EXPECT_FALSE(*canvas.update(session, kSize, kSize, 10.0)) << "nothing changed";
+
+  session.controls.parameters["x"] = 1.0;
+  EXPECT_TRUE(*canvas.update(session, kSize, kSize, 20.0));
+  EXPECT_FALSE(canvas.whole());
+  EXPECT_EQ(canvas.statistics().samples, 1);
+  EXPECT_FALSE(canvas.statistics().outOfSteps);
+  EXPECT_FALSE(*canvas.update(session, kSize, kSize, 20.0 + 0.5 * Canvas::kStill)) << "it may move on";
+  EXPECT_TRUE(*canvas.update(session, kSize, kSize, 20.0 + 1.5 * Canvas::kStill));
+  EXPECT_TRUE(canvas.whole());
+}
+
+TEST_F(CanvasTest, CountsPixelsThatRanOutOfSteps) {
+  Session session = open();
+  session.controls.maxSteps = 1;
+  Canvas canvas;
+  ASSERT_TRUE(canvas.update(session, kSize, kSize, 0.0));
+  EXPECT_GT(canvas.statistics().outOfSteps.value(), 0.0);
+}
+
+TEST_F(CanvasTest, AMinimisedWindowKeepsItsPicture) {
+  Session session = open();
+  Canvas canvas;
+  EXPECT_FALSE(*canvas.update(session, 0, 0, 0.0));
+  EXPECT_FALSE(canvas.picture(session)) << "there is none yet";
+  EXPECT_TRUE(*canvas.update(session, kSize, 1, 1.0));
+  EXPECT_FALSE(*canvas.update(session, 0, 0, 2.0));
+  EXPECT_EQ(canvas.picture(session)->height, 1);
+}
+
+TEST_F(CanvasTest, ASizeBeyondTheDriverIsAnError) {
+  Session session = open();
+  Canvas canvas;
+  const auto drawn = canvas.update(session, currentDriver().mostWidth + 1, kSize, 0.0);
+  ASSERT_FALSE(drawn);
+  EXPECT_EQ(drawn.error().kind, ErrorKind::Limits);
+}
+
+TEST(PaceTest, FastFramesHaveAllPixels) {
+  Pace pace;
+  EXPECT_EQ(pace.scale(), 1.0);
+  pace.drew(Pace::kBudget, 1.0);
+  EXPECT_EQ(pace.scale(), 1.0);
+}
+
+TEST(PaceTest, SlowFramesHaveAsManyAsFitTheBudget) {
+  // Frames whose time is proportional to their pixels, beside a part that is not.
+  for (const double whole : {0.05, 0.1, 0.3, 1.0}) {
+    constexpr double kFixed = 0.005;
+    Pace pace;
+    double seconds = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      const double rays = pace.scale() * pace.scale();
+      seconds = kFixed + whole * rays;
+      pace.drew(seconds, rays);
+    }
+    EXPECT_LE(seconds, 1.0 / 20.0) << whole << " s a whole frame";
+    // A step of the scale is a factor of 2, and the fixed part can cost one more.
+    EXPECT_GE(seconds, 0.25 * Pace::kBudget) << whole << " s a whole frame";
+  }
+}
+
+TEST(PaceTest, NeverGetsCoarserThanItsLimit) {
+  Pace pace;
+  pace.drew(1e6, 1.0);
+  EXPECT_EQ(pace.scale(), Pace::kCoarsest);
+}
+
+TEST(PaceTest, AnOutlierIsForgotten) {
+  Pace pace;
+  pace.drew(2.0, 1.0);
+  for (int i = 0; i < 10; ++i) pace.drew(0.01 * pace.scale() * pace.scale(), pace.scale() * pace.scale());
+  EXPECT_EQ(pace.scale(), 1.0);
+}
+
+}  // namespace
+}  // namespace sdf::viewer
