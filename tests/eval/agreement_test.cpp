@@ -10,51 +10,14 @@
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/vec.h"
+#include "support/operations.h"
 
 namespace sdf {
 namespace {
 
-const std::vector<float>& hostile() {
-  static const std::vector<float> all = [] {
-    std::vector<float> v{0.0f,        FLT_TRUE_MIN, 1e-40f, FLT_MIN, 1e-20f,  1e-5f,    0.25f,
-                         0.5f,        1.0f,         1.5f,   2.0f,    2.5f,    3.0f,     1.57079637f,
-                         3.14159274f, 10.0f,        88.7f,  88.8f,   103.9f,  1e4f,     38999.0f,
-                         39001.0f,    8388609.0f,   1e9f,   1e20f,   FLT_MAX, HUGE_VALF};
-    for (const float near : {1.0f, 1.57079637f, 0.5f})
-      for (const float to : {0.0f, HUGE_VALF}) v.push_back(std::nextafter(near, to));
-    const std::size_t positive = v.size();
-    for (std::size_t i = 0; i < positive; ++i) v.push_back(-v[i]);
-    v.push_back(NAN);
-    return v;
-  }();
-  return all;
-}
-
-std::vector<float> arguments(int seed, int extra) {
-  std::vector<float> v = hostile();
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> plain(-4.0f, 4.0f), exponent(-20.0f, 20.0f);
-  for (int i = 0; i < extra; ++i)
-    v.push_back(i % 2 ? plain(random) : std::copysign(std::exp2(exponent(random)), plain(random)));
-  return v;
-}
-
-struct Case {
-  Op op;
-  Expr expr;  // of x, y, z
-};
-
-std::vector<Case> graphOperations() {
-  const Vec3E p = position();
-  const std::array<Expr, 3> xyz{p.x, p.y, p.z};
-  std::vector<Case> cases;
-  for (int i = 0; i < kOpCount; ++i) {
-    const Op op = static_cast<Op>(i);
-    if (arity(op) == 0 || info(op).fused) continue;
-    cases.push_back({op, Expr::make(op, {xyz.data(), static_cast<std::size_t>(arity(op))})});
-  }
-  return cases;
-}
+using test::arguments;
+using test::graphOperations;
+using Case = test::OperationCase;
 
 // Fused operations, written so that the tape compiler makes them.
 std::vector<Case> fusedOperations() {
@@ -153,7 +116,8 @@ TEST_P(Agreement, BatchIsWithinThePromisedUlps) {
   const std::vector<float> none{0.0f}, all = arguments(1, 2000), some = arguments(2, 40);
   if (rows == 1) checkBatch(GetParam(), all, none, none);
   if (rows == 2) checkBatch(GetParam(), some, some, none);
-  if (rows == 3) checkBatch(GetParam(), some, hostile(), {0.0f, -1.5f, 1e-20f, 1e9f, HUGE_VALF, NAN});
+  if (rows == 3)
+    checkBatch(GetParam(), some, test::hostileArguments(), {0.0f, -1.5f, 1e-20f, 1e9f, HUGE_VALF, NAN});
 }
 
 TEST_P(Agreement, IntervalContainsEverySample) {
