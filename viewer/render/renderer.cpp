@@ -77,8 +77,7 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders, Program picture, st
       cones_(std::move(cones)),
       shadow_(scene.shadow),
       tapSpacing_(scene.ambientOcclusion.spacing),
-      maxDistance_(scene.maxDistance),
-      gamma_(scene.gamma.value_or(0.0)) {
+      maxDistance_(scene.maxDistance) {
   const Box bounds = scene.whole().bounds;
   if (bounds.finite() && !bounds.empty()) bounds_ = bounds;
 }
@@ -127,8 +126,7 @@ void Renderer::setLook(const Program& program, const Frame& frame) const {
   program.set("shadowSteps", shadow_.steps);
   real("tapSpacing", tapSpacing_);
   real("tapStrength", look.occlusionStrength);
-  real("gamma", gamma_);
-  program.set("samples", frame.samples);
+  real("samples", frame.samples);
   // The slice lies across the axis that the eye looks along most.
   const glm::dvec3 way = glm::abs(look.eye.to - look.eye.from);
   const int axis = way.x >= way.y && way.x >= way.z ? 0 : way.y >= way.z ? 1 : 2;
@@ -157,14 +155,20 @@ Status Renderer::drawCones(const Frame& frame, int width, int height) {
 Status Renderer::draw(const Frame& frame, const Target& target) {
   if (cones_)
     if (auto s = drawCones(frame, target.width(), target.height()); !s) return s;
-  setFrame(picture_, frame, target.width(), target.height());
-  setLook(picture_, frame);
+  if (frame.samples > 1 && !many_) {
+    auto made = Program::overScreen(forManySamples(shaders_.picture));
+    if (!made) return made.error();
+    many_ = std::move(*made);
+  }
+  const Program& picture = frame.samples > 1 ? *many_ : picture_;
+  setFrame(picture, frame, target.width(), target.height());
+  setLook(picture, frame);
   target.bind();
   if (cones_) {
     fine_->bindTexture(0);
-    picture_.set("starts", 0);
+    picture.set("starts", 0);
   }
-  picture_.draw();
+  picture.draw();
   return check("draw the scene");
 }
 

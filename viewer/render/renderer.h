@@ -9,13 +9,14 @@
 
 namespace sdf::viewer {
 
-/// What may change from one frame to the next without compiling.
+/// What may change from one frame to the next without compiling, but for the first that takes more than one
+/// sample.
 struct Frame {
   Parameters parameters;
   Look look;
-  int samples = 1;         ///< a side: a pixel takes its square
-  int maxSteps = 512;      ///< readings that a ray may take
-  double epsilon = 1e-5;   ///< least distance that counts as a hit, scene units
+  int samples = 1;          ///< a side: a pixel takes its square
+  int maxSteps = 512;       ///< readings that a ray may take
+  double epsilon = 1e-5;    ///< least distance that counts as a hit, scene units
   double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit
 };
 
@@ -52,11 +53,12 @@ class Renderer {
 
   SceneShaders shaders_;
   Program picture_;
+  std::optional<Program> many_;  // compiled when more than one sample is first asked for
   std::optional<Program> cones_;
   std::optional<Target> coarse_, fine_;
   std::optional<Box> bounds_;  // of the whole scene, if it is finite
   Shadow shadow_;
-  double tapSpacing_, maxDistance_, gamma_;
+  double tapSpacing_, maxDistance_;
   double compileSeconds_ = 0.0;
 };
 

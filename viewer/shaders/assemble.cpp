@@ -28,6 +28,10 @@ std::string number(double v) {
   return std::string("float(") + text + ")";
 }
 
+std::string vector(const glm::dvec3& v) {
+  return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
+}
+
 /// 1 / L for the L that the shape claims everywhere, or that its formula has within its bounds.
 Result<double> inverseSlope(const Shape& shape) {
   double slope = shape.claim.region.contains(Box::everything()) ? shape.claim.lipschitz : kInfinity;
@@ -55,8 +59,9 @@ Split split(const Scene& scene) {
     if (dependsOnSpace(g.x) || dependsOnSpace(g.y) || dependsOnSpace(g.z)) {
       result.others.push_back(part.shape);
     } else {
-      result.planes.push_back(part.shape.distance);
-      result.planes.push_back(dot(g, normal()));
+      const Expr steep = length(g), once = steep.isConstant(1.0) ? Expr(1.0) : 1.0 / steep;
+      result.planes.push_back(part.shape.distance * once);
+      result.planes.push_back(dot(g, normal()) * once);
     }
   }
   return result;
@@ -97,8 +102,8 @@ class Assembler {
           header() + result.values.source() + defines(false) + parts::kCamera + parts::kRest + parts::kCones;
     const std::string body =
         options_.view == View::Picture ? picture(result.values) : debugView(result.values);
-    result.picture =
-        header() + result.values.source() + defines(!result.cones.empty()) + body + parts::kPicture;
+    result.picture = header() + result.values.source() + defines(!result.cones.empty()) + body +
+                     (scene_.gamma ? "" : parts::kSrgb) + parts::kPicture;
     return result;
   }
 
@@ -118,6 +123,11 @@ class Assembler {
            !whole_.surface[static_cast<int>(Attribute::Reflectivity)].isConstant(0.0);
   }
 
+  std::string encoding() const {
+    if (!scene_.gamma) return "encode(c)";
+    return *scene_.gamma == 1.0 ? "(c)" : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene_.gamma) + "))";
+  }
+
   std::string defines(bool cones) const {
     std::string text;
     const auto define = [&](const std::string& name, const std::string& value) {
@@ -132,6 +142,10 @@ class Assembler {
                    : rest_         ? "sdfRest(p, vec3(0.0)) * " + number(rest_->inverse)
                                    : "1e30");
     define("PLANES", std::to_string(planes_.size()));
+    if (restBounds().finite()) {
+      define("BOX_MIN", vector(restBounds().min));
+      define("BOX_MAX", vector(restBounds().max));
+    }
     define("LIGHTS", std::to_string(scene_.lights.size()));
     define("TAPS", std::to_string(scene_.ambientOcclusion.count));
     define("BOUNCES", std::to_string(mirrors() ? scene_.reflectionBounces : 0));
@@ -145,12 +159,12 @@ class Assembler {
     define("START", cones ? "texelFetch(starts, ivec2(gl_FragCoord.xy) / 4, 0).r" : "0.0");
     if (cones) text += "uniform sampler2D starts;\n";
     const bool colours = options_.view == View::Picture || options_.view == View::Material;
-    define("ENCODE(c)", colours ? "encode(c)" : "(c)");
+    define("ENCODE(c)", colours ? encoding() : "(c)");
     count("COUNT_MARCH", "counted[bounce == 0 ? 0 : 3] += float(readings);");
     count("COUNT_PRIMARY", "counted[0] += float(readings);");
     count("COUNT_SHADOW", "counted[1] += 1.0;");
     count("COUNT_OCCLUSION", "counted[2] += 1.0;");
-    count("STORE_COUNTS", "counts = counted / float(samples * samples);");
+    count("STORE_COUNTS", "counts = counted / all;");
     if (options_.countReadings) text += "layout(location = 1) out vec4 counts;\nvec4 counted = vec4(0.0);\n";
     define("ATTRIBUTES", std::to_string(kAttributeCount));
     for (int i = 0; i < kAttributeCount; ++i)
@@ -173,10 +187,15 @@ class Assembler {
     return std::string(parts::kGradient) + parts::kNormal;
   }
 
+  const Box& restBounds() const { return rest_ ? rest_->shape.bounds : whole_.bounds; }
+
   std::string shadowPart() const {
     const char* kinds[] = {"", parts::kHardShadow, parts::kSoftShadow, parts::kImprovedShadow,
                            parts::kSignedShadow};
-    return shadows() ? std::string(parts::kShadowSettings) + kinds[static_cast<int>(scene_.shadow.kind)] : "";
+    if (!shadows()) return "";
+    return std::string(restBounds().finite() ? parts::kShadowSpan : parts::kNoShadowSpan) +
+           (planes_.empty() ? parts::kNoPlanesLight : parts::kPlanesLight) + parts::kShadowSettings +
+           kinds[static_cast<int>(scene_.shadow.kind)];
   }
 
   std::string occlusionPart() const {
@@ -242,6 +261,11 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
     rest = std::move(*others);
   }
   return Assembler(scene, options, std::move(*whole), std::move(rest), std::move(parts.planes)).run();
+}
+
+std::string forManySamples(const std::string& picture) {
+  const std::size_t line = picture.find('\n') + 1;
+  return picture.substr(0, line) + "#define MANY_SAMPLES\n" + picture.substr(line);
 }
 
 }  // namespace sdf::viewer

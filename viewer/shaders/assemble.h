@@ -9,10 +9,10 @@ namespace sdf::viewer {
 
 /// What a pixel shows.
 enum class View {
-  Picture,  ///< the scene under its lights
-  Normals,  ///< (n + 1) / 2
-  Steps,    ///< readings of the primary ray as heat, from blue for none to red for the step budget; magenta
-          ///< where it ran out
+  Picture,    ///< the scene under its lights
+  Normals,    ///< (n + 1) / 2
+  Steps,      ///< readings of the primary ray as heat, from blue for none to red for the step budget; magenta
+              ///< where it ran out
   Slice,      ///< the distance on a plane through what the camera looks at, with isolines
   Gradient,   ///< length of the distance's gradient at the hit: green 1, blue below, red above
   Material,   ///< diffuse colour, unlit
@@ -40,5 +40,8 @@ struct SceneShaders {
 
 /// Errors (Scene): what `checked` finds, and a shape whose distance has no known slope.
 Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options);
+
+/// The picture's shader with the uniform `samples`: without it a pixel takes one, in its middle.
+std::string forManySamples(const std::string& picture);
 
 }  // namespace sdf::viewer

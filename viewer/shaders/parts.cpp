@@ -54,6 +54,33 @@ const char* const kNoPlanes = R"(
 float planesFrom(Ray ray) { return 1e30; }
 )";
 
+// Outside the rest's bounds, grown by so much, nothing dims the light.
+const char* const kShadowSpan = R"(
+void clip(vec3 p, vec3 l, float grown, inout float t, inout float reach) {
+  vec3 a = (BOX_MIN - grown - p) / l, b = (BOX_MAX + grown - p) / l, enter = min(a, b), leave = max(a, b);
+  t = max(t, max(enter.x, max(enter.y, enter.z)));
+  reach = min(reach, min(leave.x, min(leave.y, leave.z)));
+}
+)";
+
+const char* const kNoShadowSpan = R"(
+void clip(vec3 p, vec3 l, float grown, inout float t, inout float reach) {}
+)";
+
+// height / t falls with t, so it is least at the end; below 0 the light is behind the plane.
+const char* const kPlanesLight = R"(
+float leastOfPlanes(vec3 p, vec3 l, float reach) {
+  float planes[PLANES], least = 1.0;
+  sdfPlanes(p, l, planes);
+  for (int i = 0; i < PLANES; i += 2) least = min(least, max(planes[i], 0.0) / reach + planes[i + 1]);
+  return least;
+}
+)";
+
+const char* const kNoPlanesLight = R"(
+float leastOfPlanes(vec3 p, vec3 l, float reach) { return 1.0; }
+)";
+
 const char* const kMarch = R"(
 const int MISS = 0, HIT = 1, BUDGET = 2;
 
@@ -131,12 +158,13 @@ uniform int shadowSteps;
 const char* const kHardShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart;
-  for (int i = 0; i < shadowSteps; ++i) {
-    float g = field(p + t * l);
+  if (leastOfPlanes(p, l, reach) <= 0.0) return 0.0;
+  clip(p, l, 0.0, t, reach);
+  for (int i = 0; i < shadowSteps && t < reach; ++i) {
+    float g = rest(p + t * l);
     COUNT_SHADOW
     if (g <= shadowHit) return 0.0;
     t += g;
-    if (t >= reach) break;
   }
   return 1.0;
 }
@@ -144,14 +172,15 @@ float shadow(vec3 p, vec3 l, float reach) {
 
 const char* const kSoftShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
-  float t = shadowStart, light = 1.0;
-  for (int i = 0; i < shadowSteps; ++i) {
-    float g = field(p + t * l);
+  float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
+  if (light == 0.0) return 0.0;
+  clip(p, l, reach / sharpness, t, reach);
+  for (int i = 0; i < shadowSteps && t < reach; ++i) {
+    float g = rest(p + t * l);
     COUNT_SHADOW
     if (g <= shadowHit) return 0.0;
     light = min(light, sharpness * g / t);
     t += g;
-    if (t >= reach) break;
   }
   return light;
 }
@@ -272,29 +301,37 @@ vec3 radiance(Ray ray, float t, out bool budget) {
 }
 )";
 
-const char* const kPicture = R"(
-uniform int samples;   // a side: a pixel takes its square
-uniform float gamma;   // of the output; 0: sRGB
-
+const char* const kSrgb = R"(
 vec3 encode(vec3 c) {
   c = clamp(c, 0.0, 1.0);
-  if (gamma > 0.0) return gamma == 1.0 ? c : pow(c, vec3(1.0 / gamma));
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
+)";
 
+const char* const kPicture = R"(
+#ifdef MANY_SAMPLES
+uniform float samples;  // a side: a pixel takes its square
+#endif
 layout(location = 0) out vec4 color;  // alpha is 0 where a primary ray ran out of steps
 
 void main() {
+  float start = START;
   vec3 sum = vec3(0.0);
   bool spent = false;
-  float start = START;
-  for (int i = 0; i < samples * samples; ++i) {
-    vec2 within = (vec2(float(i % samples), float(i / samples)) + 0.5) / float(samples);
+#ifdef MANY_SAMPLES
+  float all = samples * samples;
+  for (float i = 0.5; i < all; i += 1.0) {
+    float row = floor(i / samples);
+    vec2 within = vec2(i - row * samples, row + 0.5) / samples;
     bool budget;
     sum += colorOf(rayThrough(floor(gl_FragCoord.xy) + within), start, budget);
     spent = spent || budget;
   }
-  color = vec4(ENCODE(sum / float(samples * samples)), spent ? 0.0 : 1.0);
+#else
+  const float all = 1.0;  // without a loop, since that costs a third
+  sum = colorOf(rayThrough(gl_FragCoord.xy), start, spent);
+#endif
+  color = vec4(ENCODE(sum / all), spent ? 0.0 : 1.0);
   STORE_COUNTS
 }
 )";

@@ -12,6 +12,12 @@ extern const char* const kField;
 extern const char* const kRest;
 extern const char* const kPlanes;
 extern const char* const kNoPlanes;
+/// clip(p, l, grown, t, reach): the part of the way to a light that can be dimmed.
+extern const char* const kShadowSpan;
+extern const char* const kNoShadowSpan;
+/// leastOfPlanes(p, l, reach): least height over the planes by t, along the way to a light.
+extern const char* const kPlanesLight;
+extern const char* const kNoPlanesLight;
 /// march(...): where a ray hits. METHOD_PLAIN chooses plain sphere tracing. Counts readings where COUNT says
 /// so.
 extern const char* const kMarch;
@@ -43,7 +49,9 @@ extern const char* const kGradientView;
 extern const char* const kMaterialView;
 extern const char* const kOcclusionView;
 extern const char* const kShadowView;
-/// main() of the picture: samples, and the output's encoding. Needs colorOf(ray, t).
+/// encode(c): sRGB of linear colours.
+extern const char* const kSrgb;
+/// main() of the picture: samples, with MANY_SAMPLES more than one, and the output's encoding.
 extern const char* const kPicture;
 /// main() of the cone pass.
 extern const char* const kCones;
