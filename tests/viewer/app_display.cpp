@@ -39,7 +39,7 @@ class Server {
     ::close(ends[0]);
     ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
     ::execlp("Xvfb", "Xvfb", "-displayfd", std::to_string(ends[1]).c_str(), "-screen", "0", "1024x768x24",
-             "-nolisten", "tcp", "-fbdir", folder_.c_str(), nullptr);
+             "-nolisten", "tcp", "-noreset", "-fbdir", folder_.c_str(), nullptr);
     ::_exit(1);
   }
 

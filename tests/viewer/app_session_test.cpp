@@ -128,8 +128,6 @@ TEST_F(SessionTest, ASliderTheClockTheLightAndTheCameraCompileNothing) {
   changesThePicture("light");
   session.controls.eye = Eye{{0.0, 0.0, 4.0}};
   changesThePicture("camera");
-  session.controls.samples = 3;
-  changesThePicture("samples");
   session.controls.maxSteps = 1;
   changesThePicture("steps");
   session.controls.time = 2.0;

@@ -134,7 +134,7 @@ class BareWindowTest : public WindowTest {
  protected:
   void SetUp() override {
     WindowTest::SetUp();
-    if (IsSkipped()) return;
+    if (IsSkipped() || HasFatalFailure()) return;
     keys("Tab");
     settle();
   }
