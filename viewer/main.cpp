@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "viewer/app/window.h"
 #include "viewer/headless.h"
 #include "viewer/options.h"
 
@@ -11,6 +12,14 @@ int fail(const sdf::Error& error) {
   return static_cast<int>(error.kind);
 }
 
+sdf::Status run(const sdf::viewer::Options& o) {
+  if (o.picture || o.bench || o.glsl) return sdf::viewer::runHeadless(o, std::cout);
+  return sdf::viewer::runWindow(
+      {{o.scene, o.parameters, o.time, o.samples, o.maxSteps, o.shader.method, o.shader.view, o.eye},
+       o.width,
+       o.height});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -20,7 +29,6 @@ int main(int argc, char** argv) {
     std::cout << answer->text;
     return 0;
   }
-  const auto& options = std::get<sdf::viewer::Options>(*parsed);
-  const sdf::Status done = sdf::viewer::runHeadless(options, std::cout);
+  const sdf::Status done = run(std::get<sdf::viewer::Options>(*parsed));
   return done ? 0 : fail(done.error());
 }
