@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <iomanip>
+#include <sstream>
 
 #include "sdf/eval/glsl.h"
 #include "sdf/expr/gradient.h"
@@ -84,6 +86,122 @@ TEST_P(GlslOperation, IsWithinWhatGlslPromises) {
 
 INSTANTIATE_TEST_SUITE_P(All, GlslOperation, testing::ValuesIn(graphOperations()),
                          [](const auto& i) { return std::string(sdf::info(i.param.op).name); });
+
+std::vector<std::filesystem::path> samples() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples"))
+    if (entry.path().extension() == ".lua") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class GlslSample : public Gpu, public testing::WithParamInterface<std::filesystem::path> {
+ protected:
+  void SetUp() override {
+    auto scene = loadScene(GetParam());
+    ASSERT_TRUE(scene) << scene.error().message;
+    whole = scene->whole();
+    Sampler random(sampleRegion(whole), 7);
+    for (int i = 0; i < kPlaces; ++i) {
+      const glm::vec3 p = random.orOnAnAxis();
+      places.push_back({p, glm::vec3(glm::normalize(random.anywhere() - random.anywhere()))});
+    }
+  }
+
+  /// What the shader gives for the outputs lies in their bounds, and `oracle` too, except where it is a
+  /// choice between two that the bounds leave open. Most bounds are narrow: not those at creases, and those
+  /// of mod where a quotient may round down from a whole number.
+  template <class Oracle>
+  void check(std::span<const Expr> outputs, Oracle oracle) const {
+    GlslReading ranges(outputs);
+    const auto got = readByShader(outputs, places);
+    std::size_t narrow = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto& [p, n] = places[i];
+      const std::vector<Interval> r = ranges(p, n);
+      const std::vector<double> expected = oracle(p, n);
+      for (std::size_t k = 0; k < outputs.size(); ++k) {
+        narrow += r[k].width() <= kNarrow * (1.0 + r[k].magnitude());
+        const auto where = [&] {
+          std::ostringstream out;
+          out << std::setprecision(9) << "output " << k << " at (" << p.x << ", " << p.y << ", " << p.z
+              << "), n (" << n.x << ", " << n.y << ", " << n.z << "): " << got[i][k] << ", not "
+              << expected[k] << " in [" << r[k].lo << ", " << r[k].hi << "]";
+          return out.str();
+        };
+        ASSERT_TRUE(r[k].contains(got[i][k])) << where();
+        ASSERT_TRUE(r[k].contains(expected[k])) << "the oracle, too: " << where();
+      }
+    }
+    EXPECT_GT(narrow, outputs.size() * places.size() * 3 / 4) << "the bounds say too little";
+  }
+
+  static constexpr int kPlaces = 4096;
+  Shape whole;
+  std::vector<Place> places;
+};
+
+TEST_P(GlslSample, DistancesAreThose) {
+  const Tape tape(whole.distance);
+  check({&whole.distance, 1},
+        [&](const glm::dvec3& p, const glm::dvec3&) { return std::vector<double>{evaluate(tape, p)}; });
+}
+
+TEST_P(GlslSample, GradientsAreThose) {
+  const Vec3E g = gradientOf(whole.distance);
+  const Tape tape(whole.distance);
+  check(std::array{g.x, g.y, g.z}, [&](const glm::dvec3& p, const glm::dvec3&) {
+    const glm::dvec3 slope = evaluateGradient(tape, p).gradient;
+    return std::vector<double>{slope.x, slope.y, slope.z};
+  });
+}
+
+TEST_P(GlslSample, AttributesAreThose) {
+  const Tape tape(whole.surface);
+  check(whole.surface, [&](const glm::dvec3& p, const glm::dvec3& n) { return evaluateAll(tape, p, n); });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GlslSample, testing::ValuesIn(samples()),
+                         [](const auto& i) { return i.param.stem().string(); });
+
+// A parameter is a uniform: its value is no part of the source.
+TEST(GlslWriterTest, LeavesParametersToUniforms) {
+  const auto source = [](double value, GlslWriter& writer) {
+    const Expr size = Expr::parameter({"size", value, 0.0, 10.0});
+    const Expr e = length(position()) - sqrt(size) * 2.0;
+    writer.add("distance", {&e, 1});
+    return writer.source();
+  };
+  GlslWriter one, other;
+  EXPECT_EQ(source(1.0, one), source(4.0, other));
+  EXPECT_EQ(one.uniformValues({}), (std::vector<float>{2.0f, 0.0f, 0.0f, 0.0f}));
+  EXPECT_EQ(other.uniformValues({}), (std::vector<float>{4.0f, 0.0f, 0.0f, 0.0f}));
+  EXPECT_EQ(one.uniformValues({{"size", 9.0}}), (std::vector<float>{6.0f, 0.0f, 0.0f, 0.0f}));
+}
+
+TEST(GlslWriterTest, HasNoUniformsWithoutParameters) {
+  const Expr e = length(position()) - 1.0;
+  GlslWriter writer;
+  writer.add("distance", {&e, 1});
+  EXPECT_EQ(writer.source().find("uniform"), std::string::npos);
+  EXPECT_TRUE(writer.uniformValues({}).empty());
+}
+
+using GlslUniforms = Gpu;
+
+// Shaders read parameters, the other numbers that they make, and time, as the double reading has them.
+TEST_F(GlslUniforms, AreReadAtTheirValues) {
+  const Expr a = Expr::parameter({"a", 0.5, 0.0, 1.0}), t = Expr::parameter({"time", 0.0, 0.0, 1e3});
+  const Expr outputs[] = {a * position().x + sin(t), a, exp(a) - t};
+  const Place places[] = {{{2.0f, 0.0f, 0.0f}, {}}};
+  for (const double time : {0.0, 0.75})
+    for (const double value : {0.25, 1.0}) {
+      const auto got = readByShader(outputs, places, {{"a", value}, {"time", time}})[0];
+      EXPECT_FLOAT_EQ(got[0], static_cast<float>(2.0 * value + std::sin(time)));
+      EXPECT_EQ(got[1], static_cast<float>(value));
+      EXPECT_EQ(got[2], static_cast<float>(std::exp(value) - time));
+    }
+}
 
 }  // namespace
 }  // namespace sdf::test
