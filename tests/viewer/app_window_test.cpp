@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "support/folder.h"
+#include "viewer/app/orbit.h"
 #include "viewer/app/window.h"
 #include "viewer/app_display.h"
 #include "viewer/gpu/context.h"
@@ -310,6 +311,29 @@ TEST_F(BareWindowTest, SleepsWhileNothingChanges) {
   int turns = 0;
   for (; std::chrono::steady_clock::now() < end; ++turns) ASSERT_TRUE(window->turn());
   EXPECT_LE(turns, 10) << "a look at the file each quarter of a second, and some events";
+}
+
+TEST_F(BareWindowTest, MovesAtTwentyFramesASecond) {
+  window.reset();
+  options.session.scene = SDF_SOURCE_DIR "/samples/lighting_stack.lua";
+  options.session.samples = 3;
+  options.width = 1024;
+  options.height = 768;
+  open();
+  std::vector<double> seconds;
+  constexpr int kFrames = 60;
+  for (int i = 0; i < kFrames; ++i) {
+    const double start = glfwGetTime();
+    window->session().controls.eye = orbited(window->session().eye(), {0.01, 0.0});
+    glfwPostEmptyEvent();
+    ASSERT_TRUE(window->turn());
+    seconds.push_back(glfwGetTime() - start);
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + kFrames / 2, seconds.end());
+  EXPECT_LE(seconds[kFrames / 2], 1.0 / 20.0) << window->canvas().statistics().width << " pixels wide";
+  settle();
+  EXPECT_EQ(window->canvas().statistics().width, 1024);
+  EXPECT_EQ(window->canvas().statistics().samples, 3);
 }
 
 TEST_F(BareWindowTest, EscapeAndTheWindowsOwnButtonEndIt) {
