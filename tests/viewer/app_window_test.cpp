@@ -232,6 +232,14 @@ TEST_F(BareWindowTest, SavesThePictureAndCopiesTheCamera) {
   EXPECT_EQ(glfwGetClipboardString(window->handle()), textOf(window->session().eye()));
 }
 
+TEST_F(WindowTest, CountsReadingsAndGoesOn) {
+  keys("m");
+  ASSERT_TRUE(until([&] { return window->gui().readings.has_value(); }));
+  EXPECT_GT(window->gui().readings->primary, 0.0);
+  settle();
+  EXPECT_EQ(screenshot().at(0.6, 0.5), kRed);
+}
+
 TEST_F(WindowTest, ASliderUnderThePointerMovesItsParameter) {
   const int compilations = window->session().compilations();
   const auto moved = [&] { return window->session().controls.parameters.contains("x"); };

@@ -79,7 +79,7 @@ void Gui::statistics(const Session& session, const Canvas& canvas, Requests& req
               renderer.shaders().picture.size() + renderer.shaders().cones.size(),
               1e3 * renderer.compileSeconds());
   if (frame.outOfSteps) ImGui::Text("%.2f %% of the pixels ran out of steps", 100.0 * *frame.outOfSteps);
-  requests.measure |= ImGui::Button("Count readings");
+  requests.measure |= ImGui::Button("Count readings (M)");
   if (readings)
     ImGui::Text("a pixel: %.1f primary, %.1f shadow,\n%.1f occlusion, %.1f reflection", readings->primary,
                 readings->shadow, readings->occlusion, readings->reflection);

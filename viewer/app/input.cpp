@@ -53,6 +53,9 @@ void Input::press(int key, Session& session, Requests& requests) {
     case GLFW_KEY_C:
       requests.copyCamera = true;
       break;
+    case GLFW_KEY_M:
+      requests.measure = true;
+      break;
     case GLFW_KEY_ESCAPE:
       requests.close = true;
       break;

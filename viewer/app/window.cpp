@@ -165,6 +165,8 @@ Result<bool> Window::turn() {
 
 Status Window::show() {
   canvas_.show();
+  // Dear ImGui puts back what was in use before it, which must not be a program that is deleted by then.
+  glUseProgram(0);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();

@@ -32,6 +32,7 @@ class Window {
 
   Session& session() { return session_; }
   const Canvas& canvas() const { return canvas_; }
+  const Gui& gui() const { return gui_; }
   GLFWwindow* handle() const { return window_.get(); }
 
  private:
