@@ -1,7 +1,7 @@
 -- A chess pawn: a flat profile turned about its axis, and a soft collar.
 
 local profile = union {
-  rectangle(0.75, 0.12):translate(0.75, 0.12, 0),
+  rectangle(0.5, 0.12):translate(0.5, 0.12, 0),
   trapezoid(0.62, 0.22, 0.6):translate(0, 0.8, 0),
   rectangle(0.45, 0.07):translate(0, 1.5, 0),
   k = 0.15,
@@ -25,7 +25,7 @@ part("frame", (round_box(2.2, 0.14, 2.2, 0.04) - box(2, 1, 2)):translate(0, -0.1
   name = "frame", color = {0.3, 0.17, 0.09}, specular = 0.3, shininess = 30,
 })
 
-camera { from = {2.2, 2.6, 4.2}, to = {0, 0.9, 0}, fov = 42 }
+camera { from = {2.9, 3.1, 5.4}, to = {0, 0.5, 0}, fov = 42 }
 directional_light { direction = {1, 2, 0.8} }
 ambient(0.2)
 shadows { kind = "soft", sharpness = 10 }

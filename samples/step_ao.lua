@@ -14,3 +14,4 @@ ambient(0.15)
 shadows { kind = "soft", sharpness = 12, start = 0.01, reach = 10 }
 ambient_occlusion { kind = "steps", strength = 0.005 }
 background({0.1, 0.1, 0.12})
+fog { color = {0.1, 0.1, 0.12}, density = 0.03 }  -- far off, the ground costs many steps, too
