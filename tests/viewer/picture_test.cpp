@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "sdf/script/script.h"
 #include "viewer/gpu_render.h"
@@ -122,6 +123,13 @@ TEST_P(PictureOf, IsTheSameForEveryWayOfMarching) {
       foreign += nearest > kSeen;
     }
   EXPECT_LE(foreign, kPictureWidth * kPictureHeight / 1000);
+}
+
+TEST_P(PictureOf, IsInTheGallery) {
+  std::ifstream file(SDF_SOURCE_DIR "/docs/gallery.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(page.find("gallery/" + GetParam() + ".png"), std::string::npos) << "run ./bootstrap gallery";
+  EXPECT_TRUE(std::filesystem::exists(SDF_SOURCE_DIR "/docs/gallery/" + GetParam() + ".png"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, PictureOf, testing::ValuesIn(samples()),
