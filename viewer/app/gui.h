@@ -21,7 +21,7 @@ class Gui {
 
   std::string pictureName;           ///< of the file to save
   std::string notice;                ///< what came of the last request
-  std::optional<Readings> readings;  ///< as last measured
+  std::optional<Readings> readings;  ///< of the present picture, if measured
 
  private:
   void picture(Requests& requests);

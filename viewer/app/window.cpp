@@ -90,42 +90,42 @@ Window::~Window() {
   ImGui::DestroyContext();
 }
 
+Window& Window::told(GLFWwindow* window) {
+  Window& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+  self.repaints_ = kRepaints;
+  return self;
+}
+
 void Window::listen() {
   glfwSetWindowUserPointer(handle(), this);
-  const auto self = [](GLFWwindow* window) -> Window& {
-    Window& found = *static_cast<Window*>(glfwGetWindowUserPointer(window));
-    found.repaints_ = kRepaints;
-    return found;
-  };
-  static constexpr auto of = self;
   glfwSetKeyCallback(handle(), [](GLFWwindow* w, int key, int, int action, int) {
-    Window& self = of(w);
+    Window& self = told(w);
     // Letting go is always heard: the key may have been pressed before a panel took over.
     if (action == GLFW_RELEASE || !ImGui::GetIO().WantCaptureKeyboard)
       self.input_.key(key, action, self.session_, self.requests_);
   });
   glfwSetMouseButtonCallback(handle(), [](GLFWwindow* w, int button, int action, int modifiers) {
-    Window& self = of(w);
+    Window& self = told(w);
     if (action == GLFW_RELEASE || !ImGui::GetIO().WantCaptureMouse)
       self.input_.button(button, action, modifiers);
   });
   glfwSetCursorPosCallback(handle(), [](GLFWwindow* w, double x, double y) {
-    Window& self = of(w);
+    Window& self = told(w);
     int width = 0, height = 0;
     glfwGetWindowSize(w, &width, &height);
     self.input_.cursor({x, y}, std::max(height, 1), self.session_);
   });
   glfwSetScrollCallback(handle(), [](GLFWwindow* w, double, double steps) {
-    Window& self = of(w);
+    Window& self = told(w);
     if (!ImGui::GetIO().WantCaptureMouse) self.input_.scroll(steps, self.session_);
   });
   glfwSetWindowFocusCallback(handle(), [](GLFWwindow* w, int focused) {
-    Window& self = of(w);
+    Window& self = told(w);
     if (!focused) self.input_.release();
   });
-  glfwSetCharCallback(handle(), [](GLFWwindow* w, unsigned) { of(w); });
-  glfwSetWindowRefreshCallback(handle(), [](GLFWwindow* w) { of(w); });
-  glfwSetFramebufferSizeCallback(handle(), [](GLFWwindow* w, int, int) { of(w); });
+  glfwSetCharCallback(handle(), [](GLFWwindow* w, unsigned) { told(w); });
+  glfwSetWindowRefreshCallback(handle(), [](GLFWwindow* w) { told(w); });
+  glfwSetFramebufferSizeCallback(handle(), [](GLFWwindow* w, int, int) { told(w); });
 }
 
 void Window::wait() const {
@@ -155,6 +155,7 @@ Result<bool> Window::turn() {
   const glm::ivec2 size = pixelsOf(handle());
   const auto drawn = canvas_.update(session_, size.x, size.y, now);
   if (!drawn) return drawn.error();
+  if (*drawn) gui_.readings.reset();  // they were another picture's
   if (*drawn || repaints_ > 0) {
     repaints_ = std::max(repaints_ - 1, 0);
     if (const Status shown = show(); !shown) return shown.error();

@@ -40,6 +40,7 @@ class Window {
   Window(Handle window, Session session, std::string pictureName);
   static Result<Handle> create(const WindowOptions& options);
   void listen();
+  static Window& told(GLFWwindow* window);  // of an event, which the panels may answer
   void wait() const;
   Status show();
   void answer(const Requests& requests);
