@@ -11,6 +11,7 @@ namespace sdf::viewer {
 namespace {
 
 constexpr float kMargin = 8.0f, kPanelWidth = 320.0f;
+constexpr float kLabelWidth = 8.0f;  // of a slider, in heights of the font
 constexpr const char* kViews[] = {"Picture",  "Normals",  "Steps",     "Distance slice",
                                   "Gradient", "Material", "Occlusion", "Shadow"};
 static_assert(std::size(kViews) == static_cast<std::size_t>(View::Count));
@@ -92,6 +93,7 @@ void Gui::panels(Session& session, const Canvas& canvas, Requests& requests) {
                            ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowBgAlpha(0.8f);
   if (ImGui::Begin("sdfview")) {
+    ImGui::PushItemWidth(-kLabelWidth * ImGui::GetFontSize());
     const auto section = [](const char* name, bool open) {
       return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
     };
@@ -103,6 +105,7 @@ void Gui::panels(Session& session, const Canvas& canvas, Requests& requests) {
     if (section("Materials", false)) materialPanel(session);
     if (section("Camera", false)) camera(session, requests);
     if (section("Save as PNG", true)) picture(requests);
+    ImGui::PopItemWidth();
   }
   ImGui::End();
 }
