@@ -107,6 +107,7 @@ Status camera(const std::optional<std::string>& word, std::optional<Eye>& eye) {
   if (eye->from == eye->to) return wrong("two different places");
   if (v.size() == 7) eye->fov = v[6];
   if (!(eye->fov > 0.0 && eye->fov < 180.0)) return wrong("a field of view between 0 and 180 degrees");
+  eye = upright(*eye);
   return okStatus();
 }
 

@@ -1,5 +1,6 @@
 #include "viewer/render/look.h"
 
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
@@ -31,10 +32,18 @@ std::string text(const glm::dvec3& v) {
 
 }  // namespace
 
+Eye upright(Eye eye) {
+  constexpr double kParallel = 1e-12;
+  const glm::dvec3 way = glm::normalize(eye.to - eye.from);
+  if (glm::length(glm::cross(way, eye.up)) > kParallel * glm::length(eye.up)) return eye;
+  eye.up = std::abs(way.z) > 0.5 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, way.y > 0.0 ? 1.0 : -1.0);
+  return eye;
+}
+
 Look lookOf(const Scene& scene, const Parameters& parameters) {
   const Reader value(parameters);
   const Camera& c = scene.camera;
-  Look look{{value(c.from), value(c.to), value(c.up), value(c.fov), c.mirrored},
+  Look look{upright({value(c.from), value(c.to), value(c.up), value(c.fov), c.mirrored}),
             {},
             glm::vec3(value(scene.ambient)),
             glm::vec3(value(scene.fog.color)),

@@ -21,6 +21,10 @@ struct Eye {
   bool operator==(const Eye&) const = default;
 };
 
+/// The eye; one that looks straight along its `up` has north, -z, up instead, as on a plan, or +y where that
+/// is no better.
+Eye upright(Eye eye);
+
 struct LookLight {
   glm::vec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
   glm::vec4 color;   ///< times its intensity; w: 1 if it casts shadows
