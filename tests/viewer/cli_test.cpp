@@ -1,0 +1,313 @@
+// The command line of sdfview, over the program as it was built: every option, and what goes wrong.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/folder.h"
+#include "tools/command.h"
+#include "viewer/gpu/png.h"
+
+namespace sdf {
+namespace {
+
+using viewer::Picture;
+
+constexpr const char* kBall = "return sphere(1)";
+// Moves with time, and grows with its parameter.
+constexpr const char* kMoving =
+    "part('ball', sphere(param('size', 1, {min = 0.1, max = 2})):translate(time, 0, 0))";
+constexpr int kUsage = 2, kScene = 3, kLimits = 4, kFiles = 5, kGraphics = 6;
+
+class Sdfview : public testing::Test {
+ protected:
+  std::string scene(const std::string& text) {
+    const auto file = folder / "scene.lua";
+    std::ofstream(file) << text;
+    return file.string();
+  }
+  std::string at(const std::string& name) const { return (folder / name).string(); }
+
+  static Outcome run(std::vector<std::string> arguments, std::vector<std::string> environment = {}) {
+    Command command{{"/usr/bin/env"}};
+    for (const auto* part : {&environment, &arguments}) {
+      command.words.insert(command.words.end(), part->begin(), part->end());
+      if (part == &environment) command.words.push_back(SDFVIEW_PROGRAM);
+    }
+    return command.run();
+  }
+
+  /// The picture that these options draw, without a word.
+  Picture drawn(const std::string& text, std::vector<std::string> options,
+                const std::string& size = "32x24") {
+    const std::string file = at("drawn.png");
+    options.insert(options.begin(), {scene(text), "--render", file, "--size", size});
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out + outcome.err, "");
+    return read(file);
+  }
+  static Picture read(const std::string& file) {
+    auto picture = viewer::readPng(file);
+    if (!picture) throw std::runtime_error(picture.error().message);
+    return std::move(*picture);
+  }
+
+  void expectRefused(int status, const std::string& words, const std::vector<std::string>& arguments) {
+    const Outcome outcome = run(arguments);
+    std::string line;
+    for (const std::string& a : arguments) line += a + " ";
+    EXPECT_EQ(outcome.status, status) << line << outcome.err;
+    EXPECT_EQ(outcome.out, "") << line;
+    EXPECT_EQ(outcome.err.rfind("sdfview: ", 0), 0u) << line << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << line << outcome.err;
+  }
+
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  const Folder folder;
+};
+
+TEST_F(Sdfview, SaysWhatItCanDo) {
+  const Outcome help = run({"--help"}), version = run({"--version"});
+  EXPECT_EQ(help.status, 0);
+  for (const char* word :
+       {"SCENE", "--render", "--size", "--time", "--samples", "--steps", "--view", "--method", "-D",
+        "--camera", "--frames", "--fps", "--bench", "--glsl", "--version",
+        "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out.rfind("sdfview ", 0), 0u) << version.out;
+  EXPECT_EQ(help.err + version.err, "");
+}
+
+TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
+  const std::string s = scene(kBall), png = at("a.png");
+  const struct {
+    std::vector<std::string> options;
+    const char* words;
+  } cases[] = {
+      {{"--size", "10"}, "--size needs WIDTHxHEIGHT in whole pixels from 1, got '10'"},
+      {{"--size", "10x"}, "got '10x'"},
+      {{"--size", "0x10"}, "got '0x10'"},
+      {{"--size", "10x-3"}, "got '10x-3'"},
+      {{"--size", "1.5x3"}, "got '1.5x3'"},
+      {{"--size", "nanxinf"}, "got 'nanxinf'"},
+      {{"--size", "9x9x9"}, "got '9x9x9'"},
+      {{"--size", "99999999999x1"}, "got '99999999999x1'"},
+      {{"--samples", "2"}, "--samples needs a square from 1 to 1024 (1, 4, 9, ...), got '2'"},
+      {{"--samples", "0"}, "got '0'"},
+      {{"--samples", "-4"}, "got '-4'"},
+      {{"--samples", "1089"}, "got '1089'"},
+      {{"--samples", "four"}, "got 'four'"},
+      {{"--steps", "0"}, "--steps needs a whole number from 1 to 100000, got '0'"},
+      {{"--steps", "2.5"}, "got '2.5'"},
+      {{"--steps", "1e6"}, "got '1e6'"},
+      {{"--time", "soon"}, "--time needs a finite number of seconds, got 'soon'"},
+      {{"-t", "inf"}, "got 'inf'"},
+      {{"--frames", "0"}, "--frames needs a whole number from 1 to 100000, got '0'"},
+      {{"--frames", "2", "--fps", "0"}, "--fps needs a number above 0, got '0'"},
+      {{"--fps", "24"}, "--fps says how fast --frames N go by; add --frames or leave --fps out"},
+      {{"--bench", "0"}, "--bench needs a whole number from 1 to 100000, got '0'"},
+      {{"--view", "front"},
+       "--view needs picture, normals, steps, slice, gradient, material, occlusion or shadow"},
+      {{"--method", "fast"}, "--method needs auto or plain, got 'fast'"},
+      {{"--camera", "0,0,5"}, "--camera needs six numbers x,y,z,x,y,z, or seven with the field of view"},
+      {{"--camera", "0,0,5,0,0,0,"}, "got '0,0,5,0,0,0,'"},
+      {{"--camera", "0,0,5,0,0,up"}, "got '0,0,5,0,0,up'"},
+      {{"--camera", "1,2,3,1,2,3"}, "--camera needs two different places"},
+      {{"--camera", "0,0,5,0,0,0,180"}, "--camera needs a field of view between 0 and 180 degrees"},
+      {{"--camera", "0,0,5,0,0,0,0"}, "between 0 and 180"},
+      {{"-D", "size"}, "-D needs name=value with a finite number, got 'size'"},
+      {{"-D", "=1"}, "got '=1'"},
+      {{"-D", "a=nan"}, "got 'a=nan'"},
+      {{"-D", "a=1", "-D", "a=2"}, "-D sets 'a' twice; keep one"},
+      {{"--view", "steps", "--view", "slice"}, "--view takes one value and can be given once"},
+      {{"--size"}, "--size"},
+      {{"--nothing"}, "--nothing"},
+      {{"second.lua"}, "second.lua"},
+  };
+  for (const auto& c : cases) {
+    std::vector<std::string> all{s, "--render", png};
+    all.insert(all.end(), c.options.begin(), c.options.end());
+    expectRefused(kUsage, c.words, all);
+  }
+  expectRefused(kUsage, "SCENE is required; see sdfview --help", {});
+  expectRefused(kUsage, "add --render", {s, "--frames", "2", "--glsl", at("a.glsl")});
+  expectRefused(kUsage, "more than one place for the frame's number",
+                {s, "--frames", "2", "--render", at("%d_%d.png")});
+  EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
+}
+
+TEST_F(Sdfview, NamesWhatIsWrongWithAScene) {
+  const std::string png = at("a.png");
+  const auto refuse = [&](const std::string& text, const char* words, std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {scene(text), "--render", png});
+    expectRefused(kScene, words, options);
+  };
+  refuse("return sphere(", "scene.lua:1:");
+  refuse("return sphere(-1)", "radius must be positive");
+  refuse("", "scene.lua");
+  refuse("return field(function(x, y, z) return x * x + y * y + z * z - 1 end)", "");
+  refuse(kBall, "-D size: the scene has no parameter 'size'", {"-D", "size=2"});
+  refuse(kMoving, "-D time: set the scene's clock with --time", {"-D", "time=2"});
+  expectRefused(kFiles, "nowhere.lua: cannot be read", {at("nowhere.lua"), "--render", png});
+  EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
+}
+
+TEST_F(Sdfview, NamesPicturesThatAreTooLarge) {
+  expectRefused(kLimits, "cannot draw 65536 x 1 pixels: this driver draws from 1 x 1 to",
+                {scene(kBall), "--render", at("a.png"), "--size", "65536x1"});
+}
+
+TEST_F(Sdfview, NamesFilesThatCannotBeWritten) {
+  const std::string s = scene(kBall);
+  for (const char* flag : {"--render", "--glsl"}) {
+    expectRefused(kFiles, "no/such/folder", {s, flag, at("no/such/folder/a.png"), "--size", "8x8"});
+    expectRefused(kFiles, folder.path().string(), {s, flag, folder.path().string(), "--size", "8x8"});
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
+}
+
+TEST_F(Sdfview, NamesWhatGraphicsItLacks) {
+  const std::vector<std::string> bare{"-u", "DISPLAY", "-u", "WAYLAND_DISPLAY",
+                                      "__EGL_VENDOR_LIBRARY_FILENAMES=/no/such/driver.json"};
+  const std::string s = scene(kBall);
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{s, "--render", at("a.png")}, {s, "--bench", "1"}, {s}}) {
+    const Outcome outcome = run(arguments, bare);
+    EXPECT_EQ(outcome.status, kGraphics) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("sdfview: ", 0), 0u) << outcome.err;
+  }
+  // A shader is text.
+  EXPECT_EQ(run({s, "--glsl", at("a.glsl")}, bare).status, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.glsl", "scene.lua"}));
+}
+
+TEST_F(Sdfview, DrawsThePictureAsLargeAsAsked) {
+  for (const auto& [size, width, height] :
+       {std::tuple("1x1", 1, 1), {"64x3", 64, 3}, {"3x64", 3, 64}, {"1280x720", 1280, 720}}) {
+    const Picture picture = drawn(kBall, {}, size);
+    EXPECT_EQ(picture.width, width);
+    EXPECT_EQ(picture.height, height);
+    for (std::size_t i = 3; i < picture.bytes.size(); i += 4) ASSERT_EQ(picture.bytes[i], 255);
+  }
+}
+
+TEST_F(Sdfview, DrawsTheSamePictureTwice) { EXPECT_EQ(drawn(kMoving, {}).bytes, drawn(kMoving, {}).bytes); }
+
+// Every option that ought to change the picture does.
+TEST_F(Sdfview, HeedsItsOptions) {
+  const auto plain = drawn(kMoving, {}).bytes;
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--time", "0.5"},
+                                                  {"-t", "0.5"},
+                                                  {"-D", "size=0.5"},
+                                                  {"--samples", "4"},
+                                                  {"--camera", "0,0,5,0,0,0"},
+                                                  {"--camera", "0,1.5,6,0,0,0,60"},
+                                                  {"--view", "normals"},
+                                                  {"--view", "steps"},
+                                                  {"--view", "slice"},
+                                                  {"--view", "gradient"},
+                                                  {"--view", "material"},
+                                                  {"--view", "occlusion"},
+                                                  {"--view", "shadow"}})
+    EXPECT_NE(drawn(kMoving, options).bytes, plain) << options[0] << " " << options[1];
+  EXPECT_NE(drawn(kMoving, {"--view", "steps"}).bytes,
+            drawn(kMoving, {"--view", "steps", "--method", "plain"}).bytes);
+}
+
+// As people look at plans: straight down, and up.
+TEST_F(Sdfview, LooksStraightDown) {
+  const auto above = drawn(kBall, {"--camera", "0,5,0,0,0,0", "--view", "normals"}, "33x33");
+  const std::size_t middle = 4 * (16 * 33 + 16);
+  EXPECT_NEAR(above.bytes[middle], 128, 1);  // n = (0, 1, 0) as (n + 1) / 2
+  EXPECT_NEAR(above.bytes[middle + 1], 255, 1);
+  EXPECT_NEAR(above.bytes[middle + 2], 128, 1);
+  const std::size_t high = 4 * (14 * 33 + 16), right = 4 * (16 * 33 + 18);
+  EXPECT_LT(above.bytes[high + 2], 128) << "north, -z, is up";
+  EXPECT_GT(above.bytes[right], 128) << "and +x to the right";
+  const char* scene = "camera { from = {0, 5, 0}, to = {0, 0, 0} }\npart('ball', sphere(1))";
+  EXPECT_EQ(drawn(scene, {"--view", "normals"}, "33x33").bytes, above.bytes);
+  const auto below = drawn(kBall, {"--camera", "0,-5,0,0,0,0", "--view", "normals"}, "33x33");
+  EXPECT_NEAR(below.bytes[middle + 1], 0, 1);
+}
+
+TEST_F(Sdfview, NumbersItsFrames) {
+  const std::string s = scene(kMoving);
+  EXPECT_EQ(run({s, "--render", at("a.png"), "--size", "32x24", "--frames", "3", "--fps", "2"}).status, 0);
+  EXPECT_EQ(run({s, "--render", at("%02d-b.png"), "--size", "32x24", "--frames", "2", "-t", "0.5"}).status,
+            0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"01-b.png", "02-b.png", "a_0001.png", "a_0002.png",
+                                               "a_0003.png", "scene.lua"}));
+  EXPECT_EQ(read(at("a_0001.png")).bytes, drawn(kMoving, {}).bytes);
+  EXPECT_EQ(read(at("a_0003.png")).bytes, drawn(kMoving, {"--time", "1"}).bytes) << "half a second a frame";
+  EXPECT_EQ(read(at("01-b.png")).bytes, read(at("a_0002.png")).bytes);
+  const double second = 0.5 + 1.0 / 24.0;
+  char time[32];
+  std::snprintf(time, sizeof time, "%.17g", second);
+  EXPECT_EQ(read(at("02-b.png")).bytes, drawn(kMoving, {"--time", time}).bytes) << "24 frames a second";
+}
+
+TEST_F(Sdfview, LeavesAPercentSignAloneInASinglePicture) {
+  ASSERT_EQ(run({scene(kBall), "--render", at("a%04d.png"), "--size", "8x8"}).status, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"a%04d.png", "scene.lua"}));
+}
+
+TEST_F(Sdfview, WarnsOfPixelsThatRanOutOfSteps) {
+  const std::string png = at("a.png");
+  const Outcome outcome = run({scene(kBall), "--render", png, "--size", "64x48", "--steps", "3"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err.rfind("sdfview: warning: ", 0), 0u) << outcome.err;
+  EXPECT_NE(outcome.err.find(" pixels ran out of steps; give more with --steps"), std::string::npos);
+  const Picture picture = read(png);
+  for (std::size_t i = 3; i < picture.bytes.size(); i += 4) ASSERT_EQ(picture.bytes[i], 255);
+}
+
+TEST_F(Sdfview, ReportsWhatFramesCost) {
+  const Outcome outcome = run({std::string(SDF_SOURCE_DIR) + "/samples/lighting_stack.lua", "--bench", "2",
+                               "--size", "40x30", "--samples", "4"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["width"], 40);
+  EXPECT_EQ(report["height"], 30);
+  EXPECT_EQ(report["samples"], 4);
+  EXPECT_EQ(report["rays"], 40.0 * 30.0 * 4.0);
+  EXPECT_EQ(report["pixels_out_of_steps"], 0);
+  EXPECT_NE(report["driver"].get<std::string>().find("OpenGL"), std::string::npos);
+  for (const char* key : {"compile_ms", "first_frame_ms", "frame_ms", "shader_bytes"})
+    EXPECT_GT(report[key].get<double>(), 0.0) << key;
+  for (const char* ray : {"primary", "shadow", "occlusion", "reflection"})
+    EXPECT_GT(report["readings_a_ray"][ray].get<double>(), 0.0) << ray;
+  EXPECT_EQ(report.size(), 11u);
+}
+
+TEST_F(Sdfview, DrawsBenchesAndWritesTheShaderAtOnce) {
+  const Outcome outcome =
+      run({scene(kBall), "--render", at("a.png"), "--glsl", at("a.glsl"), "--bench", "1", "--size", "16x16"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NO_THROW((void)nlohmann::json::parse(outcome.out));
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.glsl", "a.png", "scene.lua"}));
+}
+
+TEST_F(Sdfview, WritesAShaderThatCompiles) {
+  const std::string file = at("a.frag");
+  ASSERT_EQ(run({scene(kMoving), "--glsl", file, "--view", "normals", "--method", "plain"}).status, 0);
+  const std::string text = contents(file);
+  EXPECT_EQ(text.rfind("#version 330 core\n", 0), 0u);
+  EXPECT_NE(text.find("#define METHOD_PLAIN"), std::string::npos);
+  if (std::string(SDF_GLSLANG).empty()) GTEST_SKIP() << "glslangValidator is not installed";
+  const Outcome outcome = Command{{SDF_GLSLANG, file}}.run();
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+}
+
+}  // namespace
+}  // namespace sdf
