@@ -54,11 +54,19 @@ SDF_EXACT_2(equal)
   inline GlslRange call(const GlslRange& a, const GlslRange& b) { \
     return flushed(sdf::call(a.range, b.range), ulps);            \
   }
-SDF_ROUNDED_2(add, kRoundedUlps)
-SDF_ROUNDED_2(sub, kRoundedUlps)
 SDF_ROUNDED_2(mul, kRoundedUlps)
 SDF_ROUNDED_2(div, kDivideUlps)
 #undef SDF_ROUNDED_2
+
+// Drivers may add in another order, so that constants are added to each other first: a sum is off by an ulp
+// of its larger term.
+inline GlslRange sum(const Interval& exact, const GlslRange& a, const GlslRange& b) {
+  const double size = std::max(a.range.magnitude(), b.range.magnitude());
+  return rounded(exact, kRoundedUlps,
+                 std::isinf(floatUlp(size)) ? FLT_MIN : std::max<double>(floatUlp(size), FLT_MIN));
+}
+inline GlslRange add(const GlslRange& a, const GlslRange& b) { return sum(sdf::add(a.range, b.range), a, b); }
+inline GlslRange sub(const GlslRange& a, const GlslRange& b) { return sum(sdf::sub(a.range, b.range), a, b); }
 
 inline GlslRange square(const GlslRange& a) { return flushed(sdf::square(a.range), kRoundedUlps); }
 inline GlslRange sqrt(const GlslRange& a) { return flushed(sdf::sqrt(a.range), kRootUlps); }

@@ -95,74 +95,100 @@ std::vector<std::filesystem::path> samples() {
   return files;
 }
 
+// Of a sample's bounds.
+constexpr double kMost = 0.75;
+
+std::vector<Place> placesAround(const Shape& shape, int count) {
+  Sampler random(sampleRegion(shape), 7);
+  std::vector<Place> places;
+  for (int i = 0; i < count; ++i) {
+    const glm::vec3 p = random.orOnAnAxis();
+    places.push_back({p, glm::vec3(glm::normalize(random.anywhere() - random.anywhere()))});
+  }
+  return places;
+}
+
+/// What the shader gives for the outputs lies in their bounds, and `oracle` too, except where it is a
+/// choice between two that the bounds leave open. At least this share of the bounds is narrow: not those at
+/// creases, and those of mod where a quotient may round down from a whole number.
+template <class Oracle>
+void check(std::span<const Expr> outputs, const std::vector<Place>& places, double share, Oracle oracle) {
+  GlslReading ranges(outputs);
+  const auto got = readByShader(outputs, places);
+  std::size_t narrow = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [p, n] = places[i];
+    const std::vector<Interval> r = ranges(p, n);
+    const std::vector<double> expected = oracle(p, n);
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+      narrow += r[k].width() <= kNarrow * (1.0 + r[k].magnitude());
+      const auto where = [&] {
+        std::ostringstream out;
+        out << std::setprecision(9) << "output " << k << " at (" << p.x << ", " << p.y << ", " << p.z
+            << "), n (" << n.x << ", " << n.y << ", " << n.z << "): " << got[i][k] << ", not " << expected[k]
+            << " in [" << r[k].lo << ", " << r[k].hi << "]";
+        return out.str();
+      };
+      ASSERT_TRUE(r[k].contains(got[i][k])) << where();
+      ASSERT_TRUE(r[k].contains(expected[k])) << "the oracle, too: " << where();
+    }
+  }
+  EXPECT_GE(static_cast<double>(narrow), share * static_cast<double>(outputs.size() * places.size()))
+      << "the bounds say too little";
+}
+
+void checkDistance(const Shape& shape, const std::vector<Place>& places, double share) {
+  const Tape tape(shape.distance);
+  check({&shape.distance, 1}, places, share,
+        [&](const glm::dvec3& p, const glm::dvec3&) { return std::vector<double>{evaluate(tape, p)}; });
+}
+
+void checkGradient(const Shape& shape, const std::vector<Place>& places, double share) {
+  const Vec3E g = gradientOf(shape.distance);
+  const Tape tape(shape.distance);
+  check(std::array{g.x, g.y, g.z}, places, share, [&](const glm::dvec3& p, const glm::dvec3&) {
+    const glm::dvec3 slope = evaluateGradient(tape, p).gradient;
+    return std::vector<double>{slope.x, slope.y, slope.z};
+  });
+}
+
 class GlslSample : public Gpu, public testing::WithParamInterface<std::filesystem::path> {
  protected:
   void SetUp() override {
     auto scene = loadScene(GetParam());
     ASSERT_TRUE(scene) << scene.error().message;
     whole = scene->whole();
-    Sampler random(sampleRegion(whole), 7);
-    for (int i = 0; i < kPlaces; ++i) {
-      const glm::vec3 p = random.orOnAnAxis();
-      places.push_back({p, glm::vec3(glm::normalize(random.anywhere() - random.anywhere()))});
-    }
+    places = placesAround(whole, 4096);
   }
 
-  /// What the shader gives for the outputs lies in their bounds, and `oracle` too, except where it is a
-  /// choice between two that the bounds leave open. Most bounds are narrow: not those at creases, and those
-  /// of mod where a quotient may round down from a whole number.
-  template <class Oracle>
-  void check(std::span<const Expr> outputs, Oracle oracle) const {
-    GlslReading ranges(outputs);
-    const auto got = readByShader(outputs, places);
-    std::size_t narrow = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto& [p, n] = places[i];
-      const std::vector<Interval> r = ranges(p, n);
-      const std::vector<double> expected = oracle(p, n);
-      for (std::size_t k = 0; k < outputs.size(); ++k) {
-        narrow += r[k].width() <= kNarrow * (1.0 + r[k].magnitude());
-        const auto where = [&] {
-          std::ostringstream out;
-          out << std::setprecision(9) << "output " << k << " at (" << p.x << ", " << p.y << ", " << p.z
-              << "), n (" << n.x << ", " << n.y << ", " << n.z << "): " << got[i][k] << ", not "
-              << expected[k] << " in [" << r[k].lo << ", " << r[k].hi << "]";
-          return out.str();
-        };
-        ASSERT_TRUE(r[k].contains(got[i][k])) << where();
-        ASSERT_TRUE(r[k].contains(expected[k])) << "the oracle, too: " << where();
-      }
-    }
-    EXPECT_GT(narrow, outputs.size() * places.size() * 3 / 4) << "the bounds say too little";
-  }
-
-  static constexpr int kPlaces = 4096;
   Shape whole;
   std::vector<Place> places;
 };
 
-TEST_P(GlslSample, DistancesAreThose) {
-  const Tape tape(whole.distance);
-  check({&whole.distance, 1},
-        [&](const glm::dvec3& p, const glm::dvec3&) { return std::vector<double>{evaluate(tape, p)}; });
-}
+TEST_P(GlslSample, DistancesAreThose) { checkDistance(whole, places, kMost); }
 
-TEST_P(GlslSample, GradientsAreThose) {
-  const Vec3E g = gradientOf(whole.distance);
-  const Tape tape(whole.distance);
-  check(std::array{g.x, g.y, g.z}, [&](const glm::dvec3& p, const glm::dvec3&) {
-    const glm::dvec3 slope = evaluateGradient(tape, p).gradient;
-    return std::vector<double>{slope.x, slope.y, slope.z};
-  });
-}
+TEST_P(GlslSample, GradientsAreThose) { checkGradient(whole, places, kMost); }
 
 TEST_P(GlslSample, AttributesAreThose) {
   const Tape tape(whole.surface);
-  check(whole.surface, [&](const glm::dvec3& p, const glm::dvec3& n) { return evaluateAll(tape, p, n); });
+  check(whole.surface, places, kMost,
+        [&](const glm::dvec3& p, const glm::dvec3& n) { return evaluateAll(tape, p, n); });
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GlslSample, testing::ValuesIn(samples()),
                          [](const auto& i) { return i.param.stem().string(); });
+
+using GlslCatalog = Gpu;
+
+// Extreme arguments included, whose bounds may be wide.
+TEST_F(GlslCatalog, DistancesAndGradientsAreThose) {
+  for (const ShapeCase& c : primitiveCases()) {
+    SCOPED_TRACE(c.name);
+    const std::vector<Place> places = placesAround(c.shape, 1024);
+    checkDistance(c.shape, places, 0.0);
+    checkGradient(c.shape, places, 0.0);
+  }
+}
 
 // A parameter is a uniform: its value is no part of the source.
 TEST(GlslWriterTest, LeavesParametersToUniforms) {

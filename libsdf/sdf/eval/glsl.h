@@ -19,9 +19,9 @@ class GlslWriter {
   ///     void name(vec3 p, vec3 n, out float values[outputs.size()])
   ///
   /// or, for one output, `float name(vec3 p, vec3 n)`, and for three `vec3 name(…)`.
-  /// Common parts are computed once. Values agree with the batch reading's but for the driver's rounding of
-  /// divisions, roots and transcendental functions; min, max, pow, atan and atan2 of a NaN are the driver's
-  /// choice. Cost: linear in the size of the graph.
+  /// Common parts are computed once. Values agree with the batch reading's but for the order in which the
+  /// driver adds, and its rounding of divisions, roots and transcendental functions; min, max, pow, atan and
+  /// atan2 of a NaN are the driver's choice. Cost: linear in the size of the graph.
   void add(const std::string& name, std::span<const Expr> outputs);
 
   /// Declarations and functions, without `#version` and precision.
