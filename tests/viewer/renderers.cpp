@@ -20,9 +20,9 @@ Renderer cpu() {
 // exponent; those we know keep to a few roundings).
 constexpr double kGpuRounding = 0x1p-18;
 
-// A fov of 90 degrees is the widest of truth_test.cpp, 91 rows its height: tan(fov / 2) / height is a pixel's
-// radius at distance 1.
-constexpr double kFarthest = 10.0, kWidestPixel = 1.0 / 91.0;
+// The pictures that are held to an offset are 91 pixels high, one picture height away: half a pixel at
+// distance 1.
+constexpr double kFarthest = 10.0, kPixelRadius = 0.5 / 91.0;
 
 Renderer gpu(const std::string& name, viewer::Method method) {
   const auto render = [method](const Scene& scene, int width, int height) {
@@ -37,7 +37,7 @@ Renderer gpu(const std::string& name, viewer::Method method) {
     return picture;
   };
   const GpuRenderOptions defaults;
-  const double near = defaults.epsilon + defaults.threshold * kWidestPixel * kFarthest;
+  const double near = defaults.epsilon + defaults.threshold * kPixelRadius * kFarthest;
   return {name, render, kGpuRounding, near};
 }
 
