@@ -1,6 +1,7 @@
 #include "viewer/gpu_render.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 
@@ -31,6 +32,7 @@ std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& o
       take(viewer::Target::create(options.width, options.height, {viewer::PixelFormat::Rgba32f}));
   viewer::Frame frame = viewer::frameOf(scene);
   frame.samples = options.samples;
+  frame.filter = options.filter;
   frame.maxSteps = options.maxSteps;
   frame.epsilon = options.epsilon;
   frame.threshold = options.threshold;
@@ -44,7 +46,9 @@ double hitThreshold(const Scene& scene, const GpuRenderOptions& options, double 
 }
 
 std::vector<glm::dvec3> colors(const std::vector<glm::vec4>& pixels) {
-  return {pixels.begin(), pixels.end()};
+  std::vector<glm::dvec3> shown;
+  for (const glm::vec4& p : pixels) shown.push_back(glm::clamp(glm::dvec3(p), 0.0, 1.0));
+  return shown;
 }
 
 }  // namespace sdf::test

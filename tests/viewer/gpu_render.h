@@ -12,6 +12,7 @@ struct GpuRenderOptions {
   int width = 160, height = 90;
   viewer::ShaderOptions shader;
   int samples = 1;  ///< samples x samples rays a pixel
+  bool filter = true;
   int maxSteps = viewer::Frame{}.maxSteps;
   double epsilon = viewer::Frame{}.epsilon;
   double threshold = viewer::Frame{}.threshold;
@@ -24,7 +25,7 @@ std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& o
 /// How far from the surface these options let a hit be at a distance from the eye, scene units.
 double hitThreshold(const Scene& scene, const GpuRenderOptions& options, double distance);
 
-/// Without alpha.
+/// As they are shown: each part in [0, 1], without alpha.
 std::vector<glm::dvec3> colors(const std::vector<glm::vec4>& pixels);
 
 }  // namespace sdf::test

@@ -46,7 +46,9 @@ class PictureOf : public testing::TestWithParam<std::string> {
     return encode(renderOnCpu(scene, options).color, scene.gamma);
   }
 
+  // The CPU's patterns are sharp.
   std::vector<glm::dvec3> onGpu(GpuRenderOptions options) const {
+    options.filter = false;
     options.width = kPictureWidth;
     options.height = kPictureHeight;
     return colors(renderOnGpu(scene, options));

@@ -94,7 +94,9 @@ void Renderer::setFrame(const Program& program, const Frame& frame, int width, i
   program.set("forward", glm::vec3(f.forward));
   real("ahead", f.ahead);
   real("maxDistance", maxDistance_);
-  real("pixelRadius", std::tan(0.5 * glm::radians(eye.fov)) / height);
+  const double pixelRadius = std::tan(0.5 * glm::radians(eye.fov)) / height;
+  real("pixelRadius", pixelRadius);
+  real("footprint", frame.filter ? 2.0 * pixelRadius / frame.samples : 0.0);
   real("epsilon", frame.epsilon);
   real("threshold", frame.threshold);
   program.set("maxSteps", frame.maxSteps);

@@ -15,6 +15,7 @@ struct Frame {
   Parameters parameters;
   Look look;
   int samples = 1;          ///< a side: a pixel takes its square
+  bool filter = true;       ///< patterns are averaged over what a sample covers; see shaders/filter.h
   int maxSteps = 512;       ///< readings that a ray may take
   double epsilon = 1e-5;    ///< least distance that counts as a hit, scene units
   double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit

@@ -8,6 +8,7 @@
 #include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
 #include "sdf/shape/booleans.h"
+#include "viewer/shaders/filter.h"
 #include "viewer/shaders/parts.h"
 
 namespace sdf::viewer {
@@ -102,8 +103,9 @@ class Assembler {
           header() + result.values.source() + defines(false) + parts::kCamera + parts::kRest + parts::kCones;
     const std::string body =
         options_.view == View::Picture ? picture(result.values) : debugView(result.values);
-    result.picture = header() + result.values.source() + defines(!result.cones.empty()) + body +
-                     (scene_.gamma ? "" : parts::kSrgb) + parts::kPicture;
+    result.picture = header() + (filters_ ? kFootprintVariables : "") + result.values.source() +
+                     defines(!result.cones.empty()) + body + (scene_.gamma ? "" : parts::kSrgb) +
+                     parts::kPicture;
     return result;
   }
 
@@ -146,6 +148,7 @@ class Assembler {
       define("BOX_MIN", vector(restBounds().min));
       define("BOX_MAX", vector(restBounds().max));
     }
+    define("FOOTPRINT", filters_ ? "setFootprint(n, d, ray.before + t);" : "");
     define("LIGHTS", std::to_string(scene_.lights.size()));
     define("TAPS", std::to_string(scene_.ambientOcclusion.count));
     define("BOUNCES", std::to_string(mirrors() ? scene_.reflectionBounces : 0));
@@ -177,6 +180,14 @@ class Assembler {
            (planes_.empty() ? parts::kNoPlanes : parts::kPlanes) + parts::kMarch;
   }
 
+  // Adds the surface's attributes.
+  std::string surface(GlslWriter& writer) {
+    const Filtered f = filtered(whole_.surface, writer);
+    writer.add("sdfSurface", f.outputs);
+    filters_ = f.changed;
+    return filters_ ? parts::kFootprint : "";
+  }
+
   // Adds what the gradient needs to the writer.
   std::string gradient(GlslWriter& writer) const {
     const Vec3E g = gradientOf(whole_.distance);
@@ -203,17 +214,17 @@ class Assembler {
     return stepsCount() ? "uniform float tapStrength;\n" : "";
   }
 
-  std::string picture(GlslWriter& writer) const {
-    writer.add("sdfSurface", whole_.surface);
+  std::string picture(GlslWriter& writer) {
+    const std::string footprint = surface(writer);
     const Vec3E& b = scene_.background;
     const Expr background[] = {b.x, b.y, b.z};
     writer.add("sdfBackground", background);
-    std::string text = marching() + gradient(writer) + shadowPart() + occlusionPart();
+    std::string text = marching() + footprint + gradient(writer) + shadowPart() + occlusionPart();
     if (!scene_.lights.empty()) text += std::string(parts::kLightSettings) + parts::kLights;
     return text + parts::kRadiance + parts::kColor;
   }
 
-  std::string debugView(GlslWriter& writer) const {
+  std::string debugView(GlslWriter& writer) {
     const std::string start = marching() + parts::kHit;
     switch (options_.view) {
       case View::Steps:
@@ -227,8 +238,7 @@ class Assembler {
       case View::Occlusion:
         return start + gradient(writer) + occlusionPart() + parts::kOcclusionView;
       case View::Material:
-        writer.add("sdfSurface", whole_.surface);
-        return start + gradient(writer) + parts::kMaterialView;
+        return start + surface(writer) + gradient(writer) + parts::kMaterialView;
       default:
         break;
     }
@@ -244,6 +254,7 @@ class Assembler {
   double inverse_;
   std::optional<Read> rest_;  // if there are planes, and more than planes
   std::vector<Expr> planes_;
+  bool filters_ = false;  // known once the surface is written
 };
 
 }  // namespace

@@ -142,6 +142,19 @@ vec3 gradientAt(vec3 p) {
 }
 )";
 
+// A round pixel's cone meets the surface in an ellipse, whose longer axis lies along the ray's way over it.
+const char* const kFootprint = R"(
+uniform float footprint;  // a sample's share of the picture, as wide as this at distance 1; 0: sharp patterns
+
+void setFootprint(vec3 n, vec3 d, float distance) {
+  vec3 across = cross(d, n);
+  if (dot(across, across) < 1e-8) across = cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+  across = normalize(across);
+  pixelAcross = footprint * distance * across;
+  pixelAlong = footprint * distance / max(abs(dot(n, d)), 1e-4) * cross(n, across);
+}
+)";
+
 const char* const kNormal = R"(
 vec3 normalAt(vec3 p, vec3 d) {
   vec3 g = gradientAt(p);
@@ -277,6 +290,7 @@ vec3 radiance(Ray ray, float t, out bool budget) {
     if (status == BUDGET) budget = true;
     vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = normalAt(p, d);
     float s[ATTRIBUTES];
+    FOOTPRINT
     sdfSurface(p, n, s);
     vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
@@ -400,9 +414,10 @@ const char* const kMaterialView = R"(
 vec3 colorOf(Ray ray, float t, out bool budget) {
   int readings;
   if (!hit(ray, t, budget, readings)) return NOTHING;
-  vec3 p = ray.origin + t * ray.direction;
+  vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = normalAt(p, d);
   float s[ATTRIBUTES];
-  sdfSurface(p, normalAt(p, ray.direction), s);
+  FOOTPRINT
+  sdfSurface(p, n, s);
   return vec3(s[RED], s[GREEN], s[BLUE]);
 }
 )";

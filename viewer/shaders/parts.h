@@ -24,6 +24,8 @@ extern const char* const kMarch;
 /// gradientAt(p): exact, or by differences for scenes whose gradient would be too long a program.
 extern const char* const kGradient;
 extern const char* const kGradientByTaps;
+/// setFootprint(n, d, distance): what the pixel covers of a surface, for patterns (filter.h).
+extern const char* const kFootprint;
 /// normalAt(p, d), d being the way of the ray.
 extern const char* const kNormal;
 /// shadow(p, l, reach), one of four, and the uniforms of all.

@@ -112,6 +112,8 @@ class GlslWriter::Function {
       if (!inSpace(e)) continue;
       if (e.op() == Op::Variable) {
         names_[e] = kVariables[static_cast<int>(e.variableIndex())];
+      } else if (e.op() == Op::Parameter) {
+        names_[e] = writer_.terms_.at(e.parameterInfo().name);
       } else {
         std::string name = "v" + std::to_string(lines_++);
         body_ += "  float " + name + " = " +
@@ -130,9 +132,11 @@ class GlslWriter::Function {
   }
 
  private:
-  // A variable, or made of something that has a name here already: arguments come first.
+  // A variable, a substituted parameter, or made of something that has a name here already: arguments come
+  // first.
   bool inSpace(const Expr& e) const {
     if (e.op() == Op::Variable) return true;
+    if (e.op() == Op::Parameter) return writer_.terms_.contains(e.parameterInfo().name);
     for (int i = 0; i < arity(e.op()); ++i)
       if (names_.contains(e.arg(i))) return true;
     return false;

@@ -24,6 +24,9 @@ class GlslWriter {
   /// atan2 of a NaN are the driver's choice. Cost: linear in the size of the graph.
   void add(const std::string& name, std::span<const Expr> outputs);
 
+  /// From now on the parameter of this name is read as that GLSL term, which may differ from pixel to pixel.
+  void substitute(const std::string& parameter, const std::string& term) { terms_[parameter] = term; }
+
   /// Declarations and functions, without `#version` and precision.
   std::string source() const;
   /// Values of the uniform `vec4 sdfValues[]`, in order, filled up to whole vectors: parameters have these
@@ -35,6 +38,7 @@ class GlslWriter {
   std::string uniform(const Expr& e);
 
   std::string functions_;
+  std::unordered_map<std::string, std::string> terms_;
   std::vector<Expr> uniforms_;
   std::unordered_map<Expr, std::size_t> slots_;
 };
