@@ -114,6 +114,18 @@ TEST(WriteFile, RefusesAFolderAsTarget) {
   EXPECT_NE(status.error().message.find("Is a directory"), std::string::npos) << status.error().message;
 }
 
+// Renaming over /dev/null would take it from everyone.
+TEST(WriteFile, LeavesWhatIsNoOrdinaryFileAlone) {
+  const Folder folder;
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const Status written = writeFile(pipe, [](std::ostream&) { return okStatus(); });
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::Files);
+  EXPECT_NE(written.error().message.find("it is no ordinary file"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
 TEST(WriteFile, RefusesAFolderThatMayNotBeWrittenTo) {
   const Folder folder;
   std::filesystem::permissions(folder.path(),

@@ -188,6 +188,9 @@ Status checkWritable(const fs::path& target) {
   struct stat about;
   if (::stat(real.c_str(), &about) == 0) {
     if (S_ISDIR(about.st_mode)) return cannotWrite(target, EISDIR);
+    if (!S_ISREG(about.st_mode))  // renaming would put a file in the place of a device or a pipe
+      return Error{ErrorKind::Files,
+                   "cannot write '" + target.string() + "': it is no ordinary file; choose another name"};
     if (::access(real.c_str(), W_OK) != 0) return cannotWrite(target, errno);
   }
   if (::stat(folderOf(real).c_str(), &about) != 0) return cannotWrite(target, errno);

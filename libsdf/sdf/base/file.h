@@ -8,9 +8,9 @@
 
 namespace sdf {
 
-/// Could a file be made at `target` now? Checks that its folder exists and is writable, and that no folder
-/// and no write-protected file has that name. Meant to be asked before long work; a full disk shows only on
-/// writing. Errors: Files.
+/// Could a file be made at `target` now? Checks that its folder exists and is writable, and that no folder,
+/// device or pipe and no write-protected file has that name. Meant to be asked before long work; a full disk
+/// shows only on writing. Errors: Files.
 Status checkWritable(const std::filesystem::path& target);
 
 /// Calls `write` with a binary stream into a new file beside `target`, and renames that to `target` once
