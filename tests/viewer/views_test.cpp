@@ -144,6 +144,15 @@ TEST_F(Slice, HasDarkLinesWhereTheDistanceIsAMultipleOfTheirSpacing) {
   }
 }
 
+// Rays to a far scene begin beside it; the slice lies before that.
+TEST(Views, SliceIsSeenBetweenTheEyeAndAFarScene) {
+  Scene scene = unitBall();
+  scene.camera.from = Vec3E(0.0, 0.0, 1000.0);
+  scene.camera.to = Vec3E(0.0, 0.0, 900.0);
+  for (const glm::vec4& c : drawView(scene, View::Slice))
+    ASSERT_GT(farthest(glm::dvec3(c), glm::dvec3(kNothing)), 0.1);
+}
+
 // Over a floor at x from a wall, as in truth_test.cpp: the distance at height h is min(h, x).
 TEST(Views, OcclusionIsTheTapsShareAsGrey) {
   Scene scene = darkScene();

@@ -391,7 +391,7 @@ uniform float isolines;  // their spacing
 vec3 colorOf(Ray ray, float t, out bool budget) {
   budget = false;
   t = dot(slicePoint - ray.origin, sliceNormal) / dot(ray.direction, sliceNormal);
-  if (!(t > 0.0)) return NOTHING;
+  if (!(ray.before + t > 0.0)) return NOTHING;
   float f = sdfDistance(ray.origin + t * ray.direction, vec3(0.0));
   float pixel = 1.5 * pixelRadius * (ray.before + t);
   float phase = f / isolines, off = abs(phase - floor(phase + 0.5)) * isolines;
