@@ -49,7 +49,19 @@ TEST(Hoist, TakesOneRootForBallsOfOneRadius) {
 
 TEST(Hoist, LeavesBallsOfDifferentRadii) {
   const Expr before = balls(5, 0.01).distance;
-  EXPECT_EQ(hoisted(before), before);
+  EXPECT_EQ(countOf(Op::Sqrt, hoisted(before)), 5);
+  expectSame(before, hoisted(before), 2);
+}
+
+TEST(Hoist, FindsWhatBelongsTogetherAnywhereInAUnion) {
+  std::vector<Shape> all;
+  for (int i = 0; i < 90; ++i) {
+    const Vec3E at(Expr(0.3 * i - 12.0), Expr(0.01 * i * i), Expr(0.1 * i));
+    all.push_back(translate(i % 3 == 1 ? box(Vec3E(Expr(0.1))) : sphere(0.3), at));
+  }
+  const Expr before = unite(all).distance, after = hoisted(before);
+  EXPECT_LT(countOf(Op::Sqrt, after), 35);  // 30 boxes, and a root for each of the lists that it is taken in
+  expectSame(before, after, 3);
 }
 
 TEST(Hoist, KeepsWhatTurnsTheOrderRound) {

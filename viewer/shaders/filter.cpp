@@ -9,20 +9,22 @@
 namespace sdf::viewer {
 namespace {
 
-// One of the pixel's vectors, as parameters that the writer knows to be GLSL's.
-Vec3E pixelVector(const std::string& name, GlslWriter& writer) {
-  const auto part = [&](const char* axis) {
-    const std::string term = name + "." + axis;
-    writer.substitute(term, term);
-    return Expr::parameter({term, 0.0, -kInfinity, kInfinity});
-  };
-  return {part("x"), part("y"), part("z")};
+// A parameter that the writer knows to be GLSL's.
+Expr pixelTerm(const std::string& term, GlslWriter& writer) {
+  writer.substitute(term, term);
+  return Expr::parameter({term, 0.0, -kInfinity, kInfinity});
 }
+
+// a * b, of which gradients leave much 0.
+Expr product(const Expr& a, const Expr& b) { return a.isConstant(0.0) ? a : a.isConstant(1.0) ? b : a * b; }
+Expr sum(const Expr& a, const Expr& b) { return a.isConstant(0.0) ? b : b.isConstant(0.0) ? a : a + b; }
 
 class Filter {
  public:
   explicit Filter(GlslWriter& writer)
-      : across_(pixelVector("pixelAcross", writer)), along_(pixelVector("pixelAlong", writer)) {}
+      : way_(pixelTerm("pixelWay.x", writer), pixelTerm("pixelWay.y", writer),
+             pixelTerm("pixelWay.z", writer)),
+        size_(pixelTerm("pixelSize", writer)) {}
 
   Filtered run(std::span<const Expr> outputs) {
     Filtered result;
@@ -52,23 +54,28 @@ class Filter {
     return select(less(0.0, width), clamp(0.5 - 0.5 * mean, 0.0, 1.0), sharp);
   }
 
-  // How far u runs within the pixel, an ellipse with these axes.
+  // How far u runs within the pixel. A step e across the ray of direction d moves the point seen by
+  // e - d (e.n) / (d.n), so u by e.h with h = grad u - n (grad u.d) / (d.n), which is across the ray itself.
   Expr width(const Expr& u) const {
-    const Vec3E g = gradientOf(u);
-    return sqrt(square(dot(g, across_)) + square(dot(g, along_)));
+    const Vec3E g = gradientOf(u), n = normal();
+    const Expr fall = sum(sum(product(g.x, way_.x), product(g.y, way_.y)), product(g.z, way_.z));
+    return size_ * length(Vec3E(g.x - n.x * fall, g.y - n.y * fall, g.z - n.z * fall));
   }
 
   // The mean of the wave that is 1 where floor(u) is even and -1 where it is odd. Of a box no longer than a
   // square it is told by how near the next edge is, which is exact where there is none; else by the
   // difference of the wave's integral, a triangle.
   Expr wave(const Expr& u) const {
-    const Expr w = width(u), sharp = 1.0 - 2.0 * mod(floor(u), 2.0);
-    const Expr near = sharp * min(1.0, 2.0 * abs(u - round(u)) / w);
-    const auto integral = [](const Expr& x) { return 1.0 - abs(mod(x, 2.0) - 1.0); };
-    return select(lessEqual(w, 1.0), near, (integral(u + 0.5 * w) - integral(u - 0.5 * w)) / w);
+    // Halves are multiplied by, since shaders divide slowly.
+    const auto rest = [](const Expr& x) { return x - 2.0 * floor(0.5 * x); };
+    const Expr w = width(u), once = 1.0 / w, sharp = 1.0 - 2.0 * rest(floor(u));
+    const Expr near = sharp * min(1.0, 2.0 * abs(u - round(u)) * once);
+    const auto integral = [&](const Expr& x) { return 1.0 - abs(rest(x) - 1.0); };
+    return select(lessEqual(w, 1.0), near, (integral(u + 0.5 * w) - integral(u - 0.5 * w)) * once);
   }
 
-  Vec3E across_, along_;
+  Vec3E way_;  // d / (d.n)
+  Expr size_;
   std::unordered_map<Expr, Expr> made_;
 };
 

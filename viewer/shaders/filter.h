@@ -8,9 +8,9 @@
 
 namespace sdf::viewer {
 
-/// What `filtered` reads of a pixel: two vectors along the surface, `pixelAcross` and `pixelAlong`, the
-/// axes of the ellipse that it covers there; both 0 leave patterns sharp.
-inline constexpr const char* kFootprintVariables = "vec3 pixelAcross = vec3(0.0), pixelAlong = vec3(0.0);\n";
+/// What `filtered` reads of a pixel: the ray's direction by its product with the normal, and how wide its
+/// cone is at the surface; 0 leaves patterns sharp.
+inline constexpr const char* kFootprintVariables = "vec3 pixelWay = vec3(0.0);\nfloat pixelSize = 0.0;\n";
 
 struct Filtered {
   std::vector<Expr> outputs;

@@ -54,17 +54,24 @@ const char* const kNoPlanes = R"(
 float planesFrom(Ray ray) { return 1e30; }
 )";
 
-// Outside the rest's bounds, grown by so much, nothing dims the light.
+// Only what is nearer to the ray than t / k dims the light: within the rest's bounds grown by the most of that, and within
+// a ball around them that grows with t, |p + t l - c| < R + t / k.
 const char* const kShadowSpan = R"(
-void clip(vec3 p, vec3 l, float grown, inout float t, inout float reach) {
-  vec3 a = (BOX_MIN - grown - p) / l, b = (BOX_MAX + grown - p) / l, enter = min(a, b), leave = max(a, b);
-  t = max(t, max(enter.x, max(enter.y, enter.z)));
-  reach = min(reach, min(leave.x, min(leave.y, leave.z)));
+void clip(vec3 p, vec3 l, float widening, inout float t, inout float reach) {
+  float grown = reach * widening;
+  vec3 low = (BOX_MIN - grown - p) / l, high = (BOX_MAX + grown - p) / l;
+  vec3 enter = min(low, high), leave = max(low, high);
+  vec3 away = p - 0.5 * (BOX_MIN + BOX_MAX);
+  float radius = 0.5 * length(BOX_MAX - BOX_MIN);
+  float a = 1.0 - widening * widening, b = dot(away, l) - radius * widening;
+  float root = b * b - a * (dot(away, away) - radius * radius);
+  reach = root > 0.0 ? min(min(reach, (sqrt(root) - b) / a), min(leave.x, min(leave.y, leave.z))) : 0.0;
+  t = max(max(t, (-sqrt(max(root, 0.0)) - b) / a), max(enter.x, max(enter.y, enter.z)));
 }
 )";
 
 const char* const kNoShadowSpan = R"(
-void clip(vec3 p, vec3 l, float grown, inout float t, inout float reach) {}
+void clip(vec3 p, vec3 l, float widening, inout float t, inout float reach) {}
 )";
 
 // height / t falls with t, so it is least at the end; below 0 the light is behind the plane.
@@ -142,16 +149,13 @@ vec3 gradientAt(vec3 p) {
 }
 )";
 
-// A round pixel's cone meets the surface in an ellipse, whose longer axis lies along the ray's way over it.
 const char* const kFootprint = R"(
 uniform float footprint;  // a sample's share of the picture, as wide as this at distance 1; 0: sharp patterns
 
 void setFootprint(vec3 n, vec3 d, float distance) {
-  vec3 across = cross(d, n);
-  if (dot(across, across) < 1e-8) across = cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-  across = normalize(across);
-  pixelAcross = footprint * distance * across;
-  pixelAlong = footprint * distance / max(abs(dot(n, d)), 1e-4) * cross(n, across);
+  float facing = dot(n, d);
+  pixelWay = d / (facing < 0.0 ? min(facing, -1e-4) : max(facing, 1e-4));
+  pixelSize = footprint * distance;
 }
 )";
 
@@ -187,7 +191,7 @@ const char* const kSoftShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
   if (light == 0.0) return 0.0;
-  clip(p, l, reach / sharpness, t, reach);
+  clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     float g = rest(p + t * l);
     COUNT_SHADOW

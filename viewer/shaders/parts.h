@@ -12,7 +12,7 @@ extern const char* const kField;
 extern const char* const kRest;
 extern const char* const kPlanes;
 extern const char* const kNoPlanes;
-/// clip(p, l, grown, t, reach): the part of the way to a light that can be dimmed.
+/// clip(p, l, widening, t, reach): the part of the way to a light that can be dimmed.
 extern const char* const kShadowSpan;
 extern const char* const kNoShadowSpan;
 /// leastOfPlanes(p, l, reach): least height over the planes by t, along the way to a light.

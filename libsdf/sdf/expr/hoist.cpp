@@ -1,8 +1,10 @@
 #include "sdf/expr/hoist.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 namespace sdf {
 namespace {
@@ -47,24 +49,57 @@ Expr chosen(Op choice, const Expr& a, const Expr& b) {
   return Expr::make(g->op, g->place == 0 ? std::array{*g->term, inner} : std::array{inner, *g->term});
 }
 
+// Longer lists are joined as they come: a look at all pairs would take too long.
+constexpr std::size_t kMostOperands = 64;
+
+// The least (or greatest) of all, those of one function joined first.
+Expr chosen(Op choice, const std::vector<Expr>& operands) {
+  std::vector<Expr> groups;
+  for (const Expr& e : operands) {
+    const auto like = std::find_if(groups.begin(), groups.end(), [&](const Expr& g) { return common(g, e); });
+    if (like == groups.end())
+      groups.push_back(e);
+    else
+      *like = chosen(choice, *like, e);
+  }
+  for (; groups.size() > 1; groups.pop_back()) groups.front() = chosen(choice, groups.front(), groups.back());
+  return groups.front();
+}
+
+class Hoister {
+ public:
+  Expr run(const Expr& e) {
+    for (const Expr& node : topologicalOrder({&e, 1})) done_.emplace(node, made(node));
+    return done_.at(e);
+  }
+
+ private:
+  Expr made(const Expr& node) {
+    if (node.op() == Op::Min || node.op() == Op::Max) {
+      std::vector<Expr> all = operands(node.arg(0), node.op());
+      const std::vector<Expr> more = operands(node.arg(1), node.op());
+      if (all.size() + more.size() > kMostOperands)
+        return chosen(node.op(), done_.at(node.arg(0)), done_.at(node.arg(1)));
+      all.insert(all.end(), more.begin(), more.end());
+      return chosen(node.op(), operands_[node] = std::move(all));
+    }
+    std::vector<Expr> args;
+    for (int i = 0; i < arity(node.op()); ++i) args.push_back(done_.at(node.arg(i)));
+    return args.empty() ? node : Expr::make(node.op(), args);
+  }
+
+  // What a minimum of minima takes the least of.
+  std::vector<Expr> operands(const Expr& e, Op choice) const {
+    const auto list = e.op() == choice ? operands_.find(e) : operands_.end();
+    return list == operands_.end() ? std::vector{done_.at(e)} : list->second;
+  }
+
+  std::unordered_map<Expr, Expr> done_;
+  std::unordered_map<Expr, std::vector<Expr>> operands_;
+};
+
 }  // namespace
 
-Expr hoisted(const Expr& e) {
-  std::unordered_map<Expr, Expr> done;
-  for (const Expr& node : topologicalOrder({&e, 1})) {
-    std::array<Expr, 3> args;
-    const int count = arity(node.op());
-    bool same = true;
-    for (int i = 0; i < count; ++i) {
-      args[i] = done.at(node.arg(i));
-      same = same && args[i] == node.arg(i);
-    }
-    if (node.op() == Op::Min || node.op() == Op::Max)
-      done.emplace(node, chosen(node.op(), args[0], args[1]));
-    else
-      done.emplace(node, same ? node : Expr::make(node.op(), {args.data(), static_cast<std::size_t>(count)}));
-  }
-  return done.at(e);
-}
+Expr hoisted(const Expr& e) { return Hoister().run(e); }
 
 }  // namespace sdf
