@@ -16,6 +16,21 @@ void main() {
 }
 )";
 
+constexpr const char* kOverTiles = R"(#version 330 core
+uniform sampler2D tiles;  // one value a tile
+uniform float tileSide;   // pixels
+uniform vec2 tileArea;    // of the target, pixels
+uniform float tileLimit;
+
+void main() {
+  int columns = textureSize(tiles, 0).x;
+  ivec2 tile = ivec2(gl_InstanceID % columns, gl_InstanceID / columns);
+  vec2 corner = min((vec2(tile) + vec2(gl_VertexID & 1, gl_VertexID >> 1)) * tileSide, tileArea);
+  bool drawn = texelFetch(tiles, tile, 0).r < tileLimit;
+  gl_Position = drawn ? vec4(2.0 * corner / tileArea - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+}
+)";
+
 std::string shaderLog(GLuint shader) {
   GLint length = 0;
   glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
@@ -79,6 +94,8 @@ Result<Program> Program::create(const std::string& vertex, const std::string& fr
 
 Result<Program> Program::overScreen(const std::string& fragment) { return create(kOverScreen, fragment); }
 
+Result<Program> Program::overTiles(const std::string& fragment) { return create(kOverTiles, fragment); }
+
 void Program::use() const { glUseProgram(program_.id()); }
 
 int Program::location(const std::string& name) const {
@@ -126,6 +143,12 @@ void Program::draw() const {
   use();
   glBindVertexArray(vertexArray_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Program::drawTiles(int count) const {
+  use();
+  glBindVertexArray(vertexArray_.id());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
 }  // namespace sdf::viewer

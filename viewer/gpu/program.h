@@ -23,6 +23,11 @@ class Program {
   /// One whose fragment shader runs once for each pixel of the target. Errors: as create.
   static Result<Program> overScreen(const std::string& fragment);
 
+  /// One whose fragment shader runs once for each pixel of some square tiles, in rows from the bottom: those
+  /// at which the texture `tiles` has a value below `tileLimit`. Give it `tileSide` in pixels and `tileArea`,
+  /// the target's size. Errors: as create.
+  static Result<Program> overTiles(const std::string& fragment);
+
   /// Makes it the one that draws.
   void use() const;
 
@@ -41,6 +46,9 @@ class Program {
   /// Covers the viewport with one triangle: three vertices without attributes, made from gl_VertexID by the
   /// vertex shader of overScreen.
   void draw() const;
+
+  /// Draws so many tiles, of a program that overTiles made.
+  void drawTiles(int count) const;
 
  private:
   Program(Handle program, Handle vertexArray);

@@ -58,22 +58,34 @@ Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options
   const auto start = std::chrono::steady_clock::now();
   auto shaders = assemble(scene, options);
   if (!shaders) return shaders.error();
-  auto picture = Program::overScreen(shaders->picture);
-  if (!picture) return picture.error();
+  auto single = passes(*shaders, shaders->picture);
+  if (!single) return single.error();
   std::optional<Program> cones;
   if (!shaders->cones.empty()) {
     auto made = Program::overScreen(shaders->cones);
     if (!made) return made.error();
     cones = std::move(*made);
   }
-  Renderer renderer(scene, std::move(*shaders), std::move(*picture), std::move(cones));
+  Renderer renderer(scene, std::move(*shaders), std::move(*single), std::move(cones));
   renderer.compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return renderer;
 }
 
-Renderer::Renderer(const Scene& scene, SceneShaders shaders, Program picture, std::optional<Program> cones)
+Result<Renderer::Passes> Renderer::passes(const SceneShaders& shaders, const std::string& picture) {
+  auto scene = shaders.tiled ? Program::overTiles(picture) : Program::overScreen(picture);
+  if (!scene) return scene.error();
+  Passes result{std::move(*scene), {}};
+  if (shaders.tiled) {
+    auto background = Program::overScreen(forBackground(picture));
+    if (!background) return background.error();
+    result.background = std::move(*background);
+  }
+  return result;
+}
+
+Renderer::Renderer(const Scene& scene, SceneShaders shaders, Passes single, std::optional<Program> cones)
     : shaders_(std::move(shaders)),
-      picture_(std::move(picture)),
+      single_(std::move(single)),
       cones_(std::move(cones)),
       shadow_(scene.shadow),
       tapSpacing_(scene.ambientOcclusion.spacing),
@@ -154,23 +166,41 @@ Status Renderer::drawCones(const Frame& frame, int width, int height) {
   return okStatus();
 }
 
+// Of the coarse level: more, smaller tiles cost more than they spare.
+void Renderer::drawTiles(const Program& scene, const Target& target) const {
+  coarse_->bindTexture(1);
+  scene.set("tiles", 1);
+  scene.set("tileSide", static_cast<float>(kCoarse));
+  scene.set("tileArea", glm::vec2(target.width(), target.height()));
+  scene.set("tileLimit", static_cast<float>(maxDistance_));
+  scene.drawTiles(coarse_->width() * coarse_->height());
+}
+
 Status Renderer::draw(const Frame& frame, const Target& target) {
   if (cones_)
     if (auto s = drawCones(frame, target.width(), target.height()); !s) return s;
   if (frame.samples > 1 && !many_) {
-    auto made = Program::overScreen(forManySamples(shaders_.picture));
+    auto made = passes(shaders_, forManySamples(shaders_.picture));
     if (!made) return made.error();
     many_ = std::move(*made);
   }
-  const Program& picture = frame.samples > 1 ? *many_ : picture_;
-  setFrame(picture, frame, target.width(), target.height());
-  setLook(picture, frame);
+  const Passes& passes = frame.samples > 1 ? *many_ : single_;
   target.bind();
+  if (passes.background) {
+    setFrame(*passes.background, frame, target.width(), target.height());
+    setLook(*passes.background, frame);
+    passes.background->draw();
+  }
+  setFrame(passes.scene, frame, target.width(), target.height());
+  setLook(passes.scene, frame);
   if (cones_) {
     fine_->bindTexture(0);
-    picture.set("starts", 0);
+    passes.scene.set("starts", 0);
   }
-  picture.draw();
+  if (passes.background)
+    drawTiles(passes.scene, target);
+  else
+    passes.scene.draw();
   return check("draw the scene");
 }
 

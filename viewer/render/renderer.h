@@ -47,14 +47,22 @@ class Renderer {
   double compileSeconds() const { return compileSeconds_; }
 
  private:
-  Renderer(const Scene& scene, SceneShaders shaders, Program picture, std::optional<Program> cones);
+  /// What draws the picture: all of it, or the tiles that show more than the background.
+  struct Passes {
+    Program scene;
+    std::optional<Program> background;
+  };
+
+  Renderer(const Scene& scene, SceneShaders shaders, Passes single, std::optional<Program> cones);
+  static Result<Passes> passes(const SceneShaders& shaders, const std::string& picture);
   void setFrame(const Program& program, const Frame& frame, int width, int height) const;
   void setLook(const Program& program, const Frame& frame) const;
+  void drawTiles(const Program& scene, const Target& target) const;
   Status drawCones(const Frame& frame, int width, int height);
 
   SceneShaders shaders_;
-  Program picture_;
-  std::optional<Program> many_;  // compiled when more than one sample is first asked for
+  Passes single_;
+  std::optional<Passes> many_;  // compiled when more than one sample is first asked for
   std::optional<Program> cones_;
   std::optional<Target> coarse_, fine_;
   std::optional<Box> bounds_;  // of the whole scene, if it is finite

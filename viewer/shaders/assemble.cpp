@@ -101,6 +101,7 @@ class Assembler {
     if (options_.method == Method::AutoRelaxed && !stepsCount())
       result.cones =
           header() + result.values.source() + defines(false) + parts::kCamera + parts::kRest + parts::kCones;
+    result.tiled = !result.cones.empty() && planes_.empty() && options_.view == View::Picture;
     const std::string body =
         options_.view == View::Picture ? picture(result.values) : debugView(result.values);
     result.picture = header() + (filters_ ? kFootprintVariables : "") + result.values.source() +
@@ -257,6 +258,12 @@ class Assembler {
   bool filters_ = false;  // known once the surface is written
 };
 
+// After the line with the version.
+std::string defining(const std::string& name, const std::string& shader) {
+  const std::size_t line = shader.find('\n') + 1;
+  return shader.substr(0, line) + "#define " + name + "\n" + shader.substr(line);
+}
+
 }  // namespace
 
 Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) {
@@ -274,9 +281,8 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   return Assembler(scene, options, std::move(*whole), std::move(rest), std::move(parts.planes)).run();
 }
 
-std::string forManySamples(const std::string& picture) {
-  const std::size_t line = picture.find('\n') + 1;
-  return picture.substr(0, line) + "#define MANY_SAMPLES\n" + picture.substr(line);
-}
+std::string forManySamples(const std::string& picture) { return defining("MANY_SAMPLES", picture); }
+
+std::string forBackground(const std::string& picture) { return defining("BACKGROUND_ONLY", picture); }
 
 }  // namespace sdf::viewer

@@ -36,6 +36,7 @@ struct SceneShaders {
   std::string cones;  ///< empty where the method starts every ray at the eye
   GlslWriter values;
   int lights = 0;
+  bool tiled = false;  ///< where the cone pass saw nothing, there is only background
 };
 
 /// Errors (Scene): what `checked` finds, and a shape whose distance has no known slope.
@@ -43,5 +44,7 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options);
 
 /// The picture's shader with the uniform `samples`: without it a pixel takes one, in its middle.
 std::string forManySamples(const std::string& picture);
+/// One that draws the background alone.
+std::string forBackground(const std::string& picture);
 
 }  // namespace sdf::viewer

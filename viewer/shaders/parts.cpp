@@ -54,8 +54,8 @@ const char* const kNoPlanes = R"(
 float planesFrom(Ray ray) { return 1e30; }
 )";
 
-// Only what is nearer to the ray than t / k dims the light: within the rest's bounds grown by the most of that, and within
-// a ball around them that grows with t, |p + t l - c| < R + t / k.
+// Only what is nearer to the ray than t / k dims the light: within the rest's bounds grown by the most of
+// that, and within a ball around them that grows with t, |p + t l - c| < R + t / k.
 const char* const kShadowSpan = R"(
 void clip(vec3 p, vec3 l, float widening, inout float t, inout float reach) {
   float grown = reach * widening;
@@ -355,7 +355,14 @@ void main() {
 )";
 
 const char* const kColor = R"(
+#ifdef BACKGROUND_ONLY
+vec3 colorOf(Ray ray, float t, out bool budget) {
+  budget = false;
+  return sdfBackground(ray.direction, vec3(0.0));
+}
+#else
 vec3 colorOf(Ray ray, float t, out bool budget) { return radiance(ray, t, budget); }
+#endif
 )";
 
 const char* const kHit = R"(
