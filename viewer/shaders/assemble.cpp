@@ -14,9 +14,9 @@
 namespace sdf::viewer {
 namespace {
 
-// A gradient of more operations than this is taken by differences: drivers inline and unroll, and take
-// seconds.
-constexpr std::size_t kLongGradient = 6000;
+// Drivers inline and unroll, and take seconds over long programs: a gradient of more operations than this is
+// taken by differences, and a distance of more has no tiles drawn apart, which would take another program.
+constexpr std::size_t kLong = 6000;
 
 constexpr const char* kAttributeNames[kAttributeCount] = {
     "RED",          "GREEN",          "BLUE",           "AMBIENT_RED",   "AMBIENT_GREEN", "AMBIENT_BLUE",
@@ -101,7 +101,8 @@ class Assembler {
     if (options_.method == Method::AutoRelaxed && !stepsCount())
       result.cones =
           header() + result.values.source() + defines(false) + parts::kCamera + parts::kRest + parts::kCones;
-    result.tiled = !result.cones.empty() && planes_.empty() && options_.view == View::Picture;
+    result.tiled = !result.cones.empty() && planes_.empty() && options_.view == View::Picture &&
+                   topologicalOrder({&whole_.distance, 1}).size() < kLong;
     const std::string body =
         options_.view == View::Picture ? picture(result.values) : debugView(result.values);
     result.picture = header() + (filters_ ? kFootprintVariables : "") + result.values.source() +
@@ -193,8 +194,7 @@ class Assembler {
   std::string gradient(GlslWriter& writer) const {
     const Vec3E g = gradientOf(whole_.distance);
     const Expr all[] = {g.x, g.y, g.z};
-    if (topologicalOrder(all).size() > kLongGradient)
-      return std::string(parts::kGradientByTaps) + parts::kNormal;
+    if (topologicalOrder(all).size() > kLong) return std::string(parts::kGradientByTaps) + parts::kNormal;
     writer.add("sdfGradient", all);
     return std::string(parts::kGradient) + parts::kNormal;
   }
