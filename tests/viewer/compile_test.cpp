@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "sdf/script/script.h"
+#include "sdf/shape/solids.h"
 #include "viewer/gpu/context.h"
 #include "viewer/render/renderer.h"
 
@@ -51,6 +52,25 @@ TEST(Compiling, IsNotRepeatedWhenAParameterMoves) {
     EXPECT_EQ(before->cones, after->cones) << name;
     EXPECT_EQ(before->values.uniformValues({{"time", 3.25}}), after->values.uniformValues({})) << name;
   }
+}
+
+TEST(Compiling, NamesThePartBehindEachLine) {
+  Scene scene;
+  scene.add("ball", sphere(1.0));
+  scene.add("a \\\nmean name", box(Vec3E(Expr(1.0), Expr(2.0), Expr(3.0))));
+  const auto shaders = assemble(scene, {});
+  ASSERT_TRUE(shaders.ok());
+  EXPECT_NE(shaders->picture.find(" - 1.0;  // part 'ball'\n"), std::string::npos) << shaders->picture;
+  EXPECT_NE(shaders->picture.find("  // part 'a ??mean name'\n"), std::string::npos);
+  const auto context = Context::headless();
+  ASSERT_TRUE(context.ok());
+  EXPECT_TRUE(Program::overScreen(shaders->picture).ok());
+  std::string broken = shaders->picture;
+  const std::size_t line = broken.find(" - 1.0;  // part 'ball'");
+  broken.replace(line, 6, " - no;");
+  const auto rejected = Program::overScreen(broken);
+  ASSERT_FALSE(rejected.ok());
+  EXPECT_NE(rejected.error().message.find("part 'ball'"), std::string::npos) << rejected.error().message;
 }
 
 }  // namespace

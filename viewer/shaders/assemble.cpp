@@ -95,6 +95,10 @@ class Assembler {
   SceneShaders run() {
     SceneShaders result;
     result.lights = static_cast<int>(scene_.lights.size());
+    for (const Part& part : scene_.parts) {
+      result.values.label(part.shape.distance, "part '" + part.name + "'");
+      for (const Expr& e : part.shape.surface) result.values.label(e, "part '" + part.name + "'");
+    }
     result.values.add("sdfDistance", {&whole_.distance, 1});
     if (!planes_.empty()) result.values.add("sdfPlanes", planes_);
     if (rest_) result.values.add("sdfRest", {&rest_->shape.distance, 1});

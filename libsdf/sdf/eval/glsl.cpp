@@ -117,7 +117,8 @@ class GlslWriter::Function {
       } else {
         std::string name = "v" + std::to_string(lines_++);
         body_ += "  float " + name + " = " +
-                 evaluateOp<Code>(e.op(), [&](int i) { return Code{this->name(e.arg(i))}; }).text + ";\n";
+                 evaluateOp<Code>(e.op(), [&](int i) { return Code{this->name(e.arg(i))}; }).text + ";" +
+                 writer_.commentOf(e) + "\n";
         names_[e] = std::move(name);
       }
     }
@@ -163,6 +164,19 @@ void GlslWriter::add(const std::string& name, std::span<const Expr> outputs) {
   const std::string values = returns ? "" : ", out float values[" + std::to_string(count) + "]";
   functions_ += (returns ? type : "void") + " " + name + "(vec3 p, vec3 n" + values + ") {\n" +
                 function.body() + (returns ? "  return " + type + "(" + list + ");\n" : stores) + "}\n\n";
+}
+
+void GlslWriter::label(const Expr& e, const std::string& comment) {
+  std::string printable = comment;
+  for (char& c : printable)
+    if (c < ' ' || c > '~' || c == '\\') c = '?';
+  for (const Expr& node : topologicalOrder({&e, 1})) labels_.try_emplace(node, comments_.size());
+  comments_.push_back("  // " + printable);
+}
+
+std::string GlslWriter::commentOf(const Expr& e) const {
+  const auto found = labels_.find(e);
+  return found == labels_.end() ? "" : comments_[found->second];
 }
 
 std::string GlslWriter::uniform(const Expr& e) {

@@ -27,6 +27,11 @@ class GlslWriter {
   /// From now on the parameter of this name is read as that GLSL term, which may differ from pixel to pixel.
   void substitute(const std::string& parameter, const std::string& term) { terms_[parameter] = term; }
 
+  /// The lines that compute what this expression needs, and none that was labelled before, will end in this
+  /// comment, so that a driver's complaint about one tells whose it is. Characters other than ASCII's
+  /// printable ones become question marks. Cost: linear in the size of its graph.
+  void label(const Expr& e, const std::string& comment);
+
   /// Declarations and functions, without `#version` and precision.
   std::string source() const;
   /// Values of the uniform `vec4 sdfValues[]`, in order, filled up to whole vectors: parameters have these
@@ -36,9 +41,12 @@ class GlslWriter {
  private:
   class Function;
   std::string uniform(const Expr& e);
+  std::string commentOf(const Expr& e) const;
 
   std::string functions_;
   std::unordered_map<std::string, std::string> terms_;
+  std::vector<std::string> comments_;
+  std::unordered_map<Expr, std::size_t> labels_;  // index of the comment
   std::vector<Expr> uniforms_;
   std::unordered_map<Expr, std::size_t> slots_;
 };
