@@ -1,5 +1,6 @@
 // Rays where marching is hard: along surfaces, past thin things, and far from the origin.
 #include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "sdf/shape/booleans.h"
 #include "viewer/cpu_uniform.h"
@@ -96,6 +97,33 @@ TEST_P(Grazing, AThinPlateHasNoHolesAtAnyAngle) {
       }
     EXPECT_GT(inside, 0) << degrees;
     EXPECT_EQ(holes, 0) << degrees << " degrees";
+  }
+}
+
+// Near its bounds |p|^2 - 1 is at most some eight times as steep as a distance, but steeper the farther away.
+TEST_P(Grazing, ABallOfUnknownSlopeIsNotPassedFromAnyDistance) {
+  const Vec3E p = position();
+  for (const double away : {2.0, 5.0, 8.8, 40.0}) {
+    const auto pictureOf = [&](const Shape& ball) {
+      Scene scene = darkScene();
+      scene.add("", ball.paint(painted()));
+      scene.camera.from = Vec3E(0.0, 0.0, away);
+      scene.camera.to = Vec3E(0.0);
+      scene.camera.fov = 2.0 * glm::degrees(std::atan(1.5 / away));
+      return renderOnGpu(scene, materials(GetParam(), kWidth, kHeight));
+    };
+    const auto field = pictureOf(sdf::field(dot(p, p) - 1.0, Box{glm::dvec3(-1.1), glm::dvec3(1.1)}));
+    const auto exact = pictureOf(sphere(1.0));
+    int apart = 0, hits = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      apart += isHit(field[i]) != isHit(exact[i]);
+      hits += isHit(exact[i]);
+    }
+    // A hit is within a quarter of the pixel's cone by f / L, which is up to four times as far: a pixel's
+    // rim.
+    const double rim = 2.0 * std::sqrt(std::numbers::pi * hits);
+    EXPECT_GT(hits, 0);
+    EXPECT_LE(apart, rim) << away << " away";
   }
 }
 

@@ -8,6 +8,7 @@
 #include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
 #include "sdf/shape/booleans.h"
+#include "sdf/shape/operand.h"
 #include "viewer/shaders/filter.h"
 #include "viewer/shaders/parts.h"
 
@@ -31,20 +32,6 @@ std::string number(double v) {
 
 std::string vector(const glm::dvec3& v) {
   return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
-}
-
-/// 1 / L for the L that the shape claims everywhere, or that its formula has within its bounds.
-Result<double> inverseSlope(const Shape& shape) {
-  double slope = shape.claim.region.contains(Box::everything()) ? shape.claim.lipschitz : kInfinity;
-  if (slope == kInfinity) slope = shape.distance.lipschitz();
-  if (slope == kInfinity && shape.bounds.finite())
-    slope = lipschitzOver(Tape(shape.distance), shape.bounds.grown(0.5 * shape.bounds.longestSide()));
-  if (!(slope < kInfinity))
-    return Error{
-        ErrorKind::Scene,
-        "the distance has no known slope, so its rays cannot be marched; give its field() bounds and a "
-        "lipschitz constant"};
-  return slope > 0.0 ? 1.0 / slope : 1.0;
 }
 
 /// A scene's half spaces, which rays meet without marching, and what else there is.
@@ -74,11 +61,25 @@ struct Read {
   double inverse = 1.0;
 };
 
+/// With the slope that the shape claims everywhere, or else the one that its formula has near its bounds.
+/// Beyond these the formula may be steeper; there the way to the bounds is free.
 Result<Read> read(Shape shape) {
-  const auto inverse = inverseSlope(shape);
-  if (!inverse) return inverse.error();
+  double slope = shape.claim.region.contains(Box::everything()) ? shape.claim.lipschitz : kInfinity;
+  if (slope == kInfinity) slope = shape.distance.lipschitz();
+  if (slope == kInfinity && shape.bounds.finite()) {
+    const Box near = shape.bounds.grown(0.5 * shape.bounds.longestSide());
+    slope = lipschitzOver(Tape(shape.distance), near);
+    if (slope < kInfinity)
+      shape.distance =
+          select(less(0.0, *outsideBox(near)), *outsideBox(shape.bounds) * slope, shape.distance);
+  }
+  if (!(slope < kInfinity))
+    return Error{
+        ErrorKind::Scene,
+        "the distance has no known slope, so its rays cannot be marched; give its field() bounds and a "
+        "lipschitz constant"};
   shape.distance = hoisted(shape.distance);
-  return Read{std::move(shape), *inverse};
+  return Read{std::move(shape), slope > 0.0 ? 1.0 / slope : 1.0};
 }
 
 class Assembler {
@@ -94,7 +95,6 @@ class Assembler {
 
   SceneShaders run() {
     SceneShaders result;
-    result.lights = static_cast<int>(scene_.lights.size());
     for (const Part& part : scene_.parts) {
       result.values.label(part.shape.distance, "part '" + part.name + "'");
       for (const Expr& e : part.shape.surface) result.values.label(e, "part '" + part.name + "'");

@@ -35,7 +35,6 @@ struct SceneShaders {
   std::string picture;
   std::string cones;  ///< empty where the method starts every ray at the eye
   GlslWriter values;
-  int lights = 0;
   bool tiled = false;  ///< where the cone pass saw nothing, there is only background
 };
 
