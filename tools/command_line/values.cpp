@@ -7,6 +7,19 @@
 #include <sstream>
 
 namespace sdf::command_line {
+namespace {
+
+// What CLI11 found wrong, in one line.
+std::string described(const CLI::ParseError& error, const std::string& program) {
+  std::string message = error.what();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    message = message.substr(0, message.find(':')) + " takes one value and can be given once";
+  }
+  return message + "; see " + program + " --help";
+}
+
+}  // namespace
 
 Error usage(std::string message) { return {ErrorKind::Usage, std::move(message)}; }
 
@@ -55,13 +68,17 @@ Result<std::map<std::string, double>> parameters(const std::vector<std::string>&
   return values;
 }
 
-std::string described(const CLI::ParseError& error, const std::string& program) {
-  std::string message = error.what();
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
-    message = message.substr(0, message.find(':')) + " takes one value and can be given once";
+Result<std::optional<Answer>> parse(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return std::optional(Answer{app.help()});
+  } catch (const CLI::CallForVersion&) {
+    return std::optional(Answer{app.version() + "\n"});
+  } catch (const CLI::ParseError& error) {
+    return usage(described(error, app.get_name()));
   }
-  return message + "; see " + program + " --help";
+  return std::optional<Answer>();
 }
 
 }  // namespace sdf::command_line

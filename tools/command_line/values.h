@@ -10,7 +10,7 @@
 #include "sdf/base/result.h"
 
 namespace CLI {
-class ParseError;
+class App;
 }
 
 namespace sdf::command_line {
@@ -52,7 +52,8 @@ Status take(const std::optional<std::string>& text, Target& value, Parse parse, 
   return okStatus();
 }
 
-/// What CLI11 found wrong, in one line.
-std::string described(const CLI::ParseError& error, const std::string& program);
+/// Reads the words into what the app declares; or the answer, if they were a question. Errors: what CLI11
+/// finds wrong, in one line that names the app's --help.
+Result<std::optional<Answer>> parse(CLI::App& app, int argc, const char* const* argv);
 
 }  // namespace sdf::command_line

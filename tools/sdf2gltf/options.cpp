@@ -112,15 +112,9 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   app.set_version_flag("--version", std::string("sdf2gltf ") + version());
   Words words;
   declare(app, words);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    return Parsed(Answer{app.help()});
-  } catch (const CLI::CallForVersion&) {
-    return Parsed(Answer{app.version() + "\n"});
-  } catch (const CLI::ParseError& error) {
-    return usage(described(error, "sdf2gltf"));
-  }
+  Result<std::optional<Answer>> answer = parse(app, argc, argv);
+  if (!answer) return answer.error();
+  if (*answer) return Parsed(std::move(**answer));
   Result<Options> options = interpreted(words);
   if (!options) return options.error();
   return Parsed(std::move(*options));
