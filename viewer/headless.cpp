@@ -60,14 +60,12 @@ class Headless {
     if (auto s = counter->draw(f, *target); !s) return s;
     const auto readings = counter->readings(*target);
     if (!readings) return readings.error();
-    const auto pixels = target->pixels();
-    if (!pixels) return pixels.error();
-    const auto spent =
-        std::count_if(pixels->begin(), pixels->end(), [](const glm::vec4& p) { return p.a < 0.5f; });
+    const auto drawn = target->picture();
+    if (!drawn) return drawn.error();
     const double first = times.front();
     times.erase(times.begin());
     std::sort(times.begin(), times.end());
-    const double area = static_cast<double>(pixels->size()) * options_.samples * options_.samples;
+    const double pixels = static_cast<double>(options_.width) * options_.height;
     out << nlohmann::ordered_json{{"driver", driver},
                                   {"width", options_.width},
                                   {"height", options_.height},
@@ -81,8 +79,8 @@ class Headless {
                                     {"shadow", readings->shadow},
                                     {"occlusion", readings->occlusion},
                                     {"reflection", readings->reflection}}},
-                                  {"rays", area},
-                                  {"pixels_out_of_steps", spent}}
+                                  {"rays", pixels * options_.samples * options_.samples},
+                                  {"pixels_out_of_steps", pixelsOutOfSteps(*drawn)}}
                .dump(2)
         << '\n';
     return okStatus();
@@ -116,11 +114,8 @@ class Headless {
   Status write(const Target& target, const std::filesystem::path& file) const {
     auto drawn = target.picture();
     if (!drawn) return drawn.error();
-    std::size_t spent = 0;
-    for (std::size_t i = 3; i < drawn->bytes.size(); i += 4) {
-      spent += drawn->bytes[i] < 128;
-      drawn->bytes[i] = 255;
-    }
+    const std::size_t spent = pixelsOutOfSteps(*drawn);
+    for (std::size_t i = 3; i < drawn->bytes.size(); i += 4) drawn->bytes[i] = 255;
     if (spent > 0)
       std::cerr << "sdfview: warning: " << spent
                 << " pixels ran out of steps; give more with --steps, or see them with "

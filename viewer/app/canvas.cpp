@@ -19,12 +19,6 @@ double secondsNow() {
 
 int scaled(int pixels, double scale) { return std::max(1, static_cast<int>(std::lround(pixels * scale))); }
 
-double shareOutOfSteps(const Picture& picture) {
-  std::size_t out = 0;
-  for (std::size_t i = kRgba - 1; i < picture.bytes.size(); i += kRgba) out += picture.bytes[i] == 0;
-  return static_cast<double>(out) * kRgba / static_cast<double>(picture.bytes.size());
-}
-
 Picture withoutAlpha(const Picture& picture) {
   Picture result{picture.width, picture.height, kRgb, {}};
   for (std::size_t i = 0; i < picture.bytes.size(); ++i)
@@ -67,7 +61,7 @@ Status Canvas::draw(Session& session, double scale, int samples) {
 
   const auto picture = target_->picture();  // also where a lost context shows
   if (!picture) return picture.error();
-  statistics_.outOfSteps = shareOutOfSteps(*picture);
+  statistics_.outOfSteps = static_cast<double>(pixelsOutOfSteps(*picture)) / (double(width) * height);
   return okStatus();
 }
 

@@ -47,6 +47,13 @@ Status ensure(std::optional<Target>& target, int width, int height) {
 
 }  // namespace
 
+std::size_t pixelsOutOfSteps(const Picture& picture) {
+  constexpr std::size_t kAlpha = 3, kRgba = 4;
+  std::size_t count = 0;
+  for (std::size_t i = kAlpha; i < picture.bytes.size(); i += kRgba) count += picture.bytes[i] == 0;
+  return count;
+}
+
 Frame frameOf(const Scene& scene, Parameters parameters) {
   Frame frame;
   frame.look = lookOf(scene, parameters);
@@ -94,28 +101,25 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders, Passes single, std:
   if (bounds.finite() && !bounds.empty()) bounds_ = bounds;
 }
 
-void Renderer::setFrame(const Program& program, const Frame& frame, int width, int height) const {
+void Renderer::setFrame(const Program& program, const Frame& frame, const Target& target) const {
   const Eye& eye = frame.look.eye;
   Frustum f = frustumOf(eye);
   f.ahead = aheadOf(f, eye, bounds_);
   const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
-  program.set("size", glm::vec2(width, height));
+  program.set("size", glm::vec2(target.width(), target.height()));
   program.set("from", glm::vec3(eye.from + f.ahead * f.forward));
   program.set("right", glm::vec3(f.right));
   program.set("up", glm::vec3(f.up));
   program.set("forward", glm::vec3(f.forward));
   real("ahead", f.ahead);
   real("maxDistance", maxDistance_);
-  const double pixelRadius = std::tan(0.5 * glm::radians(eye.fov)) / height;
+  const double pixelRadius = std::tan(0.5 * glm::radians(eye.fov)) / target.height();
   real("pixelRadius", pixelRadius);
   real("footprint", frame.filter ? 2.0 * pixelRadius / frame.samples : 0.0);
   real("epsilon", frame.epsilon);
   real("threshold", frame.threshold);
   program.set("maxSteps", frame.maxSteps);
-  const std::vector<float> values = shaders_.values.uniformValues(frame.parameters);
-  std::vector<glm::vec4> rows(values.size() / 4);
-  for (std::size_t i = 0; i < values.size(); ++i) rows[i / 4][static_cast<int>(i % 4)] = values[i];
-  if (!rows.empty()) program.set("sdfValues", rows);
+  if (!values_.empty()) program.set("sdfValues", values_);
 }
 
 void Renderer::setLook(const Program& program, const Frame& frame) const {
@@ -151,13 +155,13 @@ void Renderer::setLook(const Program& program, const Frame& frame) const {
   real("isolines", std::pow(10.0, std::floor(std::log10(glm::length(look.eye.to - look.eye.from) / 10.0))));
 }
 
-Status Renderer::drawCones(const Frame& frame, int width, int height) {
-  if (auto s = ensure(coarse_, tiles(width, kCoarse), tiles(height, kCoarse)); !s) return s;
-  if (auto s = ensure(fine_, tiles(width, kFine), tiles(height, kFine)); !s) return s;
-  setFrame(*cones_, frame, width, height);
+Status Renderer::drawCones(const Frame& frame, const Target& target) {
+  for (const auto& [level, side] : {std::pair(&coarse_, kCoarse), std::pair(&fine_, kFine)})
+    if (auto s = ensure(*level, tiles(target.width(), side), tiles(target.height(), side)); !s) return s;
+  setFrame(*cones_, frame, target);
   cones_->set("coarser", 0);
-  for (const auto& [target, side] : {std::pair(&*coarse_, kCoarse), std::pair(&*fine_, kFine)}) {
-    target->bind();
+  for (const auto& [level, side] : {std::pair(&*coarse_, kCoarse), std::pair(&*fine_, kFine)}) {
+    level->bind();
     coarse_->bindTexture(0);
     cones_->set("first", side == kCoarse ? 1 : 0);
     cones_->set("tile", static_cast<float>(side));
@@ -177,8 +181,12 @@ void Renderer::drawTiles(const Program& scene, const Target& target) const {
 }
 
 Status Renderer::draw(const Frame& frame, const Target& target) {
+  values_.clear();
+  const std::vector<float> values = shaders_.values.uniformValues(frame.parameters);
+  for (std::size_t i = 0; i < values.size(); i += 4)
+    values_.emplace_back(values[i], values[i + 1], values[i + 2], values[i + 3]);
   if (cones_)
-    if (auto s = drawCones(frame, target.width(), target.height()); !s) return s;
+    if (auto s = drawCones(frame, target); !s) return s;
   if (frame.samples > 1 && !many_) {
     auto made = passes(shaders_, forManySamples(shaders_.picture));
     if (!made) return made.error();
@@ -187,11 +195,11 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
   const Passes& passes = frame.samples > 1 ? *many_ : single_;
   target.bind();
   if (passes.background) {
-    setFrame(*passes.background, frame, target.width(), target.height());
+    setFrame(*passes.background, frame, target);
     setLook(*passes.background, frame);
     passes.background->draw();
   }
-  setFrame(passes.scene, frame, target.width(), target.height());
+  setFrame(passes.scene, frame, target);
   setLook(passes.scene, frame);
   if (cones_) {
     fine_->bindTexture(0);
@@ -205,7 +213,7 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
 }
 
 Result<Readings> Renderer::readings(const Target& target) const {
-  const auto mean = [](const std::vector<glm::vec4>& pixels) {
+  const auto sumOf = [](const std::vector<glm::vec4>& pixels) {
     glm::dvec4 sum(0.0);
     for (const glm::vec4& p : pixels) sum += glm::dvec4(p);
     return sum;
@@ -213,12 +221,12 @@ Result<Readings> Renderer::readings(const Target& target) const {
   auto counts = target.pixels(1);
   if (!counts) return counts.error();
   const double pixels = static_cast<double>(counts->size());
-  glm::dvec4 sum = mean(*counts);
+  glm::dvec4 sum = sumOf(*counts);
   if (cones_)
     for (const auto* level : {&*coarse_, &*fine_}) {
       auto starts = level->pixels();
       if (!starts) return starts.error();
-      sum.x += mean(*starts).y;
+      sum.x += sumOf(*starts).y;
     }
   sum /= pixels;
   return Readings{sum.x, sum.y, sum.z, sum.w};

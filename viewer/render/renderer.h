@@ -27,6 +27,9 @@ struct Readings {
   double shadow = 0.0, occlusion = 0.0, reflection = 0.0;
 };
 
+/// Those of a picture that a Renderer drew whose primary rays ran out of steps.
+std::size_t pixelsOutOfSteps(const Picture& picture);
+
 /// The frame of the scene's own look.
 Frame frameOf(const Scene& scene, Parameters parameters = {});
 
@@ -55,17 +58,18 @@ class Renderer {
 
   Renderer(const Scene& scene, SceneShaders shaders, Passes single, std::optional<Program> cones);
   static Result<Passes> passes(const SceneShaders& shaders, const std::string& picture);
-  void setFrame(const Program& program, const Frame& frame, int width, int height) const;
+  void setFrame(const Program& program, const Frame& frame, const Target& target) const;
   void setLook(const Program& program, const Frame& frame) const;
   void drawTiles(const Program& scene, const Target& target) const;
-  Status drawCones(const Frame& frame, int width, int height);
+  Status drawCones(const Frame& frame, const Target& target);
 
   SceneShaders shaders_;
   Passes single_;
   std::optional<Passes> many_;  // compiled when more than one sample is first asked for
   std::optional<Program> cones_;
   std::optional<Target> coarse_, fine_;
-  std::optional<Box> bounds_;  // of the whole scene, if it is finite
+  std::vector<glm::vec4> values_;  // of the frame that is being drawn, for the shaders' sdfValues
+  std::optional<Box> bounds_;      // of the whole scene, if it is finite
   Shadow shadow_;
   double tapSpacing_, maxDistance_;
   double compileSeconds_ = 0.0;
