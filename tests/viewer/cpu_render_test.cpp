@@ -110,9 +110,9 @@ TEST(CpuRender, FollowsTheScenesTime) {
 TEST(Encode, FollowsSrgbOrAPower) {
   // IEC 61966-2-1: the curve is a line up to 0.0031308, and 1.055 c^(1 / 2.4) - 0.055 above.
   const glm::dvec3 shown = encode(glm::dvec3(0.002, 0.5, 1.0), {});
-  EXPECT_NEAR(shown.x, 0.02584, 1e-15);
+  EXPECT_NEAR(shown.x, 0.02584, 1e-15);            // some ulps of a product
   EXPECT_NEAR(shown.y, 0.735356983052449, 1e-14);  // ulps of pow
-  EXPECT_NEAR(shown.z, 1.0, 1e-15);
+  EXPECT_NEAR(shown.z, 1.0, 1e-15);                // some ulps of 1
   EXPECT_EQ(encode(glm::dvec3(-1.0, 0.25, 3.0), 2.0), glm::dvec3(0.0, 0.5, 1.0));
   EXPECT_EQ(encode(glm::dvec3(0.1, 0.2, 0.3), 1.0), glm::dvec3(0.1, 0.2, 0.3));
 }
@@ -123,7 +123,7 @@ TEST(Psnr, IsTwentyDecibelsForATenth) {
   EXPECT_EQ(psnr(dark, dark), HUGE_VAL);
   std::vector<glm::dvec3> oneRed = dark;
   oneRed[3].x += 0.5;
-  EXPECT_NEAR(psnr(dark, oneRed), 10.0 * std::log10(7.0 * 3.0 / 0.25), 1e-13);
+  EXPECT_NEAR(psnr(dark, oneRed), 10.0 * std::log10(7.0 * 3.0 / 0.25), 1e-13);  // ulps of 20
 }
 
 TEST(ShareApart, CountsPixelsOfWhichOneColorIsFartherOffThanAsked) {
