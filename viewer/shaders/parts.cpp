@@ -333,6 +333,7 @@ uniform float samples;  // a side: a pixel takes its square
 layout(location = 0) out vec4 color;  // alpha is 0 where a primary ray ran out of steps
 
 void main() {
+  sdfTakeValues();
   float start = START;
   vec3 sum = vec3(0.0);
   bool spent = false;
@@ -469,6 +470,7 @@ uniform float tile;         // its side in pixels
 layout(location = 0) out vec4 start;
 
 void main() {
+  sdfTakeValues();
   Ray ray = rayThrough((floor(gl_FragCoord.xy) + 0.5) * tile);
   float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
   float t = first ? 0.0 : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).r;

@@ -182,13 +182,20 @@ std::string GlslWriter::commentOf(const Expr& e) const {
 std::string GlslWriter::uniform(const Expr& e) {
   const std::size_t slot = slots_.try_emplace(e, uniforms_.size()).first->second;
   if (slot == uniforms_.size()) uniforms_.push_back(e);
-  return "sdfValues[" + std::to_string(slot / 4) + "]." + kComponents[slot % 4];
+  return "u" + std::to_string(slot);
 }
 
+// Some drivers read a uniform anew in each turn of a loop, and check its index each time.
 std::string GlslWriter::source() const {
-  std::string text;
+  std::string text, takes;
   if (!uniforms_.empty())
-    text += "uniform vec4 sdfValues[" + std::to_string((uniforms_.size() + 3) / 4) + "];\n\n";
+    text += "uniform vec4 sdfValues[" + std::to_string((uniforms_.size() + 3) / 4) + "];\n";
+  for (std::size_t i = 0; i < uniforms_.size(); ++i) {
+    text += (i == 0 ? "float u" : ", u") + std::to_string(i);
+    takes += "  u" + std::to_string(i) + " = sdfValues[" + std::to_string(i / 4) + "]." + kComponents[i % 4] +
+             ";\n";
+  }
+  text += (uniforms_.empty() ? "" : ";\n") + ("void sdfTakeValues() {\n" + takes + "}\n\n");
   for (const auto& [name, code] : kHelpers)
     if (functions_.find(name + "(") != std::string::npos) text += code + "\n";
   return text + functions_;
@@ -196,11 +203,23 @@ std::string GlslWriter::source() const {
 
 std::vector<float> GlslWriter::uniformValues(const std::map<std::string, double>& parameters) const {
   std::vector<Expr> bound;
-  for (const Expr& e : uniforms_) bound.push_back(bind(e, parameters));
-  const std::vector<double> values = evaluateAll(Tape(bound), {});
-  std::vector<float> floats(values.begin(), values.end());
-  floats.resize((floats.size() + 3) / 4 * 4);
-  return floats;
+  std::vector<float> values;
+  std::vector<std::size_t> computed;
+  for (const Expr& e : uniforms_) {
+    if (e.op() == Op::Parameter) {
+      const auto found = parameters.find(e.parameterInfo().name);
+      const double value = found == parameters.end() ? e.parameterInfo().value : found->second;
+      values.push_back(static_cast<float>(value));
+    } else {
+      computed.push_back(values.size());
+      values.push_back(0.0f);
+      bound.push_back(bind(e, parameters));
+    }
+  }
+  const std::vector<double> results = evaluateAll(Tape(bound), {});
+  for (std::size_t i = 0; i < computed.size(); ++i) values[computed[i]] = static_cast<float>(results[i]);
+  values.resize((values.size() + 3) / 4 * 4);
+  return values;
 }
 
 }  // namespace sdf

@@ -32,7 +32,8 @@ class GlslWriter {
   /// printable ones become question marks. Cost: linear in the size of its graph.
   void label(const Expr& e, const std::string& comment);
 
-  /// Declarations and functions, without `#version` and precision.
+  /// Declarations and functions, without `#version` and precision. `main` must call sdfTakeValues() before
+  /// any of them.
   std::string source() const;
   /// Values of the uniform `vec4 sdfValues[]`, in order, filled up to whole vectors: parameters have these
   /// values or, where they are not named, their present ones. Empty if there is no such uniform.
