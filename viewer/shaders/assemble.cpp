@@ -165,7 +165,7 @@ class Assembler {
                               ? "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
                                 "min(shadowReach, far) : shadowReach);"
                               : "");
-    define("START", cones ? "texelFetch(starts, ivec2(gl_FragCoord.xy) / 4, 0).r" : "0.0");
+    define("SPAN", cones ? "texelFetch(starts, ivec2(gl_FragCoord.xy) / 4, 0).rb" : "vec2(0.0, 1e30)");
     if (cones) text += "uniform sampler2D starts;\n";
     const bool colours = options_.view == View::Picture || options_.view == View::Material;
     define("ENCODE(c)", colours ? encoding() : "(c)");

@@ -18,13 +18,14 @@ uniform int maxSteps;
 struct Ray {
   vec3 origin, direction;
   float before;               // distance from the eye to t = 0
+  float end;                  // t beyond which it meets only planes
 };
 
 Ray rayThrough(vec2 pixel) {
   vec2 uv = (pixel - 0.5 * size) / size.y;
   vec3 across = uv.x * right + uv.y * up, way = across + forward;
   float far = length(way);
-  return Ray(from + ahead * across, way / far, ahead * far);
+  return Ray(from + ahead * across, way / far, ahead * far, 1e30);
 }
 )";
 
@@ -118,7 +119,7 @@ float march(Ray ray, float t, float tMax, out int status, out int readings) {
       return t;
     }
     r = next;
-    if (t + r >= tMax) {
+    if (t + r >= min(tMax, ray.end)) {
       status = ends ? HIT : MISS;
       return tMax;
     }
@@ -311,7 +312,7 @@ vec3 radiance(Ray ray, float t, out bool budget) {
     through *= clear * mirror;
     if (max(through.r, max(through.g, through.b)) < 1.0 / 1024.0) break;
     float off = 2.0 * (epsilon + threshold * pixelRadius * (ray.before + t));
-    ray = Ray(p + off * n, reflect(d, n), ray.before + t);
+    ray = Ray(p + off * n, reflect(d, n), ray.before + t, 1e30);
     t = 0.0;
     tMax = maxDistance;
   }
@@ -334,7 +335,7 @@ layout(location = 0) out vec4 color;  // alpha is 0 where a primary ray ran out 
 
 void main() {
   sdfTakeValues();
-  float start = START;
+  vec2 span = SPAN;
   vec3 sum = vec3(0.0);
   bool spent = false;
 #ifdef MANY_SAMPLES
@@ -342,13 +343,17 @@ void main() {
   for (float i = 0.5; i < all; i += 1.0) {
     float row = floor(i / samples);
     vec2 within = vec2(i - row * samples, row + 0.5) / samples;
+    Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
+    ray.end = span.y;
     bool budget;
-    sum += colorOf(rayThrough(floor(gl_FragCoord.xy) + within), start, budget);
+    sum += colorOf(ray, span.x, budget);
     spent = spent || budget;
   }
 #else
   const float all = 1.0;  // without a loop, since that costs a third
-  sum = colorOf(rayThrough(gl_FragCoord.xy), start, spent);
+  Ray ray = rayThrough(gl_FragCoord.xy);
+  ray.end = span.y;
+  sum = colorOf(ray, span.x, spent);
 #endif
   color = vec4(ENCODE(sum / all), spent ? 0.0 : 1.0);
   STORE_COUNTS
@@ -473,18 +478,28 @@ void main() {
   sdfTakeValues();
   Ray ray = rayThrough((floor(gl_FragCoord.xy) + 0.5) * tile);
   float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
-  float t = first ? 0.0 : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).r;
+  vec3 span = first ? vec3(0.0, 0.0, maxDistance) : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).rgb;
+  float t = span.x, end = span.z;
+  bool back = false;  // from the end
   int readings = 0;
   while (readings < 64) {
-    if (t >= maxDistance) break;
-    float wide = spread * ahead + widening * t;
-    float g = rest(ray.origin + t * ray.direction);
+    if (t >= end) {
+      t = maxDistance;
+      break;
+    }
+    float at = back ? end : t, wide = spread * ahead + widening * at;
+    float free = rest(ray.origin + at * ray.direction) - wide;
     ++readings;
-    float on = (g - wide) / (1.0 + widening);
-    if (on <= 0.25 * wide + epsilon) break;
-    t += on;
+    if (free <= (1.0 + widening) * (0.25 * wide + epsilon)) {
+      if (back || !first) break;
+      back = true;
+    } else if (back) {
+      end -= free;
+    } else {
+      t += free / (1.0 + widening);
+    }
   }
-  start = vec4(t, float(readings), 0.0, 0.0);
+  start = vec4(t, float(readings), end, 0.0);
 }
 )";
 
