@@ -17,16 +17,28 @@ void main() {
 )";
 
 constexpr const char* kOverTiles = R"(#version 330 core
-uniform sampler2D tiles;  // one value a tile
+uniform sampler2D tiles;  // values of all tiles, in one cell or in rows of them
 uniform float tileSide;   // pixels
 uniform vec2 tileArea;    // of the target, pixels
 uniform float tileLimit;
+uniform int firstCell, lastCell;
 
+// Column and row of the i-th of all; in floats, which are exact up to 2^24 and faster than dividing integers.
+vec2 split(float i, float columns) {
+  float row = floor((i + 0.5) / columns);
+  return vec2(i - row * columns, row);
+}
+
+// Two triangles a tile.
 void main() {
-  int columns = textureSize(tiles, 0).x;
-  ivec2 tile = ivec2(gl_InstanceID % columns, gl_InstanceID / columns);
-  vec2 corner = min((vec2(tile) + vec2(gl_VertexID & 1, gl_VertexID >> 1)) * tileSide, tileArea);
-  bool drawn = texelFetch(tiles, tile, 0).r < tileLimit;
+  vec2 grid = ceil(tileArea / tileSide), vertex = split(float(gl_VertexID), 6.0);
+  vec2 tile = split(vertex.y, grid.x);
+  vec2 way = vec2(vertex.x == 1.0 || vertex.x > 3.0, vertex.x == 2.0 || vertex.x == 3.0 || vertex.x == 5.0);
+  vec2 corner = min((tile + way) * tileSide, tileArea);
+  float across = floor(float(textureSize(tiles, 0).x) / grid.x);
+  bool drawn = false;
+  for (int cell = firstCell; cell <= lastCell; ++cell)
+    drawn = drawn || texelFetch(tiles, ivec2(split(float(cell), across) * grid + tile), 0).r < tileLimit;
   gl_Position = drawn ? vec4(2.0 * corner / tileArea - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }
 )";
@@ -148,7 +160,7 @@ void Program::draw() const {
 void Program::drawTiles(int count) const {
   use();
   glBindVertexArray(vertexArray_.id());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+  glDrawArrays(GL_TRIANGLES, 0, 6 * count);
 }
 
 }  // namespace sdf::viewer

@@ -25,7 +25,8 @@ class Program {
 
   /// One whose fragment shader runs once for each pixel of some square tiles, in rows from the bottom: those
   /// at which the texture `tiles` has a value below `tileLimit`. Give it `tileSide` in pixels and `tileArea`,
-  /// the target's size. Errors: as create.
+  /// the target's size. A wider texture may hold several cells of such tiles; then one value of those from
+  /// `firstCell` to `lastCell` (0 unless set) suffices. Errors: as create.
   static Result<Program> overTiles(const std::string& fragment);
 
   /// Makes it the one that draws.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <glm/gtc/type_ptr.hpp>
 #include <string>
 
 #include "viewer/gpu/context.h"
@@ -66,8 +67,8 @@ void flipRows(std::vector<T>& values, int height) {
 
 }  // namespace
 
-Result<Target> Target::create(int width, int height, std::initializer_list<PixelFormat> layers) {
-  assert(layers.size() > 0);
+Result<Target> Target::create(int width, int height, const std::vector<PixelFormat>& layers, bool depth) {
+  assert(!layers.empty());
   const Status fits = checkSize(width, height);
   if (!fits) return fits.error();
 
@@ -81,6 +82,8 @@ Result<Target> Target::create(int width, int height, std::initializer_list<Pixel
     const Status added = target.addLayer(format);
     if (!added) return added.error();
   }
+  if (depth)
+    if (auto s = target.addDepth(); !s) return s.error();
   std::vector<GLenum> outputs;
   for (std::size_t i = 0; i < layers.size(); ++i) outputs.push_back(GL_COLOR_ATTACHMENT0 + GLenum(i));
   glDrawBuffers(GLsizei(outputs.size()), outputs.data());
@@ -106,9 +109,28 @@ Status Target::addLayer(PixelFormat format) {
   return check("make a picture of " + product(width_, height_) + " pixels");
 }
 
-void Target::bind() const {
+Status Target::addDepth() {
+  GLuint buffer = 0;
+  glGenRenderbuffers(1, &buffer);
+  depth_ = Handle(buffer, [](unsigned id) { glDeleteRenderbuffers(1, &id); });
+  glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width_, height_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffer);
+  return check("make depths for " + product(width_, height_) + " pixels");
+}
+
+void Target::bind() const { bind(0, 0, width_, height_); }
+
+void Target::bind(int x, int y, int width, int height) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  glViewport(0, 0, width_, height_);
+  glViewport(x, y, width, height);
+}
+
+void Target::clear(int layer, const glm::vec4& value) const {
+  bind();
+  glClearBufferfv(GL_COLOR, layer, glm::value_ptr(value));
+  const float farthest = 1.0f;
+  if (depth_.id() != 0) glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
 void Target::show(int width, int height) const {
@@ -141,6 +163,14 @@ Result<std::vector<glm::vec4>> Target::pixels(int layer) const {
   if (!done) return done.error();
   flipRows(rows, height_);
   return rows;
+}
+
+Result<glm::dvec4> Target::sum(int layer) const {
+  const auto all = pixels(layer);
+  if (!all) return all.error();
+  glm::dvec4 sum(0.0);
+  for (const glm::vec4& p : *all) sum += glm::dvec4(p);
+  return sum;
 }
 
 Result<Picture> Target::picture(int layer) const {

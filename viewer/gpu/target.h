@@ -2,7 +2,6 @@
 // for one target's whole life.
 #pragma once
 #include <glm/vec4.hpp>
-#include <initializer_list>
 #include <vector>
 
 #include "sdf/base/result.h"
@@ -19,15 +18,21 @@ enum class PixelFormat { Rgba8, Rgba16f, Rgba32f };
 /// locations. New ones hold anything.
 class Target {
  public:
-  /// Leaves bound what is. Errors: Limits if a side is less than 1 or more than the driver can draw, or
-  /// memory runs out; else Graphics.
-  static Result<Target> create(int width, int height, std::initializer_list<PixelFormat> layers);
+  /// With depth, of 32-bit floats, if asked. Leaves bound what is. Errors: Limits if a side is less than 1 or
+  /// more than the driver can draw, or memory runs out; else Graphics.
+  static Result<Target> create(int width, int height, const std::vector<PixelFormat>& layers,
+                               bool depth = false);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
   /// Makes it what is drawn into, the whole of it.
   void bind() const;
+  /// Only so many of its pixels, from (x, y) on.
+  void bind(int x, int y, int width, int height) const;
+
+  /// Makes it what is drawn into, filled: one layer with this value, the depth with 1.
+  void clear(int layer, const glm::vec4& value) const;
 
   /// Copies the first layer to the window that is current, stretched over this many pixels, and makes the
   /// window what is drawn into.
@@ -39,16 +44,20 @@ class Target {
   /// One layer's pixels, rows from the top. Waits until all is drawn. Errors: as check.
   Result<std::vector<glm::vec4>> pixels(int layer = 0) const;
 
+  /// The sum of one layer's pixels. Errors: as check.
+  Result<glm::dvec4> sum(int layer) const;
+
   /// The same as RGBA bytes; floats are clamped to 0 to 1 and rounded. Errors: as check.
   Result<Picture> picture(int layer = 0) const;
 
  private:
   Target(int width, int height) : width_(width), height_(height) {}
   Status addLayer(PixelFormat format);
+  Status addDepth();
   Status read(int layer, unsigned type, void* rowsFromBottom) const;
 
   int width_, height_;
-  Handle framebuffer_;
+  Handle framebuffer_, depth_;
   std::vector<Handle> textures_;
 };
 

@@ -7,43 +7,12 @@
 #include <glm/trigonometric.hpp>
 
 #include "viewer/gpu/context.h"
+#include "viewer/render/tiles.h"
 
 namespace sdf::viewer {
 namespace {
 
-constexpr int kCoarse = 16, kFine = 4;  // sides of the cone pass's tiles, pixels
-
-/// The eye as the shaders want it.
-struct Frustum {
-  glm::dvec3 right, up, forward;  // forward as long as the picture plane is far away, in picture heights
-  double ahead = 0.0;             // of the eye, where rays begin
-};
-
-Frustum frustumOf(const Eye& eye) {
-  const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up)), up = glm::cross(right, forward);
-  return {eye.mirrored ? -right : right, up, forward / (2.0 * std::tan(0.5 * glm::radians(eye.fov))), 0.0};
-}
-
-/// How far rays may start before the eye: up to a ball around the scene.
-double aheadOf(const Frustum& f, const Eye& eye, const std::optional<Box>& bounds) {
-  if (!bounds) return 0.0;
-  const glm::dvec3 toCentre = bounds->centre() - eye.from;
-  const double radius = 0.5 * glm::length(bounds->size()), focal = glm::length(f.forward);
-  const double along = glm::dot(toCentre, f.forward) / focal - radius;
-  // Near the scene there is nothing to gain.
-  return along > 4.0 * radius ? along / focal : 0.0;
-}
-
-int tiles(int pixels, int side) { return (pixels + side - 1) / side; }
-
-Status ensure(std::optional<Target>& target, int width, int height) {
-  if (target && target->width() == width && target->height() == height) return okStatus();
-  auto made = Target::create(width, height, {PixelFormat::Rgba32f});
-  if (!made) return made.error();
-  target = std::move(*made);
-  return okStatus();
-}
+constexpr int kFine = 4;  // side of the cone pass's smaller tiles, pixels
 
 }  // namespace
 
@@ -54,28 +23,41 @@ std::size_t pixelsOutOfSteps(const Picture& picture) {
   return count;
 }
 
-Frame frameOf(const Scene& scene, Parameters parameters) {
-  Frame frame;
-  frame.look = lookOf(scene, parameters);
-  frame.parameters = std::move(parameters);
-  return frame;
-}
-
 Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
   auto shaders = assemble(scene, options);
   if (!shaders) return shaders.error();
-  auto single = passes(*shaders, shaders->picture);
-  if (!single) return single.error();
-  std::optional<Program> cones;
-  if (!shaders->cones.empty()) {
-    auto made = Program::overScreen(shaders->cones);
-    if (!made) return made.error();
-    cones = std::move(*made);
-  }
-  Renderer renderer(scene, std::move(*shaders), std::move(*single), std::move(cones));
-  renderer.compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Renderer renderer(scene, std::move(*shaders));
+  if (auto s = renderer.compile(false); !s) return s.error();
   return renderer;
+}
+
+Renderer::Renderer(const Scene& scene, SceneShaders shaders)
+    : shaders_(std::move(shaders)),
+      shadow_(scene.shadow),
+      tapSpacing_(scene.ambientOcclusion.spacing),
+      maxDistance_(scene.maxDistance) {
+  const Box bounds = scene.whole().bounds;
+  if (bounds.finite() && !bounds.empty()) bounds_ = bounds;
+}
+
+Status Renderer::compile(bool manySamples) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool grouped = !manySamples && !shaders_.groups.empty();
+  if (grouped) {
+    auto groups = Groups::make(shaders_.groups, shaders_.counted);
+    if (!groups) return groups.error();
+    groups_ = std::move(*groups);
+  } else if (!cones_ && !shaders_.cones.empty()) {
+    auto cones = Program::overScreen(shaders_.cones);
+    if (!cones) return cones.error();
+    cones_ = std::move(*cones);
+  }
+  const std::string& picture = shaders_.picture;
+  auto made = passes(shaders_, manySamples ? forManySamples(picture) : grouped ? shaders_.fromHits : picture);
+  if (!made) return made.error();
+  (manySamples ? many_ : single_) = std::move(*made);
+  compileSeconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return okStatus();
 }
 
 Result<Renderer::Passes> Renderer::passes(const SceneShaders& shaders, const std::string& picture) {
@@ -88,38 +70,6 @@ Result<Renderer::Passes> Renderer::passes(const SceneShaders& shaders, const std
     result.background = std::move(*background);
   }
   return result;
-}
-
-Renderer::Renderer(const Scene& scene, SceneShaders shaders, Passes single, std::optional<Program> cones)
-    : shaders_(std::move(shaders)),
-      single_(std::move(single)),
-      cones_(std::move(cones)),
-      shadow_(scene.shadow),
-      tapSpacing_(scene.ambientOcclusion.spacing),
-      maxDistance_(scene.maxDistance) {
-  const Box bounds = scene.whole().bounds;
-  if (bounds.finite() && !bounds.empty()) bounds_ = bounds;
-}
-
-void Renderer::setFrame(const Program& program, const Frame& frame, const Target& target) const {
-  const Eye& eye = frame.look.eye;
-  Frustum f = frustumOf(eye);
-  f.ahead = aheadOf(f, eye, bounds_);
-  const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
-  program.set("size", glm::vec2(target.width(), target.height()));
-  program.set("from", glm::vec3(eye.from + f.ahead * f.forward));
-  program.set("right", glm::vec3(f.right));
-  program.set("up", glm::vec3(f.up));
-  program.set("forward", glm::vec3(f.forward));
-  real("ahead", f.ahead);
-  real("maxDistance", maxDistance_);
-  const double pixelRadius = std::tan(0.5 * glm::radians(eye.fov)) / target.height();
-  real("pixelRadius", pixelRadius);
-  real("footprint", frame.filter ? 2.0 * pixelRadius / frame.samples : 0.0);
-  real("epsilon", frame.epsilon);
-  real("threshold", frame.threshold);
-  program.set("maxSteps", frame.maxSteps);
-  if (!values_.empty()) program.set("sdfValues", values_);
 }
 
 void Renderer::setLook(const Program& program, const Frame& frame) const {
@@ -155,80 +105,78 @@ void Renderer::setLook(const Program& program, const Frame& frame) const {
   real("isolines", std::pow(10.0, std::floor(std::log10(glm::length(look.eye.to - look.eye.from) / 10.0))));
 }
 
-Status Renderer::drawCones(const Frame& frame, const Target& target) {
-  for (const auto& [level, side] : {std::pair(&coarse_, kCoarse), std::pair(&fine_, kFine)})
-    if (auto s = ensure(*level, tiles(target.width(), side), tiles(target.height(), side)); !s) return s;
-  setFrame(*cones_, frame, target);
+Status Renderer::drawCones(const Shot& shot) {
+  for (const auto& [level, side] : {std::pair(&coarse_, kTile), std::pair(&fine_, kFine)})
+    if (auto s =
+            ensure(*level, tiles(shot.width(), side), tiles(shot.height(), side), {PixelFormat::Rgba32f});
+        !s)
+      return s;
+  shot.set(*cones_, values_);
   cones_->set("coarser", 0);
-  for (const auto& [level, side] : {std::pair(&*coarse_, kCoarse), std::pair(&*fine_, kFine)}) {
+  for (const auto& [level, side] : {std::pair(&*coarse_, kTile), std::pair(&*fine_, kFine)}) {
     level->bind();
     coarse_->bindTexture(0);
-    cones_->set("first", side == kCoarse ? 1 : 0);
+    cones_->set("first", side == kTile ? 1 : 0);
     cones_->set("tile", static_cast<float>(side));
     cones_->draw();
   }
   return okStatus();
 }
 
-// Of the coarse level: more, smaller tiles cost more than they spare.
-void Renderer::drawTiles(const Program& scene, const Target& target) const {
-  coarse_->bindTexture(1);
-  scene.set("tiles", 1);
-  scene.set("tileSide", static_cast<float>(kCoarse));
-  scene.set("tileArea", glm::vec2(target.width(), target.height()));
-  scene.set("tileLimit", static_cast<float>(maxDistance_));
-  scene.drawTiles(coarse_->width() * coarse_->height());
-}
-
-Status Renderer::draw(const Frame& frame, const Target& target) {
-  values_.clear();
-  const std::vector<float> values = shaders_.values.uniformValues(frame.parameters);
-  for (std::size_t i = 0; i < values.size(); i += 4)
-    values_.emplace_back(values[i], values[i + 1], values[i + 2], values[i + 3]);
-  if (cones_)
-    if (auto s = drawCones(frame, target); !s) return s;
-  if (frame.samples > 1 && !many_) {
-    auto made = passes(shaders_, forManySamples(shaders_.picture));
-    if (!made) return made.error();
-    many_ = std::move(*made);
-  }
-  const Passes& passes = frame.samples > 1 ? *many_ : single_;
+Status Renderer::drawScene(const Passes& passes, const Frame& frame, const Shot& shot,
+                           const Target& target) const {
   target.bind();
   if (passes.background) {
-    setFrame(*passes.background, frame, target);
+    shot.set(*passes.background, values_);
     setLook(*passes.background, frame);
     passes.background->draw();
   }
-  setFrame(passes.scene, frame, target);
+  shot.set(passes.scene, values_);
   setLook(passes.scene, frame);
-  if (cones_) {
+  if (grouped_) {
+    groups_->hits().bindTexture(0);
+    passes.scene.set("hits", 0);
+  } else if (cones_) {
     fine_->bindTexture(0);
     passes.scene.set("starts", 0);
   }
-  if (passes.background)
-    drawTiles(passes.scene, target);
-  else
+  if (!passes.background)
     passes.scene.draw();
+  else if (grouped_)
+    drawTiles(passes.scene, shot, groups_->starts(), 0, groups_->count() - 1);
+  else
+    drawTiles(passes.scene, shot, *coarse_, 0, 0);
   return check("draw the scene");
 }
 
+Status Renderer::draw(const Frame& frame, const Target& target) {
+  const bool many = frame.samples > 1;
+  if (many && !many_)
+    if (auto s = compile(many); !s) return s;
+  const Shot shot(frame, target.width(), target.height(), bounds_, maxDistance_);
+  grouped_ = groups_ && !many;
+  values_ = uniformsOf(grouped_ ? shaders_.valuesFromHits : shaders_.values, frame.parameters);
+  if (grouped_ || cones_)
+    if (auto s = grouped_ ? groups_->draw(frame, shot) : drawCones(shot); !s) return s;
+  return drawScene(many ? *many_ : *single_, frame, shot, target);
+}
+
 Result<Readings> Renderer::readings(const Target& target) const {
-  const auto sumOf = [](const std::vector<glm::vec4>& pixels) {
-    glm::dvec4 sum(0.0);
-    for (const glm::vec4& p : pixels) sum += glm::dvec4(p);
-    return sum;
-  };
-  auto counts = target.pixels(1);
+  auto counts = target.sum(1);
   if (!counts) return counts.error();
-  const double pixels = static_cast<double>(counts->size());
-  glm::dvec4 sum = sumOf(*counts);
-  if (cones_)
+  glm::dvec4 sum = *counts;
+  if (grouped_) {
+    const auto primary = groups_->readings();
+    if (!primary) return primary.error();
+    sum.x += *primary;
+  } else if (cones_) {
     for (const auto* level : {&*coarse_, &*fine_}) {
-      auto starts = level->pixels();
+      const auto starts = level->sum(0);
       if (!starts) return starts.error();
-      sum.x += sumOf(*starts).y;
+      sum.x += starts->y;
     }
-  sum /= pixels;
+  }
+  sum /= static_cast<double>(target.width()) * target.height();
   return Readings{sum.x, sum.y, sum.z, sum.w};
 }
 

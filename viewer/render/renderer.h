@@ -4,22 +4,11 @@
 
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
-#include "viewer/render/look.h"
+#include "viewer/render/frame.h"
+#include "viewer/render/groups.h"
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::viewer {
-
-/// What may change from one frame to the next without compiling, but for the first that takes more than one
-/// sample.
-struct Frame {
-  Parameters parameters;
-  Look look;
-  int samples = 1;          ///< a side: a pixel takes its square
-  bool filter = true;       ///< patterns are averaged over what a sample covers; see shaders/filter.h
-  int maxSteps = 512;       ///< readings that a ray may take
-  double epsilon = 1e-5;    ///< least distance that counts as a hit, scene units
-  double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit
-};
 
 /// Readings of the distance a pixel, means over the picture; with `countReadings` only.
 struct Readings {
@@ -29,9 +18,6 @@ struct Readings {
 
 /// Those of a picture that a Renderer drew whose primary rays ran out of steps.
 std::size_t pixelsOutOfSteps(const Picture& picture);
-
-/// The frame of the scene's own look.
-Frame frameOf(const Scene& scene, Parameters parameters = {});
 
 class Renderer {
  public:
@@ -56,18 +42,19 @@ class Renderer {
     std::optional<Program> background;
   };
 
-  Renderer(const Scene& scene, SceneShaders shaders, Passes single, std::optional<Program> cones);
+  Renderer(const Scene& scene, SceneShaders shaders);
   static Result<Passes> passes(const SceneShaders& shaders, const std::string& picture);
-  void setFrame(const Program& program, const Frame& frame, const Target& target) const;
+  Status compile(bool manySamples);
   void setLook(const Program& program, const Frame& frame) const;
-  void drawTiles(const Program& scene, const Target& target) const;
-  Status drawCones(const Frame& frame, const Target& target);
+  Status drawCones(const Shot& shot);
+  Status drawScene(const Passes& passes, const Frame& frame, const Shot& shot, const Target& target) const;
 
   SceneShaders shaders_;
-  Passes single_;
-  std::optional<Passes> many_;  // compiled when more than one sample is first asked for
-  std::optional<Program> cones_;
+  std::optional<Passes> single_, many_;  // by samples; compiled when first asked for
+  std::optional<Program> cones_;         // of the whole, likewise
+  std::optional<Groups> groups_;         // instead of them, where one sample is taken
   std::optional<Target> coarse_, fine_;
+  bool grouped_ = false;           // the frame drawn last
   std::vector<glm::vec4> values_;  // of the frame that is being drawn, for the shaders' sdfValues
   std::optional<Box> bounds_;      // of the whole scene, if it is finite
   Shadow shadow_;

@@ -1,8 +1,8 @@
 #include "viewer/shaders/assemble.h"
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/gradient.h"
@@ -10,25 +10,17 @@
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/operand.h"
 #include "viewer/shaders/filter.h"
+#include "viewer/shaders/group_shaders.h"
 #include "viewer/shaders/parts.h"
+#include "viewer/shaders/source.h"
 
 namespace sdf::viewer {
 namespace {
-
-// Drivers inline and unroll, and take seconds over long programs: a gradient of more operations than this is
-// taken by differences, and a distance of more has no tiles drawn apart, which would take another program.
-constexpr std::size_t kLong = 6000;
 
 constexpr const char* kAttributeNames[kAttributeCount] = {
     "RED",          "GREEN",          "BLUE",           "AMBIENT_RED",   "AMBIENT_GREEN", "AMBIENT_BLUE",
     "SPECULAR_RED", "SPECULAR_GREEN", "SPECULAR_BLUE",  "SHININESS",     "REFLECTIVITY",  "FRESNEL_POWER",
     "FRESNEL_BIAS", "EMISSION_RED",   "EMISSION_GREEN", "EMISSION_BLUE", "MATERIAL_ID"};
-
-std::string number(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", v);
-  return std::string("float(") + text + ")";
-}
 
 std::string vector(const glm::dvec3& v) {
   return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
@@ -59,6 +51,7 @@ Split split(const Scene& scene) {
 struct Read {
   Shape shape;
   double inverse = 1.0;
+  Expr unhoisted;  // its distance as the scene has it
 };
 
 /// With the slope that the shape claims everywhere, or else the one that its formula has near its bounds.
@@ -78,8 +71,8 @@ Result<Read> read(Shape shape) {
         ErrorKind::Scene,
         "the distance has no known slope, so its rays cannot be marched; give its field() bounds and a "
         "lipschitz constant"};
-  shape.distance = hoisted(shape.distance);
-  return Read{std::move(shape), slope > 0.0 ? 1.0 / slope : 1.0};
+  const Expr unhoisted = std::exchange(shape.distance, hoisted(shape.distance));
+  return Read{std::move(shape), slope > 0.0 ? 1.0 / slope : 1.0, unhoisted};
 }
 
 class Assembler {
@@ -89,47 +82,64 @@ class Assembler {
       : scene_(scene),
         options_(options),
         whole_(std::move(whole.shape)),
+        unhoisted_(std::move(whole.unhoisted)),
         inverse_(whole.inverse),
         rest_(std::move(rest)),
         planes_(std::move(planes)) {}
 
   SceneShaders run() {
     SceneShaders result;
-    for (const Part& part : scene_.parts) {
-      result.values.label(part.shape.distance, "part '" + part.name + "'");
-      for (const Expr& e : part.shape.surface) result.values.label(e, "part '" + part.name + "'");
+    result.counted = options_.countReadings;
+    result.values = functions();
+    const bool isPicture = options_.view == View::Picture;
+    if (options_.method == Method::AutoRelaxed && !stepsCount()) {
+      result.cones = header(options_.es) + result.values.source() + defines(false) + parts::kCamera +
+                     parts::kRest + parts::kCones;
+      if (isPicture) result.groups = groups();
     }
-    result.values.add("sdfDistance", {&whole_.distance, 1});
-    if (!planes_.empty()) result.values.add("sdfPlanes", planes_);
-    if (rest_) result.values.add("sdfRest", {&rest_->shape.distance, 1});
-    if (options_.method == Method::AutoRelaxed && !stepsCount())
-      result.cones =
-          header() + result.values.source() + defines(false) + parts::kCamera + parts::kRest + parts::kCones;
-    result.tiled = !result.cones.empty() && planes_.empty() && options_.view == View::Picture &&
-                   topologicalOrder({&whole_.distance, 1}).size() < kLong;
-    const std::string body =
-        options_.view == View::Picture ? picture(result.values) : debugView(result.values);
-    result.picture = header() + (filters_ ? kFootprintVariables : "") + result.values.source() +
-                     defines(!result.cones.empty()) + body + (scene_.gamma ? "" : parts::kSrgb) +
-                     parts::kPicture;
+    result.tiled = !result.cones.empty() && planes_.empty() && isPicture &&
+                   (!result.groups.empty() || topologicalOrder({&whole_.distance, 1}).size() < kLongProgram);
+    result.picture = shader(result.values, !result.cones.empty());
+    fromHits_ = true;
+    if (result.groups.empty()) return result;
+    result.valuesFromHits = functions();
+    result.fromHits = shader(result.valuesFromHits, false);
     return result;
   }
 
  private:
+  // Those that march or meet planes.
+  GlslWriter functions() const {
+    GlslWriter writer;
+    for (const Part& part : scene_.parts) {
+      writer.label(part.shape.distance, "part '" + part.name + "'");
+      for (const Expr& e : part.shape.surface) writer.label(e, "part '" + part.name + "'");
+    }
+    if (readsDistance()) writer.add("sdfDistance", {&whole_.distance, 1});
+    if (!planes_.empty()) writer.add("sdfPlanes", planes_);
+    if (rest_ && readsDistance()) writer.add("sdfRest", {&rest_->shape.distance, 1});
+    if (!planes_.empty() && fromHits_) addPlaneGradient(writer);
+    return writer;
+  }
+
+  // What draws the view; adds what else it needs to the writer.
+  std::string shader(GlslWriter& writer, bool cones) {
+    const std::string body = options_.view == View::Picture ? picture(writer) : debugView(writer);
+    return header(options_.es) + (filters_ ? kFootprintVariables : "") + writer.source() + defines(cones) +
+           body + (scene_.gamma ? "" : parts::kSrgb) + parts::kPicture;
+  }
+
   bool stepsCount() const { return scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps; }
   bool taps() const { return scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Taps; }
   bool shadows() const { return scene_.shadow.kind != Shadow::Kind::None && !scene_.lights.empty(); }
-
-  std::string header() const {
-    return options_.es
-               ? "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-               : "#version 330 core\n";
-  }
 
   bool mirrors() const {
     return scene_.reflectionBounces > 0 &&
            !whole_.surface[static_cast<int>(Attribute::Reflectivity)].isConstant(0.0);
   }
+
+  bool marches() const { return !fromHits_ || mirrors(); }
+  bool readsDistance() const { return marches() || shadows() || taps(); }
 
   std::string encoding() const {
     if (!scene_.gamma) return "encode(c)";
@@ -138,69 +148,80 @@ class Assembler {
 
   std::string defines(bool cones) const {
     std::string text;
-    const auto define = [&](const std::string& name, const std::string& value) {
-      text += "#define " + name + " " + value + "\n";
-    };
+    const auto set = [&](const std::string& name, const std::string& value) { text += define(name, value); };
     const auto count = [&](const std::string& name, const std::string& what) {
-      define(name, options_.countReadings ? what : "");
+      set(name, options_.countReadings ? what : "");
     };
     if (options_.method == Method::Plain || stepsCount()) text += "#define METHOD_PLAIN\n";
-    define("INVERSE_SLOPE", number(inverse_));
-    define("REST", planes_.empty() ? "sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE"
-                   : rest_         ? "sdfRest(p, vec3(0.0)) * " + number(rest_->inverse)
-                                   : "1e30");
-    define("PLANES", std::to_string(planes_.size()));
+    set("INVERSE_SLOPE", number(inverse_));
+    set("REST", planes_.empty() ? "sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE"
+                : rest_         ? "sdfRest(p, vec3(0.0)) * " + number(rest_->inverse)
+                                : "1e30");
+    set("SHARE", "1.0");
+    set("PLANES", std::to_string(planes_.size()));
+    set("PLANE_NORMAL", planes_.empty() ? "vec3(0.0)" : "normalize(sdfPlaneGradient(p, vec3(0.0)))");
     if (restBounds().finite()) {
-      define("BOX_MIN", vector(restBounds().min));
-      define("BOX_MAX", vector(restBounds().max));
+      set("BOX_MIN", vector(restBounds().min));
+      set("BOX_MAX", vector(restBounds().max));
     }
-    define("FOOTPRINT", filters_ ? "setFootprint(n, d, ray.before + t);" : "");
-    define("LIGHTS", std::to_string(scene_.lights.size()));
-    define("TAPS", std::to_string(scene_.ambientOcclusion.count));
-    define("BOUNCES", std::to_string(mirrors() ? scene_.reflectionBounces : 0));
-    define("OCCLUSION", taps() ? "occlusion(p, n)" : "1.0");
-    define("STEP_OCCLUSION", stepsCount() ? "max(0.0, 1.0 - tapStrength * float(readings))" : "1.0");
-    define("DIRECT", scene_.lights.empty() ? "vec3(0.0)" : "direct(p, n, d, s)");
-    define("SHADE_LIGHT", shadows()
-                              ? "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
-                                "min(shadowReach, far) : shadowReach);"
-                              : "");
-    define("SPAN", cones ? "texelFetch(starts, ivec2(gl_FragCoord.xy) / 4, 0).rb" : "vec2(0.0, 1e30)");
+    set("FIRST(taken, marched)", !fromHits_  ? "marched"
+                                 : mirrors() ? "(bounce == 0 ? taken : marched)"
+                                             : "taken");
+    set("FOOTPRINT", filters_ ? "setFootprint(n, d, ray.before + t);" : "");
+    set("LIGHTS", std::to_string(scene_.lights.size()));
+    set("TAPS", std::to_string(scene_.ambientOcclusion.count));
+    set("BOUNCES", std::to_string(mirrors() ? scene_.reflectionBounces : 0));
+    set("OCCLUSION", taps() ? "occlusion(p, n)" : "1.0");
+    set("STEP_OCCLUSION", stepsCount() ? "max(0.0, 1.0 - tapStrength * float(readings))" : "1.0");
+    set("DIRECT", scene_.lights.empty() ? "vec3(0.0)" : "direct(p, n, d, s)");
+    set("SHADE_LIGHT", shadows()
+                           ? "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
+                             "min(shadowReach, far) : shadowReach);"
+                           : "");
+    set("SPAN", cones ? "texelFetch(starts, ivec2(gl_FragCoord.xy) / 4, 0).rb" : "vec2(0.0, 1e30)");
     if (cones) text += "uniform sampler2D starts;\n";
     const bool colours = options_.view == View::Picture || options_.view == View::Material;
-    define("ENCODE(c)", colours ? encoding() : "(c)");
+    set("ENCODE(c)", colours ? encoding() : "(c)");
     count("COUNT_MARCH", "counted[bounce == 0 ? 0 : 3] += float(readings);");
     count("COUNT_PRIMARY", "counted[0] += float(readings);");
     count("COUNT_SHADOW", "counted[1] += 1.0;");
     count("COUNT_OCCLUSION", "counted[2] += 1.0;");
     count("STORE_COUNTS", "counts = counted / all;");
     if (options_.countReadings) text += "layout(location = 1) out vec4 counts;\nvec4 counted = vec4(0.0);\n";
-    define("ATTRIBUTES", std::to_string(kAttributeCount));
+    set("ATTRIBUTES", std::to_string(kAttributeCount));
     for (int i = 0; i < kAttributeCount; ++i)
       text += std::string("const int ") + kAttributeNames[i] + " = " + std::to_string(i) + ";\n";
     return text;
   }
 
   std::string marching() const {
-    return std::string(parts::kCamera) + parts::kField + parts::kRest +
-           (planes_.empty() ? parts::kNoPlanes : parts::kPlanes) + parts::kMarch;
+    return std::string(parts::kCamera) + (readsDistance() ? parts::kField : "") +
+           (readsDistance() ? parts::kRest : "") + (planes_.empty() ? parts::kNoPlanes : parts::kPlanes) +
+           (marches() ? parts::kMarch : "") + (fromHits_ ? parts::kTakenHits : "");
   }
 
   // Adds the surface's attributes.
   std::string surface(GlslWriter& writer) {
-    const Filtered f = filtered(whole_.surface, writer);
+    std::vector<Expr> outputs;
+    for (const Expr& e : whole_.surface) outputs.push_back(hoisted(e));
+    const Filtered f = filtered(outputs, writer);
     writer.add("sdfSurface", f.outputs);
     filters_ = f.changed;
     return filters_ ? parts::kFootprint : "";
   }
 
-  // Adds what the gradient needs to the writer.
-  std::string gradient(GlslWriter& writer) const {
-    const Vec3E g = gradientOf(whole_.distance);
+  // Of the nearest of the planes.
+  void addPlaneGradient(GlslWriter& writer) const {
+    Expr nearest = planes_.front();
+    for (std::size_t i = 2; i < planes_.size(); i += 2) nearest = min(nearest, planes_[i]);
+    const Vec3E g = gradientOf(nearest);
     const Expr all[] = {g.x, g.y, g.z};
-    if (topologicalOrder(all).size() > kLong) return std::string(parts::kGradientByTaps) + parts::kNormal;
-    writer.add("sdfGradient", all);
-    return std::string(parts::kGradient) + parts::kNormal;
+    writer.add("sdfPlaneGradient", all);
+  }
+
+  std::vector<GroupShaders> groups() const {
+    if (planes_.empty()) return groupShaders(unhoisted_, inverse_, options_);
+    return rest_ ? groupShaders(rest_->unhoisted, rest_->inverse, options_) : std::vector<GroupShaders>();
   }
 
   const Box& restBounds() const { return rest_ ? rest_->shape.bounds : whole_.bounds; }
@@ -224,7 +245,8 @@ class Assembler {
     const Vec3E& b = scene_.background;
     const Expr background[] = {b.x, b.y, b.z};
     writer.add("sdfBackground", background);
-    std::string text = marching() + footprint + gradient(writer) + shadowPart() + occlusionPart();
+    std::string text = marching() + footprint + (marches() ? normals(writer, whole_.distance) : "") +
+                       shadowPart() + occlusionPart();
     if (!scene_.lights.empty()) text += std::string(parts::kLightSettings) + parts::kLights;
     return text + parts::kRadiance + parts::kColor;
   }
@@ -237,13 +259,13 @@ class Assembler {
       case View::Slice:
         return start + parts::kSliceView;
       case View::Normals:
-        return start + gradient(writer) + parts::kNormalsView;
+        return start + normals(writer, whole_.distance) + parts::kNormalsView;
       case View::Gradient:
-        return start + gradient(writer) + parts::kGradientView;
+        return start + normals(writer, whole_.distance) + parts::kGradientView;
       case View::Occlusion:
-        return start + gradient(writer) + occlusionPart() + parts::kOcclusionView;
+        return start + normals(writer, whole_.distance) + occlusionPart() + parts::kOcclusionView;
       case View::Material:
-        return start + surface(writer) + gradient(writer) + parts::kMaterialView;
+        return start + surface(writer) + normals(writer, whole_.distance) + parts::kMaterialView;
       default:
         break;
     }
@@ -256,10 +278,12 @@ class Assembler {
   const Scene& scene_;
   const ShaderOptions& options_;
   Shape whole_;
+  Expr unhoisted_;
   double inverse_;
   std::optional<Read> rest_;  // if there are planes, and more than planes
   std::vector<Expr> planes_;
-  bool filters_ = false;  // known once the surface is written
+  bool fromHits_ = false;  // what is written takes the groups' hits
+  bool filters_ = false;   // it does, which is known once the surface is written
 };
 
 // After the line with the version.

@@ -1,6 +1,7 @@
 // From a scene to the source of its shaders: what the scene does not use is not in them.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "sdf/eval/glsl.h"
 #include "sdf/scene/scene.h"
@@ -30,12 +31,25 @@ struct ShaderOptions {
   bool es = false;             ///< GLSL ES 3.00 instead of 3.30 core
 };
 
-/// Fragment shaders, which share the uniforms of `values`; see parts.cpp for the others.
+/// The passes that draw groups of a wide union, each by itself.
+struct GroupShaders {
+  std::string cones;
+  std::string hits;                ///< of the primary rays: normals and how far they are, see parts::kHits
+  std::vector<GlslWriter> values;  ///< one for each group that these draw
+};
+
+/// Fragment shaders. The first two share the uniforms of `values`; see parts.cpp for the others.
 struct SceneShaders {
   std::string picture;
   std::string cones;  ///< empty where the method starts every ray at the eye
   GlslWriter values;
-  bool tiled = false;  ///< where the cone pass saw nothing, there is only background
+  bool counted = false;  ///< countReadings
+  bool tiled = false;    ///< where the cone pass saw nothing, there is only background
+  /// For one sample a pixel of a wide union's picture: the groups, and what draws the picture from their
+  /// hits.
+  std::vector<GroupShaders> groups;
+  std::string fromHits;
+  GlslWriter valuesFromHits;
 };
 
 /// Errors (Scene): what `checked` finds, and a shape whose distance has no known slope.

@@ -21,6 +21,8 @@ struct Ray {
   float end;                  // t beyond which it meets only planes
 };
 
+const int MISS = 0, HIT = 1, BUDGET = 2;  // what becomes of a ray
+
 Ray rayThrough(vec2 pixel) {
   vec2 uv = (pixel - 0.5 * size) / size.y;
   vec3 across = uv.x * right + uv.y * up, way = across + forward;
@@ -90,8 +92,6 @@ float leastOfPlanes(vec3 p, vec3 l, float reach) { return 1.0; }
 )";
 
 const char* const kMarch = R"(
-const int MISS = 0, HIT = 1, BUDGET = 2;
-
 float march(Ray ray, float t, float tMax, out int status, out int readings) {
   float r = 0.0, z = 0.0, slope = -1.0, plane = planesFrom(ray);
   bool ends = plane < tMax;  // in a plane
@@ -275,6 +275,24 @@ vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
 }
 )";
 
+const char* const kTakenHits = R"(
+uniform sampler2D hits;
+
+// The first of what the groups' passes and the planes say of this pixel's ray.
+float takenHit(Ray ray, float tMax, out int status, out int readings) {
+  float w = texelFetch(hits, ivec2(gl_FragCoord.xy), 0).w, t = min(w < 0.0 ? -1.0 - w : w, tMax);
+  float plane = planesFrom(ray);
+  readings = 0;
+  status = plane < t ? HIT : w < 0.0 ? BUDGET : t < tMax ? HIT : MISS;
+  return min(plane, t);
+}
+
+vec3 takenNormal(vec3 p, float t) {
+  vec4 hit = texelFetch(hits, ivec2(gl_FragCoord.xy), 0);
+  return t < (hit.w < 0.0 ? -1.0 - hit.w : hit.w) ? PLANE_NORMAL : hit.xyz;
+}
+)";
+
 const char* const kRadiance = R"(
 uniform vec3 ambient;
 uniform vec3 fogColor;
@@ -286,14 +304,15 @@ vec3 radiance(Ray ray, float t, out bool budget) {
   budget = false;
   for (int bounce = 0; bounce <= BOUNCES; ++bounce) {
     int status, readings;
-    t = march(ray, t, tMax, status, readings);
+    t = FIRST(takenHit(ray, tMax, status, readings), march(ray, t, tMax, status, readings));
     COUNT_MARCH
     if (status == MISS) {
       total += through * sdfBackground(ray.direction, vec3(0.0));
       break;
     }
     if (status == BUDGET) budget = true;
-    vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = normalAt(p, d);
+    vec3 p = ray.origin + t * ray.direction, d = ray.direction;
+    vec3 n = FIRST(takenNormal(p, t), normalAt(p, d));
     float s[ATTRIBUTES];
     FOOTPRINT
     sdfSurface(p, n, s);
@@ -472,11 +491,12 @@ const char* const kCones = R"(
 uniform sampler2D coarser;  // starts of tiles four times as large; not read at the first level
 uniform bool first;
 uniform float tile;         // its side in pixels
+uniform vec2 corner;        // of the first tile, in the target
 layout(location = 0) out vec4 start;
 
 void main() {
   sdfTakeValues();
-  Ray ray = rayThrough((floor(gl_FragCoord.xy) + 0.5) * tile);
+  Ray ray = rayThrough((floor(gl_FragCoord.xy - corner) + 0.5) * tile);
   float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
   vec3 span = first ? vec3(0.0, 0.0, maxDistance) : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).rgb;
   float t = span.x, end = span.z;
@@ -499,7 +519,26 @@ void main() {
       t += free / (1.0 + widening);
     }
   }
-  start = vec4(t, float(readings), end, 0.0);
+  start = vec4(t, SHARE * float(readings), end, 0.0);
+}
+)";
+
+const char* const kHits = R"(
+uniform sampler2D starts;
+uniform vec2 corner;                // of this group's starts, in their texture
+uniform float tile;                 // that has one start, pixels
+layout(location = 0) out vec4 hit;  // the normal and t, or -1 - t where steps ran out
+
+void main() {
+  sdfTakeValues();
+  Ray ray = rayThrough(gl_FragCoord.xy);
+  int status, readings;
+  vec2 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0).rb;
+  ray.end = span.y;
+  float t = march(ray, span.x, maxDistance - ray.before, status, readings);
+  hit = vec4(normalAt(ray.origin + t * ray.direction, ray.direction), status == BUDGET ? -1.0 - t : t);
+  gl_FragDepth = status == MISS ? 1.0 : t / maxDistance;
+  STORE_COUNTS
 }
 )";
 

@@ -39,6 +39,9 @@ extern const char* const kOcclusionTaps;
 extern const char* const kLightSettings;
 /// Phong's lights over the attributes s[]: direct(p, n, d, s).
 extern const char* const kLights;
+/// takenHit(...) and takenNormal(...): what the primary ray hits, from a texture. FIRST(taken, marched)
+/// chooses.
+extern const char* const kTakenHits;
 /// radiance(ray, t): the whole stack along a ray and its reflections.
 extern const char* const kRadiance;
 /// colorOf(ray, t, budget) of the picture, and of each debug view over hit(...).
@@ -57,5 +60,7 @@ extern const char* const kSrgb;
 extern const char* const kPicture;
 /// main() of the cone pass.
 extern const char* const kCones;
+/// main() of a group's pass: what the primary rays hit of it.
+extern const char* const kHits;
 
 }  // namespace sdf::viewer::parts

@@ -1,0 +1,67 @@
+#include "viewer/render/frame.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace sdf::viewer {
+namespace {
+
+// How far rays may start before the eye: up to a ball around the scene.
+double aheadOf(const glm::dvec3& forward, const Eye& eye, const std::optional<Box>& bounds) {
+  if (!bounds) return 0.0;
+  const glm::dvec3 toCentre = bounds->centre() - eye.from;
+  const double radius = 0.5 * glm::length(bounds->size()), focal = glm::length(forward);
+  const double along = glm::dot(toCentre, forward) / focal - radius;
+  // Near the scene there is nothing to gain.
+  return along > 4.0 * radius ? along / focal : 0.0;
+}
+
+}  // namespace
+
+Frame frameOf(const Scene& scene, Parameters parameters) {
+  Frame frame;
+  frame.look = lookOf(scene, parameters);
+  frame.parameters = std::move(parameters);
+  return frame;
+}
+
+std::vector<glm::vec4> uniformsOf(const GlslWriter& writer, const Parameters& parameters) {
+  const std::vector<float> numbers = writer.uniformValues(parameters);
+  std::vector<glm::vec4> vectors;
+  for (std::size_t i = 0; i < numbers.size(); i += 4)
+    vectors.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]);
+  return vectors;
+}
+
+Shot::Shot(const Frame& frame, int width, int height, const std::optional<Box>& bounds, double maxDistance)
+    : frame_(frame), width_(width), height_(height), maxDistance_(maxDistance) {
+  const Eye& eye = frame.look.eye;
+  const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up));
+  right_ = eye.mirrored ? -right : right;
+  up_ = glm::cross(right, forward);
+  forward_ = forward / (2.0 * std::tan(0.5 * glm::radians(eye.fov)));
+  ahead_ = aheadOf(forward_, eye, bounds);
+}
+
+void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
+  const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
+  const Eye& eye = frame_.look.eye;
+  program.set("size", glm::vec2(width_, height_));
+  program.set("from", glm::vec3(eye.from + ahead_ * forward_));
+  program.set("right", glm::vec3(right_));
+  program.set("up", glm::vec3(up_));
+  program.set("forward", glm::vec3(forward_));
+  real("ahead", ahead_);
+  real("maxDistance", maxDistance_);
+  const double pixelRadius = std::tan(0.5 * glm::radians(eye.fov)) / height_;
+  real("pixelRadius", pixelRadius);
+  real("footprint", frame_.filter ? 2.0 * pixelRadius / frame_.samples : 0.0);
+  real("epsilon", frame_.epsilon);
+  real("threshold", frame_.threshold);
+  program.set("maxSteps", frame_.maxSteps);
+  if (!values.empty()) program.set("sdfValues", values);
+}
+
+}  // namespace sdf::viewer

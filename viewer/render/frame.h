@@ -1,0 +1,50 @@
+// One frame to be drawn, and what of it every shader is told.
+#pragma once
+#include <optional>
+
+#include "sdf/eval/glsl.h"
+#include "viewer/gpu/program.h"
+#include "viewer/render/look.h"
+
+namespace sdf::viewer {
+
+/// What may change from one frame to the next without compiling, but for the first that takes more than one
+/// sample.
+struct Frame {
+  Parameters parameters;
+  Look look;
+  int samples = 1;          ///< a side: a pixel takes its square
+  bool filter = true;       ///< patterns are averaged over what a sample covers; see shaders/filter.h
+  int maxSteps = 512;       ///< readings that a ray may take
+  double epsilon = 1e-5;    ///< least distance that counts as a hit, scene units
+  double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit
+};
+
+/// The frame of the scene's own look.
+Frame frameOf(const Scene& scene, Parameters parameters = {});
+
+/// Values of the writer's uniform sdfValues; empty if there is none.
+std::vector<glm::vec4> uniformsOf(const GlslWriter& writer, const Parameters& parameters);
+
+/// A frame's rays through the pixels of a picture of this size. The frame must outlive it.
+class Shot {
+ public:
+  /// Rays begin up to a ball around the bounds, if there are any, and end at maxDistance.
+  Shot(const Frame& frame, int width, int height, const std::optional<Box>& bounds, double maxDistance);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double maxDistance() const { return maxDistance_; }
+
+  /// Sets parts::kCamera's uniforms, and sdfValues.
+  void set(const Program& program, const std::vector<glm::vec4>& values) const;
+
+ private:
+  const Frame& frame_;
+  int width_, height_;
+  double maxDistance_;
+  glm::dvec3 right_, up_, forward_;  // forward as long as the picture plane is far away, in picture heights
+  double ahead_;                     // of the eye, where rays begin
+};
+
+}  // namespace sdf::viewer

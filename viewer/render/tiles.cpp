@@ -1,0 +1,25 @@
+#include "viewer/render/tiles.h"
+
+namespace sdf::viewer {
+
+Status ensure(std::optional<Target>& target, int width, int height, const std::vector<PixelFormat>& layers,
+              bool depth) {
+  if (target && target->width() == width && target->height() == height) return okStatus();
+  auto made = Target::create(width, height, layers, depth);
+  if (!made) return made.error();
+  target = std::move(*made);
+  return okStatus();
+}
+
+void drawTiles(const Program& program, const Shot& shot, const Target& starts, int firstCell, int lastCell) {
+  starts.bindTexture(1);
+  program.set("tiles", 1);
+  program.set("tileSide", static_cast<float>(kTile));
+  program.set("tileArea", glm::vec2(shot.width(), shot.height()));
+  program.set("tileLimit", static_cast<float>(shot.maxDistance()));
+  program.set("firstCell", firstCell);
+  program.set("lastCell", lastCell);
+  program.drawTiles(tiles(shot.width(), kTile) * tiles(shot.height(), kTile));
+}
+
+}  // namespace sdf::viewer

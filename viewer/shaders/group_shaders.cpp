@@ -1,0 +1,48 @@
+#include "viewer/shaders/group_shaders.h"
+
+#include "sdf/expr/hoist.h"
+#include "viewer/shaders/groups.h"
+#include "viewer/shaders/parts.h"
+#include "viewer/shaders/source.h"
+
+namespace sdf::viewer {
+namespace {
+
+// A reading of a group counts as the share of a whole one that its operations are.
+std::string defines(double inverse, double share) {
+  return define("REST", "sdfDistance(p, vec3(0.0)) * " + number(inverse)) + define("SHARE", number(share));
+}
+
+std::string counts(bool counted) {
+  if (!counted) return define("STORE_COUNTS", "");
+  return "layout(location = 1) out vec4 counts;\n" +
+         define("STORE_COUNTS", "counts = vec4(SHARE * float(readings), 0.0, 0.0, 0.0);");
+}
+
+}  // namespace
+
+std::vector<GroupShaders> groupShaders(const Expr& distance, double inverse, const ShaderOptions& options) {
+  const std::vector<Expr> groups = groupsOf(distance);
+  if (groups.size() == 1) return {};
+  const auto operations = [](const Expr& e) { return static_cast<double>(topologicalOrder({&e, 1}).size()); };
+  const double whole = operations(distance);
+  std::vector<GroupShaders> result;
+  for (const Expr& group : groups) {
+    const Expr read = hoisted(group);
+    GlslWriter values;
+    const auto source = [&] {
+      return header(options.es) + values.source() + defines(inverse, operations(group) / whole) +
+             parts::kCamera + parts::kRest;
+    };
+    values.add("sdfDistance", {&read, 1});
+    const std::string cones = source() + parts::kCones;
+    const std::string normal = normals(values, read);
+    const std::string hits =
+        source() + parts::kNoPlanes + parts::kMarch + normal + counts(options.countReadings) + parts::kHits;
+    if (result.empty() || result.back().hits != hits) result.push_back({cones, hits, {}});
+    result.back().values.push_back(std::move(values));
+  }
+  return result;
+}
+
+}  // namespace sdf::viewer
