@@ -13,13 +13,22 @@ class NearestWins {
   NearestWins& operator=(const NearestWins&) = delete;
 };
 
-/// The sum of all, in one layer; the others stay as they are.
+/// The sum of all.
 class SumOfAll {
  public:
-  explicit SumOfAll(int layer);
+  SumOfAll();
   ~SumOfAll();
   SumOfAll(const SumOfAll&) = delete;
   SumOfAll& operator=(const SumOfAll&) = delete;
+};
+
+/// Into one layer only; the others stay as they are.
+class OneLayer {
+ public:
+  explicit OneLayer(int layer);
+  ~OneLayer();
+  OneLayer(const OneLayer&) = delete;
+  OneLayer& operator=(const OneLayer&) = delete;
 };
 
 }  // namespace sdf::viewer

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "viewer/gpu/context.h"
@@ -16,10 +17,11 @@ void main() {
 }
 )";
 
+// A point is a square: one corner to transform and one shape to set up.
 constexpr const char* kOverTiles = R"(#version 330 core
 uniform sampler2D tiles;  // values of all tiles, in one cell or in rows of them
+uniform vec2 tileGrid;    // columns and rows of a cell
 uniform float tileSide;   // pixels
-uniform vec2 tileArea;    // of the target, pixels
 uniform float tileLimit;
 uniform int firstCell, lastCell;
 
@@ -29,17 +31,14 @@ vec2 split(float i, float columns) {
   return vec2(i - row * columns, row);
 }
 
-// Two triangles a tile.
 void main() {
-  vec2 grid = ceil(tileArea / tileSide), vertex = split(float(gl_VertexID), 6.0);
-  vec2 tile = split(vertex.y, grid.x);
-  vec2 way = vec2(vertex.x == 1.0 || vertex.x > 3.0, vertex.x == 2.0 || vertex.x == 3.0 || vertex.x == 5.0);
-  vec2 corner = min((tile + way) * tileSide, tileArea);
-  float across = floor(float(textureSize(tiles, 0).x) / grid.x);
+  vec2 tile = split(float(gl_VertexID), tileGrid.x);
+  float across = floor(float(textureSize(tiles, 0).x) / tileGrid.x);
   bool drawn = false;
   for (int cell = firstCell; cell <= lastCell; ++cell)
-    drawn = drawn || texelFetch(tiles, ivec2(split(float(cell), across) * grid + tile), 0).r < tileLimit;
-  gl_Position = drawn ? vec4(2.0 * corner / tileArea - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    drawn = drawn || texelFetch(tiles, ivec2(split(float(cell), across) * tileGrid + tile), 0).r < tileLimit;
+  gl_PointSize = tileSide;
+  gl_Position = drawn ? vec4((2.0 * tile + 1.0) / tileGrid - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }
 )";
 
@@ -157,10 +156,18 @@ void Program::draw() const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Program::drawTiles(int count) const {
-  use();
+void Program::drawTiles(int columns, int rows, int side) const {
+  set("tileGrid", glm::vec2(columns, rows));
+  set("tileSide", static_cast<float>(side));
   glBindVertexArray(vertexArray_.id());
-  glDrawArrays(GL_TRIANGLES, 0, 6 * count);
+  // A point whose middle is outside the viewport is left out altogether.
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  glViewport(viewport[0], viewport[1], columns * side, rows * side);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glDrawArrays(GL_POINTS, 0, columns * rows);
+  glDisable(GL_PROGRAM_POINT_SIZE);
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
 }
 
 }  // namespace sdf::viewer

@@ -24,9 +24,9 @@ class Program {
   static Result<Program> overScreen(const std::string& fragment);
 
   /// One whose fragment shader runs once for each pixel of some square tiles, in rows from the bottom: those
-  /// at which the texture `tiles` has a value below `tileLimit`. Give it `tileSide` in pixels and `tileArea`,
-  /// the target's size. A wider texture may hold several cells of such tiles; then one value of those from
-  /// `firstCell` to `lastCell` (0 unless set) suffices. Errors: as create.
+  /// at which the texture `tiles` has a value below `tileLimit`. A larger texture may hold several cells of
+  /// such tiles, in rows from the bottom; then one value of those from `firstCell` to `lastCell` (0 unless
+  /// set) suffices. Errors: as create.
   static Result<Program> overTiles(const std::string& fragment);
 
   /// Makes it the one that draws.
@@ -48,8 +48,9 @@ class Program {
   /// vertex shader of overScreen.
   void draw() const;
 
-  /// Draws so many tiles, of a program that overTiles made.
-  void drawTiles(int count) const;
+  /// Draws the tiles of this side in pixels, of a program that overTiles made; they cover the viewport or
+  /// more. The side may be as large as a point, GL_POINT_SIZE_RANGE: 255 and more on today's drivers.
+  void drawTiles(int columns, int rows, int side) const;
 
  private:
   Program(Handle program, Handle vertexArray);

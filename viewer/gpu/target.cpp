@@ -129,8 +129,12 @@ void Target::bind(int x, int y, int width, int height) const {
 void Target::clear(int layer, const glm::vec4& value) const {
   bind();
   glClearBufferfv(GL_COLOR, layer, glm::value_ptr(value));
+}
+
+void Target::clearDepth() const {
+  bind();
   const float farthest = 1.0f;
-  if (depth_.id() != 0) glClearBufferfv(GL_DEPTH, 0, &farthest);
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
 void Target::show(int width, int height) const {

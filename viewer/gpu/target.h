@@ -31,8 +31,10 @@ class Target {
   /// Only so many of its pixels, from (x, y) on.
   void bind(int x, int y, int width, int height) const;
 
-  /// Makes it what is drawn into, filled: one layer with this value, the depth with 1.
+  /// Makes it what is drawn into, one layer filled with this value.
   void clear(int layer, const glm::vec4& value) const;
+  /// The same of the depth, with 1. For targets that have it.
+  void clearDepth() const;
 
   /// Copies the first layer to the window that is current, stretched over this many pixels, and makes the
   /// window what is drawn into.

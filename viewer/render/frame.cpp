@@ -61,6 +61,9 @@ void Shot::set(const Program& program, const std::vector<glm::vec4>& values) con
   real("epsilon", frame_.epsilon);
   real("threshold", frame_.threshold);
   program.set("maxSteps", frame_.maxSteps);
+  const int side = frame_.samples;
+  program.set("within", glm::vec2(sample_ % side + 0.5, sample_ / side + 0.5) / static_cast<float>(side));
+  real("weight", weight());
   if (!values.empty()) program.set("sdfValues", values);
 }
 

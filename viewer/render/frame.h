@@ -36,12 +36,18 @@ class Shot {
   int height() const { return height_; }
   double maxDistance() const { return maxDistance_; }
 
+  int samples() const { return frame_.samples * frame_.samples; }
+  /// A sample's share of its pixel.
+  double weight() const { return 1.0 / samples(); }
+  /// Whose rays are drawn, from 0 on.
+  void chooseSample(int i) { sample_ = i; }
+
   /// Sets parts::kCamera's uniforms, and sdfValues.
   void set(const Program& program, const std::vector<glm::vec4>& values) const;
 
  private:
   const Frame& frame_;
-  int width_, height_;
+  int width_, height_, sample_ = 0;
   double maxDistance_;
   glm::dvec3 right_, up_, forward_;  // forward as long as the picture plane is far away, in picture heights
   double ahead_;                     // of the eye, where rays begin

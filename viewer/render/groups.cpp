@@ -55,11 +55,11 @@ void Groups::drawHits(const Shot& shot) const {
     hits.set("starts", 0);
     hits.set("tile", static_cast<float>(kTile));
     hits.set("corner", glm::vec2(cornerOf(i, shot)));
-    drawTiles(hits, shot, *starts_, i, i);
+    drawTiles(hits, shot, {*starts_, i, i});
   }
 }
 
-Status Groups::draw(const Frame& frame, const Shot& shot) {
+Status Groups::begin(const Frame& frame, const Shot& shot) {
   const int rows = (count() + columns_ - 1) / columns_;
   const std::vector layers(counted_ ? 2 : 1, PixelFormat::Rgba32f);
   if (auto s = ensure(starts_, columns_ * tiles(shot.width(), kTile), rows * tiles(shot.height(), kTile),
@@ -70,24 +70,35 @@ Status Groups::draw(const Frame& frame, const Shot& shot) {
   values_.clear();
   for (const Group& group : groups_) values_.push_back(uniformsOf(group.values, frame.parameters));
   drawStarts(shot);
+  readings_ = 0.0;
+  return check("draw the groups of a union");
+}
+
+Status Groups::drawSample(const Shot& shot) {
   hits_->clear(0, glm::vec4(0.0f, 0.0f, 0.0f, 1e30f));
+  hits_->clearDepth();
   {
     const NearestWins nearest;
     drawHits(shot);
   }
   if (counted_) {
     hits_->clear(1, glm::vec4(0.0f));
-    const SumOfAll sum(1);
-    drawHits(shot);
+    {
+      const OneLayer counts(1);
+      const SumOfAll sum;
+      drawHits(shot);
+    }
+    const auto readings = hits_->sum(1);
+    if (!readings) return readings.error();
+    readings_ += readings->x;
   }
   return check("draw the groups of a union");
 }
 
-Result<double> Groups::readings() const {
-  const auto cones = starts_->sum(0), rays = hits_->sum(1);
-  for (const auto* sum : {&cones, &rays})
-    if (!*sum) return sum->error();
-  return cones->y + rays->x;
+Result<double> Groups::coneReadings() const {
+  const auto cones = starts_->sum(0);
+  if (!cones) return cones.error();
+  return cones->y;
 }
 
 }  // namespace sdf::viewer

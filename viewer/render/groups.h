@@ -15,8 +15,10 @@ class Groups {
   /// Errors: Graphics with the driver's log.
   static Result<Groups> make(const std::vector<GroupShaders>& shaders, bool counted);
 
-  /// Draws hits() and starts() for one sample a pixel. Errors: Limits, Graphics.
-  Status draw(const Frame& frame, const Shot& shot);
+  /// Makes the targets, and draws starts(). Errors: Limits, Graphics.
+  Status begin(const Frame& frame, const Shot& shot);
+  /// Draws hits() of the shot's sample. Errors: Graphics.
+  Status drawSample(const Shot& shot);
 
   /// Of each pixel, what parts::kHits says; t is 1e30 where nothing is met.
   const Target& hits() const { return *hits_; }
@@ -24,8 +26,10 @@ class Groups {
   const Target& starts() const { return *starts_; }
   int count() const { return static_cast<int>(groups_.size()); }  ///< of cells
 
-  /// Readings by all primary rays, their cones included; if they are counted. Errors: as Target::pixels.
-  Result<double> readings() const;
+  /// If they are counted: readings by the primary rays of all pixels since begin, means over the samples, and
+  /// by the cones. Errors: as Target::pixels.
+  double readings() const { return readings_; }
+  Result<double> coneReadings() const;
 
  private:
   struct Passes {
@@ -45,7 +49,8 @@ class Groups {
   std::vector<Group> groups_;
   std::vector<std::vector<glm::vec4>> values_;  // of the groups' uniforms, in the frame that is being drawn
   bool counted_;
-  int columns_;  // of cells
+  double readings_ = 0.0;  // so far, but for the cones'
+  int columns_;            // of cells
   std::optional<Target> starts_, hits_;
 };
 

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "viewer/gpu/context.h"
+#include "viewer/gpu/drawing.h"
 #include "viewer/render/tiles.h"
 
 namespace sdf::viewer {
@@ -24,10 +25,12 @@ std::size_t pixelsOutOfSteps(const Picture& picture) {
 }
 
 Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
   auto shaders = assemble(scene, options);
   if (!shaders) return shaders.error();
   Renderer renderer(scene, std::move(*shaders));
-  if (auto s = renderer.compile(false); !s) return s.error();
+  if (auto s = renderer.compile(); !s) return s.error();
+  renderer.compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return renderer;
 }
 
@@ -40,36 +43,30 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
   if (bounds.finite() && !bounds.empty()) bounds_ = bounds;
 }
 
-Status Renderer::compile(bool manySamples) {
-  const auto start = std::chrono::steady_clock::now();
-  const bool grouped = !manySamples && !shaders_.groups.empty();
-  if (grouped) {
+Status Renderer::compile() {
+  if (!shaders_.groups.empty()) {
     auto groups = Groups::make(shaders_.groups, shaders_.counted);
     if (!groups) return groups.error();
     groups_ = std::move(*groups);
-  } else if (!cones_ && !shaders_.cones.empty()) {
+    return compilePicture(shaders_.fromHits);
+  }
+  if (!shaders_.cones.empty()) {
     auto cones = Program::overScreen(shaders_.cones);
     if (!cones) return cones.error();
     cones_ = std::move(*cones);
   }
-  const std::string& picture = shaders_.picture;
-  auto made = passes(shaders_, manySamples ? forManySamples(picture) : grouped ? shaders_.fromHits : picture);
-  if (!made) return made.error();
-  (manySamples ? many_ : single_) = std::move(*made);
-  compileSeconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return okStatus();
+  return compilePicture(shaders_.picture);
 }
 
-Result<Renderer::Passes> Renderer::passes(const SceneShaders& shaders, const std::string& picture) {
-  auto scene = shaders.tiled ? Program::overTiles(picture) : Program::overScreen(picture);
+Status Renderer::compilePicture(const std::string& picture) {
+  auto scene = shaders_.tiled ? Program::overTiles(picture) : Program::overScreen(picture);
   if (!scene) return scene.error();
-  Passes result{std::move(*scene), {}};
-  if (shaders.tiled) {
-    auto background = Program::overScreen(forBackground(picture));
-    if (!background) return background.error();
-    result.background = std::move(*background);
-  }
-  return result;
+  scene_ = std::move(*scene);
+  if (!shaders_.tiled) return okStatus();
+  auto background = Program::overScreen(forBackground(picture));
+  if (!background) return background.error();
+  background_ = std::move(*background);
+  return okStatus();
 }
 
 void Renderer::setLook(const Program& program, const Frame& frame) const {
@@ -94,7 +91,6 @@ void Renderer::setLook(const Program& program, const Frame& frame) const {
   program.set("shadowSteps", shadow_.steps);
   real("tapSpacing", tapSpacing_);
   real("tapStrength", look.occlusionStrength);
-  real("samples", frame.samples);
   // The slice lies across the axis that the eye looks along most.
   const glm::dvec3 way = glm::abs(look.eye.to - look.eye.from);
   const int axis = way.x >= way.y && way.x >= way.z ? 0 : way.y >= way.z ? 1 : 2;
@@ -123,61 +119,95 @@ Status Renderer::drawCones(const Shot& shot) {
   return okStatus();
 }
 
-Status Renderer::drawScene(const Passes& passes, const Frame& frame, const Shot& shot,
-                           const Target& target) const {
-  target.bind();
-  if (passes.background) {
-    shot.set(*passes.background, values_);
-    setLook(*passes.background, frame);
-    passes.background->draw();
-  }
-  shot.set(passes.scene, values_);
-  setLook(passes.scene, frame);
-  if (grouped_) {
+void Renderer::drawScene(const Frame& frame, const Shot& shot) const {
+  shot.set(*scene_, values_);
+  setLook(*scene_, frame);
+  if (groups_) {
     groups_->hits().bindTexture(0);
-    passes.scene.set("hits", 0);
+    scene_->set("hits", 0);
   } else if (cones_) {
     fine_->bindTexture(0);
-    passes.scene.set("starts", 0);
+    scene_->set("starts", 0);
   }
-  if (!passes.background)
-    passes.scene.draw();
-  else if (grouped_)
-    drawTiles(passes.scene, shot, groups_->starts(), 0, groups_->count() - 1);
+  if (!background_)
+    scene_->draw();
   else
-    drawTiles(passes.scene, shot, *coarse_, 0, 0);
-  return check("draw the scene");
+    drawTiles(*scene_, shot, groups_ ? Cells{groups_->starts(), 0, groups_->count() - 1} : Cells{*coarse_});
+}
+
+void Renderer::drawBackground(const Frame& frame, const Shot& shot) const {
+  if (!background_) return;
+  shot.set(*background_, values_);
+  setLook(*background_, frame);
+  background_->draw();
+}
+
+// One after the other: a loop in the shader costs a third more than it spares.
+Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& target) {
+  if (!resolve_) {
+    auto resolve = Program::overScreen(shaders_.resolve);
+    if (!resolve) return resolve.error();
+    resolve_ = std::move(*resolve);
+  }
+  const std::vector layers(shaders_.counted ? 2 : 1, PixelFormat::Rgba32f);
+  if (auto s = ensure(sums_, shot.width(), shot.height(), layers, true); !s) return s;
+  for (std::size_t i = 0; i < layers.size(); ++i) sums_->clear(static_cast<int>(i), glm::vec4(0.0f));
+  for (int i = 0; i < shot.samples(); ++i) {
+    shot.chooseSample(i);
+    if (groups_)
+      if (auto s = groups_->drawSample(shot); !s) return s;
+    sums_->clearDepth();
+    const SumOfAll sum;
+    const NearestWins keep;  // the tiles' pixels from the background, which is as far away
+    drawScene(frame, shot);
+    drawBackground(frame, shot);
+  }
+  target.bind();
+  sums_->bindTexture(0);
+  resolve_->set("sums", 0);
+  resolve_->set("weight", static_cast<float>(shot.weight()));
+  resolve_->draw();
+  return okStatus();
+}
+
+Status Renderer::drawSample(const Frame& frame, const Shot& shot, const Target& target) {
+  if (groups_)
+    if (auto s = groups_->drawSample(shot); !s) return s;
+  target.bind();
+  drawBackground(frame, shot);
+  drawScene(frame, shot);
+  return okStatus();
 }
 
 Status Renderer::draw(const Frame& frame, const Target& target) {
-  const bool many = frame.samples > 1;
-  if (many && !many_)
-    if (auto s = compile(many); !s) return s;
-  const Shot shot(frame, target.width(), target.height(), bounds_, maxDistance_);
-  grouped_ = groups_ && !many;
-  values_ = uniformsOf(grouped_ ? shaders_.valuesFromHits : shaders_.values, frame.parameters);
-  if (grouped_ || cones_)
-    if (auto s = grouped_ ? groups_->draw(frame, shot) : drawCones(shot); !s) return s;
-  return drawScene(many ? *many_ : *single_, frame, shot, target);
+  values_ = uniformsOf(groups_ ? shaders_.valuesFromHits : shaders_.values, frame.parameters);
+  Shot shot(frame, target.width(), target.height(), bounds_, maxDistance_);
+  samples_ = shot.samples();
+  if (groups_ || cones_)
+    if (auto s = groups_ ? groups_->begin(frame, shot) : drawCones(shot); !s) return s;
+  if (auto s = samples_ > 1 ? drawSamples(frame, shot, target) : drawSample(frame, shot, target); !s)
+    return s;
+  return check("draw the scene");
+}
+
+Result<double> Renderer::coneReadings() const {
+  if (groups_) return groups_->coneReadings();
+  if (!cones_) return 0.0;
+  const auto coarse = coarse_->sum(0), fine = fine_->sum(0);
+  for (const auto* sum : {&coarse, &fine})
+    if (!*sum) return sum->error();
+  return coarse->y + fine->y;
 }
 
 Result<Readings> Renderer::readings(const Target& target) const {
-  auto counts = target.sum(1);
+  const auto counts = (samples_ > 1 ? *sums_ : target).sum(1);
+  const auto cones = coneReadings();
   if (!counts) return counts.error();
-  glm::dvec4 sum = *counts;
-  if (grouped_) {
-    const auto primary = groups_->readings();
-    if (!primary) return primary.error();
-    sum.x += *primary;
-  } else if (cones_) {
-    for (const auto* level : {&*coarse_, &*fine_}) {
-      const auto starts = level->sum(0);
-      if (!starts) return starts.error();
-      sum.x += starts->y;
-    }
-  }
-  sum /= static_cast<double>(target.width()) * target.height();
-  return Readings{sum.x, sum.y, sum.z, sum.w};
+  if (!cones) return cones.error();
+  const glm::dvec4 mean = *counts / (static_cast<double>(target.width()) * target.height());
+  const double primary = (groups_ ? groups_->readings() : 0.0) + *cones / samples_;
+  return Readings{mean.x + primary / (static_cast<double>(target.width()) * target.height()), mean.y, mean.z,
+                  mean.w};
 }
 
 }  // namespace sdf::viewer

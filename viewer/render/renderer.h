@@ -36,27 +36,27 @@ class Renderer {
   double compileSeconds() const { return compileSeconds_; }
 
  private:
-  /// What draws the picture: all of it, or the tiles that show more than the background.
-  struct Passes {
-    Program scene;
-    std::optional<Program> background;
-  };
-
   Renderer(const Scene& scene, SceneShaders shaders);
-  static Result<Passes> passes(const SceneShaders& shaders, const std::string& picture);
-  Status compile(bool manySamples);
+  Status compile();
+  Status compilePicture(const std::string& picture);
   void setLook(const Program& program, const Frame& frame) const;
   Status drawCones(const Shot& shot);
-  Status drawScene(const Passes& passes, const Frame& frame, const Shot& shot, const Target& target) const;
+  void drawScene(const Frame& frame, const Shot& shot) const;
+  void drawBackground(const Frame& frame, const Shot& shot) const;
+  Status drawSample(const Frame& frame, const Shot& shot, const Target& target);
+  Status drawSamples(const Frame& frame, Shot& shot, const Target& target);
+  Result<double> coneReadings() const;
 
   SceneShaders shaders_;
-  std::optional<Passes> single_, many_;  // by samples; compiled when first asked for
-  std::optional<Program> cones_;         // of the whole, likewise
-  std::optional<Groups> groups_;         // instead of them, where one sample is taken
-  std::optional<Target> coarse_, fine_;
-  bool grouped_ = false;           // the frame drawn last
-  std::vector<glm::vec4> values_;  // of the frame that is being drawn, for the shaders' sdfValues
-  std::optional<Box> bounds_;      // of the whole scene, if it is finite
+  std::optional<Program> scene_, background_;  // all of the picture; or those of its tiles that show more
+  std::optional<Program> cones_;
+  std::optional<Groups> groups_;  // instead of them
+  std::optional<Program> resolve_;
+  std::optional<Target> coarse_, fine_;  // starts of the cones' levels
+  std::optional<Target> sums_;           // of several samples
+  int samples_ = 1;                      // of the frame drawn last
+  std::vector<glm::vec4> values_;        // of the frame that is being drawn, for the shaders' sdfValues
+  std::optional<Box> bounds_;            // of the whole scene, if it is finite
   Shadow shadow_;
   double tapSpacing_, maxDistance_;
   double compileSeconds_ = 0.0;

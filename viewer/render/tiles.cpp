@@ -11,15 +11,13 @@ Status ensure(std::optional<Target>& target, int width, int height, const std::v
   return okStatus();
 }
 
-void drawTiles(const Program& program, const Shot& shot, const Target& starts, int firstCell, int lastCell) {
-  starts.bindTexture(1);
+void drawTiles(const Program& program, const Shot& shot, const Cells& cells) {
+  cells.starts.bindTexture(1);
   program.set("tiles", 1);
-  program.set("tileSide", static_cast<float>(kTile));
-  program.set("tileArea", glm::vec2(shot.width(), shot.height()));
   program.set("tileLimit", static_cast<float>(shot.maxDistance()));
-  program.set("firstCell", firstCell);
-  program.set("lastCell", lastCell);
-  program.drawTiles(tiles(shot.width(), kTile) * tiles(shot.height(), kTile));
+  program.set("firstCell", cells.first);
+  program.set("lastCell", cells.last);
+  program.drawTiles(tiles(shot.width(), kTile), tiles(shot.height(), kTile), kTile);
 }
 
 }  // namespace sdf::viewer

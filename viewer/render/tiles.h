@@ -16,8 +16,14 @@ inline int tiles(int pixels, int side) { return (pixels + side - 1) / side; }
 Status ensure(std::optional<Target>& target, int width, int height, const std::vector<PixelFormat>& layers,
               bool depth = false);
 
+/// Cells of a texture of starts; see Program::overTiles.
+struct Cells {
+  const Target& starts;
+  int first = 0, last = 0;
+};
+
 /// Draws the tiles of side kTile whose starts, in one of these cells, say that there is something to see. The
 /// program is one that Program::overTiles made; it finds the starts in texture unit 1.
-void drawTiles(const Program& program, const Shot& shot, const Target& starts, int firstCell, int lastCell);
+void drawTiles(const Program& program, const Shot& shot, const Cells& cells);
 
 }  // namespace sdf::viewer

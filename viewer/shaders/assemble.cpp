@@ -100,6 +100,7 @@ class Assembler {
     result.tiled = !result.cones.empty() && planes_.empty() && isPicture &&
                    (!result.groups.empty() || topologicalOrder({&whole_.distance, 1}).size() < kLongProgram);
     result.picture = shader(result.values, !result.cones.empty());
+    result.resolve = header(options_.es) + encoding() + parts::kResolve;
     fromHits_ = true;
     if (result.groups.empty()) return result;
     result.valuesFromHits = functions();
@@ -126,7 +127,7 @@ class Assembler {
   std::string shader(GlslWriter& writer, bool cones) {
     const std::string body = options_.view == View::Picture ? picture(writer) : debugView(writer);
     return header(options_.es) + (filters_ ? kFootprintVariables : "") + writer.source() + defines(cones) +
-           body + (scene_.gamma ? "" : parts::kSrgb) + parts::kPicture;
+           body + encoding() + parts::kPicture;
   }
 
   bool stepsCount() const { return scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps; }
@@ -142,8 +143,11 @@ class Assembler {
   bool readsDistance() const { return marches() || shadows() || taps(); }
 
   std::string encoding() const {
-    if (!scene_.gamma) return "encode(c)";
-    return *scene_.gamma == 1.0 ? "(c)" : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene_.gamma) + "))";
+    if (options_.view != View::Picture && options_.view != View::Material) return define("ENCODE(c)", "(c)");
+    if (!scene_.gamma) return parts::kSrgb + define("ENCODE(c)", "encode(c)");
+    return define("ENCODE(c)", *scene_.gamma == 1.0
+                                   ? "(c)"
+                                   : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene_.gamma) + "))");
   }
 
   std::string defines(bool cones) const {
@@ -180,13 +184,11 @@ class Assembler {
                            : "");
     set("SPAN", cones ? "texelFetch(starts, ivec2(gl_FragCoord.xy) / 4, 0).rb" : "vec2(0.0, 1e30)");
     if (cones) text += "uniform sampler2D starts;\n";
-    const bool colours = options_.view == View::Picture || options_.view == View::Material;
-    set("ENCODE(c)", colours ? encoding() : "(c)");
     count("COUNT_MARCH", "counted[bounce == 0 ? 0 : 3] += float(readings);");
     count("COUNT_PRIMARY", "counted[0] += float(readings);");
     count("COUNT_SHADOW", "counted[1] += 1.0;");
     count("COUNT_OCCLUSION", "counted[2] += 1.0;");
-    count("STORE_COUNTS", "counts = counted / all;");
+    count("STORE_COUNTS", "counts = weight * counted;");
     if (options_.countReadings) text += "layout(location = 1) out vec4 counts;\nvec4 counted = vec4(0.0);\n";
     set("ATTRIBUTES", std::to_string(kAttributeCount));
     for (int i = 0; i < kAttributeCount; ++i)
@@ -308,8 +310,6 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   }
   return Assembler(scene, options, std::move(*whole), std::move(rest), std::move(parts.planes)).run();
 }
-
-std::string forManySamples(const std::string& picture) { return defining("MANY_SAMPLES", picture); }
 
 std::string forBackground(const std::string& picture) { return defining("BACKGROUND_ONLY", picture); }
 

@@ -43,6 +43,7 @@ struct SceneShaders {
   std::string picture;
   std::string cones;  ///< empty where the method starts every ray at the eye
   GlslWriter values;
+  std::string resolve;   ///< from the sums of several samples to the picture
   bool counted = false;  ///< countReadings
   bool tiled = false;    ///< where the cone pass saw nothing, there is only background
   /// For one sample a pixel of a wide union's picture: the groups, and what draws the picture from their
@@ -55,8 +56,6 @@ struct SceneShaders {
 /// Errors (Scene): what `checked` finds, and a shape whose distance has no known slope.
 Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options);
 
-/// The picture's shader with the uniform `samples`: without it a pixel takes one, in its middle.
-std::string forManySamples(const std::string& picture);
 /// One that draws the background alone.
 std::string forBackground(const std::string& picture);
 

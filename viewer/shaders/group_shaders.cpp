@@ -16,7 +16,7 @@ std::string defines(double inverse, double share) {
 std::string counts(bool counted) {
   if (!counted) return define("STORE_COUNTS", "");
   return "layout(location = 1) out vec4 counts;\n" +
-         define("STORE_COUNTS", "counts = vec4(SHARE * float(readings), 0.0, 0.0, 0.0);");
+         define("STORE_COUNTS", "counts = vec4(weight * SHARE * float(readings), 0.0, 0.0, 0.0);");
 }
 
 }  // namespace

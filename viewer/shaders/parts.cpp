@@ -14,6 +14,8 @@ uniform float pixelRadius;    // of a pixel's cone at distance 1
 uniform float epsilon;        // least distance that counts as a hit
 uniform float threshold;      // share of the pixel's cone that does
 uniform int maxSteps;
+uniform vec2 within;          // where in its pixel a sample is
+uniform float weight;         // its share of the pixel: less than 1 if linear colours are to be summed up
 
 struct Ray {
   vec3 origin, direction;
@@ -347,35 +349,28 @@ vec3 encode(vec3 c) {
 )";
 
 const char* const kPicture = R"(
-#ifdef MANY_SAMPLES
-uniform float samples;  // a side: a pixel takes its square
-#endif
 layout(location = 0) out vec4 color;  // alpha is 0 where a primary ray ran out of steps
 
 void main() {
   sdfTakeValues();
   vec2 span = SPAN;
-  vec3 sum = vec3(0.0);
-  bool spent = false;
-#ifdef MANY_SAMPLES
-  float all = samples * samples;
-  for (float i = 0.5; i < all; i += 1.0) {
-    float row = floor(i / samples);
-    vec2 within = vec2(i - row * samples, row + 0.5) / samples;
-    Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
-    ray.end = span.y;
-    bool budget;
-    sum += colorOf(ray, span.x, budget);
-    spent = spent || budget;
-  }
-#else
-  const float all = 1.0;  // without a loop, since that costs a third
-  Ray ray = rayThrough(gl_FragCoord.xy);
+  Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
   ray.end = span.y;
-  sum = colorOf(ray, span.x, spent);
-#endif
-  color = vec4(ENCODE(sum / all), spent ? 0.0 : 1.0);
+  bool spent = false;
+  vec3 c = colorOf(ray, span.x, spent);
+  color = vec4(weight < 1.0 ? weight * c : ENCODE(c), spent ? 0.0 : weight);
   STORE_COUNTS
+}
+)";
+
+const char* const kResolve = R"(
+uniform sampler2D sums;
+uniform float weight;
+layout(location = 0) out vec4 color;
+
+void main() {
+  vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
+  color = vec4(ENCODE(sum.rgb), sum.a > 1.0 - 0.5 * weight ? 1.0 : 0.0);
 }
 )";
 
@@ -531,7 +526,7 @@ layout(location = 0) out vec4 hit;  // the normal and t, or -1 - t where steps r
 
 void main() {
   sdfTakeValues();
-  Ray ray = rayThrough(gl_FragCoord.xy);
+  Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
   int status, readings;
   vec2 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0).rb;
   ray.end = span.y;

@@ -56,8 +56,10 @@ extern const char* const kOcclusionView;
 extern const char* const kShadowView;
 /// encode(c): sRGB of linear colours.
 extern const char* const kSrgb;
-/// main() of the picture: samples, with MANY_SAMPLES more than one, and the output's encoding.
+/// main() of the picture: one sample of each pixel, and the output's encoding.
 extern const char* const kPicture;
+/// main() that encodes the samples' sums.
+extern const char* const kResolve;
 /// main() of the cone pass.
 extern const char* const kCones;
 /// main() of a group's pass: what the primary rays hit of it.
