@@ -87,7 +87,9 @@ class Headless {
   }
 
   Status shader() const {
-    const auto shaders = assemble(scene_, options_.shader);
+    ShaderOptions whole = options_.shader;
+    whole.grouped = false;
+    const auto shaders = assemble(scene_, whole);
     if (!shaders) return shaders.error();
     return writeFile(*options_.glsl, [&](std::ostream& out) {
       out << shaders->picture;

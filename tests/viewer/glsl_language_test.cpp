@@ -42,6 +42,8 @@ std::set<std::string> shadersOf(const Scene& scene) {
           if (!made) continue;
           all.insert(made->picture);
           if (!made->cones.empty()) all.insert(made->cones);
+          all.insert(made->resolve);
+          for (const viewer::GroupShaders& group : made->groups) all.insert({group.cones, group.hits});
         }
   return all;
 }
@@ -82,9 +84,9 @@ TEST_F(GlslLanguage, HasEveryOperation) {
   for (const test::OperationCase& c : test::graphOperations()) outputs.push_back(c.expr);
   writer.add("read", outputs);
   const std::string count = std::to_string(outputs.size());
-  const std::string body = writer.source() + "out vec4 color;\nvoid main() {\n  sdfTakeValues();\n  float v[" + count +
-                           "];\n  read(gl_FragCoord.xyz, vec3(0.0), v);\n  color = vec4(v[" + count +
-                           " - 1]);\n}\n";
+  const std::string body =
+      writer.source() + "out vec4 color;\nvoid main() {\n  sdfTakeValues();\n  float v[" + count +
+      "];\n  read(gl_FragCoord.xyz, vec3(0.0), v);\n  color = vec4(v[" + count + " - 1]);\n}\n";
   expectSound({"#version 330 core\n" + body, "#version 300 es\nprecision highp float;\n" + body});
 }
 

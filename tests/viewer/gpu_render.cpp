@@ -23,21 +23,36 @@ void makeContextCurrent() {
   if (const Status s = context->makeCurrent(); !s) throw std::runtime_error(s.error().message);
 }
 
-}  // namespace
+struct Drawn {
+  viewer::Renderer renderer;
+  viewer::Target target;
+};
 
-std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& options) {
+Drawn draw(const Scene& scene, const GpuRenderOptions& options) {
   makeContextCurrent();
   auto renderer = take(viewer::Renderer::make(scene, options.shader));
-  const auto target =
-      take(viewer::Target::create(options.width, options.height, {viewer::PixelFormat::Rgba32f}));
-  viewer::Frame frame = viewer::frameOf(scene);
+  auto target = take(viewer::Target::create(options.width, options.height,
+                                            {viewer::PixelFormat::Rgba32f, viewer::PixelFormat::Rgba32f}));
+  viewer::Frame frame = viewer::frameOf(scene, options.parameters);
   frame.samples = options.samples;
   frame.filter = options.filter;
   frame.maxSteps = options.maxSteps;
   frame.epsilon = options.epsilon;
   frame.threshold = options.threshold;
   if (const Status s = renderer.draw(frame, target); !s) throw std::runtime_error(s.error().message);
-  return take(target.pixels());
+  return {std::move(renderer), std::move(target)};
+}
+
+}  // namespace
+
+std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& options) {
+  return take(draw(scene, options).target.pixels());
+}
+
+viewer::Readings readingsOnGpu(const Scene& scene, GpuRenderOptions options) {
+  options.shader.countReadings = true;
+  const Drawn drawn = draw(scene, options);
+  return take(drawn.renderer.readings(drawn.target));
 }
 
 double hitThreshold(const Scene& scene, const GpuRenderOptions& options, double distance) {

@@ -16,11 +16,15 @@ struct GpuRenderOptions {
   int maxSteps = viewer::Frame{}.maxSteps;
   double epsilon = viewer::Frame{}.epsilon;
   double threshold = viewer::Frame{}.threshold;
+  viewer::Parameters parameters;  ///< those that do not stand at their present values
 };
 
-/// Encoded as the scene asks, in floats, rows from the top; alpha 0 where steps ran out. Parameters and time
-/// stand at their present values. Throws std::runtime_error where there is no OpenGL or the scene is refused.
+/// Encoded as the scene asks, in floats, rows from the top; alpha 0 where steps ran out. Throws
+/// std::runtime_error where there is no OpenGL or the scene is refused.
 std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& options);
+
+/// What the picture's rays read of the distance. Throws as renderOnGpu.
+viewer::Readings readingsOnGpu(const Scene& scene, GpuRenderOptions options);
 
 /// How far from the surface these options let a hit be at a distance from the eye, scene units.
 double hitThreshold(const Scene& scene, const GpuRenderOptions& options, double distance);

@@ -9,6 +9,7 @@
 
 #include "support/folder.h"
 #include "viewer/gpu/context.h"
+#include "viewer/gpu/drawing.h"
 #include "viewer/gpu/png.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/shader_log.h"
@@ -37,8 +38,9 @@ Program overScreen(const std::string& body) {
   return std::move(*program);
 }
 
-Target target(int width, int height, std::initializer_list<PixelFormat> layers = {PixelFormat::Rgba32f}) {
-  auto made = Target::create(width, height, layers);
+Target target(int width, int height, const std::vector<PixelFormat>& layers = {PixelFormat::Rgba32f},
+              bool depth = false) {
+  auto made = Target::create(width, height, layers, depth);
   if (!made) throw std::runtime_error(made.error().message);
   return std::move(*made);
 }
@@ -301,6 +303,94 @@ TEST_F(TargetTest, IsReadByTheNextProgram) {
   first.bindTexture(2, 0);
   first.bindTexture(5, 1);
   EXPECT_EQ(drawn(reader), glm::vec4(3.5f, 2.5f, -0.5f, -1.5f));
+}
+
+TEST_F(TargetTest, IsFilledLayerByLayerAndSummedUp) {
+  const Target layers = target(4, 3, {PixelFormat::Rgba32f, PixelFormat::Rgba32f});
+  layers.clear(0, glm::vec4(1, 2, 3, 4));
+  layers.clear(1, glm::vec4(0.5));
+  EXPECT_EQ(*layers.sum(0), glm::dvec4(12, 24, 36, 48));
+  EXPECT_EQ(*layers.sum(1), glm::dvec4(6));
+}
+
+TEST_F(TargetTest, APartOfItIsDrawnInto) {
+  const Target whole = target(5, 4);
+  whole.clear(0, glm::vec4(0));
+  whole.bind(1, 2, 3, 2);
+  overScreen("out vec4 c; void main() { c = vec4(gl_FragCoord.xy, 1.0, 0.0); }").draw();
+  EXPECT_EQ(*whole.sum(0), glm::dvec4(2 * (1.5 + 2.5 + 3.5), 3 * (2.5 + 3.5), 6, 0));
+}
+
+TEST_F(TargetTest, TheNearestFragmentWinsWhileAsked) {
+  const Target pixel = target(1, 1, {PixelFormat::Rgba32f}, true);
+  const Program program =
+      overScreen("uniform float f; out vec4 c; void main() { c = vec4(f); gl_FragDepth = f; }");
+  const auto draw = [&](float f) {
+    program.set("f", f);
+    program.draw();
+    return pixel.pixels()->front().x;
+  };
+  pixel.clear(0, glm::vec4(9));
+  pixel.clearDepth();
+  {
+    const NearestWins nearest;
+    EXPECT_EQ(draw(0.5f), 0.5f);
+    EXPECT_EQ(draw(0.75f), 0.5f);
+    EXPECT_EQ(draw(0.25f), 0.25f);
+    EXPECT_EQ(draw(1.0f), 0.25f);
+  }
+  EXPECT_EQ(draw(0.75f), 0.75f);
+}
+
+TEST_F(TargetTest, FragmentsAddUpInOneLayerWhileAsked) {
+  const Target pixel = target(1, 1, {PixelFormat::Rgba32f, PixelFormat::Rgba32f});
+  const Program program = overScreen(
+      "layout(location = 0) out vec4 a; layout(location = 1) out vec4 b; void main() { a = b = vec4(2, 3, 4, "
+      "5); }");
+  pixel.clear(0, glm::vec4(1));
+  pixel.clear(1, glm::vec4(1));
+  {
+    const OneLayer second(1);
+    const SumOfAll sum;
+    program.draw();
+    program.draw();
+  }
+  EXPECT_EQ(pixel.pixels(0)->front(), glm::vec4(1));
+  EXPECT_EQ(pixel.pixels(1)->front(), glm::vec4(5, 7, 9, 11));
+  program.draw();
+  EXPECT_EQ(pixel.pixels(0)->front(), glm::vec4(2, 3, 4, 5));
+  EXPECT_EQ(pixel.pixels(1)->front(), glm::vec4(2, 3, 4, 5));
+}
+
+// Two cells of 3 x 2 tiles side by side: tile (1, 0) is low in the first, (2, 1) in the second.
+TEST_F(ProgramTest, DrawsTheTilesThatACellAsksFor) {
+  const Target cells = target(6, 2);
+  cells.bind();
+  overScreen(
+      "out vec4 c;\n"
+      "void main() { ivec2 p = ivec2(gl_FragCoord.xy); c = vec4(p == ivec2(1, 0) || p == ivec2(5, 1) ? 1.0 : "
+      "7.0); }")
+      .draw();
+  const auto program = Program::overTiles(
+      "#version 330 core\nout vec4 c; void main() { c = vec4(gl_FragCoord.xy, 1.0, 1.0); }");
+  ASSERT_TRUE(program) << program.error().message;
+  constexpr int kSide = 4, kWidth = 10, kHeight = 7;  // the last tiles reach beyond
+  const auto drawnWith = [&](int first, int last) {
+    const Target pixels = target(kWidth, kHeight);
+    pixels.clear(0, glm::vec4(0));
+    cells.bindTexture(3);
+    program->set("tiles", 3);
+    program->set("tileLimit", 7.0f);
+    program->set("firstCell", first);
+    program->set("lastCell", last);
+    program->drawTiles(3, 2, kSide);
+    return *pixels.sum(0);
+  };
+  const glm::dvec4 first(4 * (4.5 + 5.5 + 6.5 + 7.5), 4 * (0.5 + 1.5 + 2.5 + 3.5), 16, 16);
+  const glm::dvec4 second(3 * (8.5 + 9.5), 2 * (4.5 + 5.5 + 6.5), 6, 6);
+  EXPECT_EQ(drawnWith(0, 0), first);
+  EXPECT_EQ(drawnWith(1, 1), second);
+  EXPECT_EQ(drawnWith(0, 1), first + second);
 }
 
 TEST_F(TargetTest, ANewOneLeavesTheOldOneBound) {

@@ -48,22 +48,17 @@ Status Renderer::compile() {
     auto groups = Groups::make(shaders_.groups, shaders_.counted);
     if (!groups) return groups.error();
     groups_ = std::move(*groups);
-    return compilePicture(shaders_.fromHits);
   }
   if (!shaders_.cones.empty()) {
     auto cones = Program::overScreen(shaders_.cones);
     if (!cones) return cones.error();
     cones_ = std::move(*cones);
   }
-  return compilePicture(shaders_.picture);
-}
-
-Status Renderer::compilePicture(const std::string& picture) {
-  auto scene = shaders_.tiled ? Program::overTiles(picture) : Program::overScreen(picture);
+  auto scene = shaders_.tiled ? Program::overTiles(shaders_.picture) : Program::overScreen(shaders_.picture);
   if (!scene) return scene.error();
   scene_ = std::move(*scene);
   if (!shaders_.tiled) return okStatus();
-  auto background = Program::overScreen(forBackground(picture));
+  auto background = Program::overScreen(forBackground(shaders_.picture));
   if (!background) return background.error();
   background_ = std::move(*background);
   return okStatus();
@@ -180,7 +175,7 @@ Status Renderer::drawSample(const Frame& frame, const Shot& shot, const Target& 
 }
 
 Status Renderer::draw(const Frame& frame, const Target& target) {
-  values_ = uniformsOf(groups_ ? shaders_.valuesFromHits : shaders_.values, frame.parameters);
+  values_ = uniformsOf(shaders_.values, frame.parameters);
   Shot shot(frame, target.width(), target.height(), bounds_, maxDistance_);
   samples_ = shot.samples();
   if (groups_ || cones_)

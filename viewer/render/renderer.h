@@ -38,7 +38,6 @@ class Renderer {
  private:
   Renderer(const Scene& scene, SceneShaders shaders);
   Status compile();
-  Status compilePicture(const std::string& picture);
   void setLook(const Program& program, const Frame& frame) const;
   Status drawCones(const Shot& shot);
   void drawScene(const Frame& frame, const Shot& shot) const;

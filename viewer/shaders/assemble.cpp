@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "sdf/eval/scalar_reading.h"
@@ -13,9 +14,12 @@
 #include "viewer/shaders/group_shaders.h"
 #include "viewer/shaders/parts.h"
 #include "viewer/shaders/source.h"
+#include "viewer/shaders/winner.h"
 
 namespace sdf::viewer {
 namespace {
+
+constexpr const char* kWinner = "winner";  // the parts' variable, as a parameter
 
 constexpr const char* kAttributeNames[kAttributeCount] = {
     "RED",          "GREEN",          "BLUE",           "AMBIENT_RED",   "AMBIENT_GREEN", "AMBIENT_BLUE",
@@ -90,21 +94,21 @@ class Assembler {
   SceneShaders run() {
     SceneShaders result;
     result.counted = options_.countReadings;
-    result.values = functions();
     const bool isPicture = options_.view == View::Picture;
-    if (options_.method == Method::AutoRelaxed && !stepsCount()) {
+    const bool cones = options_.method == Method::AutoRelaxed && !stepsCount();
+    if (cones && isPicture && options_.grouped) result.groups = groups();
+    fromHits_ = !result.groups.empty();
+    result.values = functions();
+    if (cones && !fromHits_)
       result.cones = header(options_.es) + result.values.source() + defines(false) + parts::kCamera +
                      parts::kRest + parts::kCones;
-      if (isPicture) result.groups = groups();
-    }
-    result.tiled = !result.cones.empty() && planes_.empty() && isPicture &&
-                   (!result.groups.empty() || topologicalOrder({&whole_.distance, 1}).size() < kLongProgram);
-    result.picture = shader(result.values, !result.cones.empty());
+    result.tiled = cones && planes_.empty() && isPicture &&
+                   (fromHits_ || topologicalOrder({&whole_.distance, 1}).size() < kLongProgram);
+    const std::string body = isPicture ? picture(result.values) : debugView(result.values);
+    result.picture = header(options_.es) + (filters_ ? kFootprintVariables : "") +
+                     (fromHits_ ? "float winner = 0.0;\n" : "") + result.values.source() +
+                     defines(!result.cones.empty()) + body + encoding() + parts::kPicture;
     result.resolve = header(options_.es) + encoding() + parts::kResolve;
-    fromHits_ = true;
-    if (result.groups.empty()) return result;
-    result.valuesFromHits = functions();
-    result.fromHits = shader(result.valuesFromHits, false);
     return result;
   }
 
@@ -119,15 +123,8 @@ class Assembler {
     if (readsDistance()) writer.add("sdfDistance", {&whole_.distance, 1});
     if (!planes_.empty()) writer.add("sdfPlanes", planes_);
     if (rest_ && readsDistance()) writer.add("sdfRest", {&rest_->shape.distance, 1});
-    if (!planes_.empty() && fromHits_) addPlaneGradient(writer);
+    if (!planes_.empty() && fromHits_) addNearestPlane(writer);
     return writer;
-  }
-
-  // What draws the view; adds what else it needs to the writer.
-  std::string shader(GlslWriter& writer, bool cones) {
-    const std::string body = options_.view == View::Picture ? picture(writer) : debugView(writer);
-    return header(options_.es) + (filters_ ? kFootprintVariables : "") + writer.source() + defines(cones) +
-           body + encoding() + parts::kPicture;
   }
 
   bool stepsCount() const { return scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps; }
@@ -168,6 +165,10 @@ class Assembler {
       set("BOX_MIN", vector(restBounds().min));
       set("BOX_MAX", vector(restBounds().max));
     }
+    set("PLANE_WINNER", planes_.empty() ? "0.0" : "sdfPlaneWinner(p, vec3(0.0))");
+    set("SURFACE", !fromHits_  ? "sdfSurface(p, n, s);"
+                   : mirrors() ? "if (bounce == 0) sdfTakenSurface(p, n, s); else sdfSurface(p, n, s);"
+                               : "sdfTakenSurface(p, n, s);");
     set("FIRST(taken, marched)", !fromHits_  ? "marched"
                                  : mirrors() ? "(bounce == 0 ? taken : marched)"
                                              : "taken");
@@ -204,26 +205,49 @@ class Assembler {
 
   // Adds the surface's attributes.
   std::string surface(GlslWriter& writer) {
-    std::vector<Expr> outputs;
-    for (const Expr& e : whole_.surface) outputs.push_back(hoisted(e));
-    const Filtered f = filtered(outputs, writer);
-    writer.add("sdfSurface", f.outputs);
-    filters_ = f.changed;
+    if (marches()) addSurface(writer, "sdfSurface", whole_.surface);
+    if (fromHits_) {
+      writer.substitute(kWinner, kWinner);
+      addSurface(writer, "sdfTakenSurface", takenSurface_);
+    }
     return filters_ ? parts::kFootprint : "";
   }
 
-  // Of the nearest of the planes.
-  void addPlaneGradient(GlslWriter& writer) const {
-    Expr nearest = planes_.front();
-    for (std::size_t i = 2; i < planes_.size(); i += 2) nearest = min(nearest, planes_[i]);
+  void addSurface(GlslWriter& writer, const std::string& name, std::span<const Expr> attributes) {
+    std::vector<Expr> outputs;
+    for (const Expr& e : attributes) outputs.push_back(hoisted(e));
+    const Filtered f = filtered(outputs, writer);
+    writer.add(name, f.outputs);
+    filters_ = filters_ || f.changed;
+  }
+
+  // Which of the planes is nearest, and its gradient.
+  void addNearestPlane(GlslWriter& writer) const {
+    std::vector<Expr> heights, numbers;
+    for (const Numbered& plane : planeOperands_) {
+      heights.push_back(plane.distance);
+      numbers.emplace_back(plane.number);
+    }
+    const Expr winner = numberOfLeast(heights, numbers);
+    writer.add("sdfPlaneWinner", {&winner, 1});
+    Expr nearest = heights.front();
+    for (const Expr& height : heights) nearest = min(nearest, height);
     const Vec3E g = gradientOf(nearest);
     const Expr all[] = {g.x, g.y, g.z};
     writer.add("sdfPlaneGradient", all);
   }
 
-  std::vector<GroupShaders> groups() const {
-    if (planes_.empty()) return groupShaders(unhoisted_, inverse_, options_);
-    return rest_ ? groupShaders(rest_->unhoisted, rest_->inverse, options_) : std::vector<GroupShaders>();
+  // Makes ready for pictures from hits, too.
+  std::vector<GroupShaders> groups() {
+    const Expr& marched = planes_.empty() ? unhoisted_ : rest_ ? rest_->unhoisted : unhoisted_;
+    const std::vector<Expr> all = operandsOf(unhoisted_), some = operandsOf(marched);
+    const std::unordered_set<Expr> isMarched(some.begin(), some.end());
+    std::vector<Numbered> operands;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      (isMarched.contains(all[i]) ? operands : planeOperands_).push_back({all[i], static_cast<double>(i)});
+    takenSurface_ = decided(whole_.surface, all, Expr::parameter({kWinner, 0.0, 0.0, kInfinity}));
+    const bool winners = !std::equal(takenSurface_.begin(), takenSurface_.end(), whole_.surface.begin());
+    return groupShaders(operands, winners, rest_ ? rest_->inverse : inverse_, options_);
   }
 
   const Box& restBounds() const { return rest_ ? rest_->shape.bounds : whole_.bounds; }
@@ -284,8 +308,10 @@ class Assembler {
   double inverse_;
   std::optional<Read> rest_;  // if there are planes, and more than planes
   std::vector<Expr> planes_;
-  bool fromHits_ = false;  // what is written takes the groups' hits
-  bool filters_ = false;   // it does, which is known once the surface is written
+  std::vector<Numbered> planeOperands_;  // of the union's operands
+  std::vector<Expr> takenSurface_;       // from the winner's number
+  bool fromHits_ = false;                // what is written takes the groups' hits
+  bool filters_ = false;                 // it does, which is known once the surface is written
 };
 
 // After the line with the version.

@@ -29,6 +29,7 @@ struct ShaderOptions {
   Method method = Method::AutoRelaxed;
   bool countReadings = false;  ///< a second output: readings by primary rays, shadows, occlusion, reflections
   bool es = false;             ///< GLSL ES 3.00 instead of 3.30 core
+  bool grouped = true;         ///< may draw a wide union's picture in groups; else one shader draws all of it
 };
 
 /// The passes that draw groups of a wide union, each by itself.
@@ -38,19 +39,15 @@ struct GroupShaders {
   std::vector<GlslWriter> values;  ///< one for each group that these draw
 };
 
-/// Fragment shaders. The first two share the uniforms of `values`; see parts.cpp for the others.
+/// Fragment shaders, which share the uniforms of `values`; see parts.cpp for the others.
 struct SceneShaders {
   std::string picture;
-  std::string cones;  ///< empty where the method starts every ray at the eye
+  std::string cones;  ///< empty where the method starts every ray at the eye, and where there are groups
   GlslWriter values;
-  std::string resolve;   ///< from the sums of several samples to the picture
-  bool counted = false;  ///< countReadings
-  bool tiled = false;    ///< where the cone pass saw nothing, there is only background
-  /// For one sample a pixel of a wide union's picture: the groups, and what draws the picture from their
-  /// hits.
-  std::vector<GroupShaders> groups;
-  std::string fromHits;
-  GlslWriter valuesFromHits;
+  std::string resolve;               ///< from the sums of several samples to the picture
+  bool counted = false;              ///< countReadings
+  bool tiled = false;                ///< where the cones saw nothing, there is only background
+  std::vector<GroupShaders> groups;  ///< of a wide union, from whose hits the picture is drawn; else none
 };
 
 /// Errors (Scene): what `checked` finds, and a shape whose distance has no known slope.

@@ -1,7 +1,6 @@
 #include "viewer/shaders/group_shaders.h"
 
 #include "sdf/expr/hoist.h"
-#include "viewer/shaders/groups.h"
 #include "viewer/shaders/parts.h"
 #include "viewer/shaders/source.h"
 
@@ -21,24 +20,28 @@ std::string counts(bool counted) {
 
 }  // namespace
 
-std::vector<GroupShaders> groupShaders(const Expr& distance, double inverse, const ShaderOptions& options) {
-  const std::vector<Expr> groups = groupsOf(distance);
+std::vector<GroupShaders> groupShaders(std::span<const Numbered> operands, bool winners, double inverse,
+                                       const ShaderOptions& options) {
+  const std::vector<Group> groups = groupsOf(operands);
   if (groups.size() == 1) return {};
   const auto operations = [](const Expr& e) { return static_cast<double>(topologicalOrder({&e, 1}).size()); };
-  const double whole = operations(distance);
+  double whole = 0.0;
+  for (const Group& group : groups) whole += operations(group.distance);
   std::vector<GroupShaders> result;
-  for (const Expr& group : groups) {
-    const Expr read = hoisted(group);
+  for (const Group& group : groups) {
+    const Expr read = hoisted(group.distance);
     GlslWriter values;
     const auto source = [&] {
-      return header(options.es) + values.source() + defines(inverse, operations(group) / whole) +
+      return header(options.es) + values.source() + defines(inverse, operations(group.distance) / whole) +
              parts::kCamera + parts::kRest;
     };
     values.add("sdfDistance", {&read, 1});
     const std::string cones = source() + parts::kCones;
     const std::string normal = normals(values, read);
-    const std::string hits =
-        source() + parts::kNoPlanes + parts::kMarch + normal + counts(options.countReadings) + parts::kHits;
+    if (winners) values.add("sdfWinner", {&group.winner, 1});
+    const std::string hits = source() + define("WINNER", winners ? "sdfWinner(p, vec3(0.0))" : "0.0") +
+                             parts::kNoPlanes + parts::kMarch + normal + counts(options.countReadings) +
+                             parts::kHits;
     if (result.empty() || result.back().hits != hits) result.push_back({cones, hits, {}});
     result.back().values.push_back(std::move(values));
   }

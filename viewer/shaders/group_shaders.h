@@ -1,13 +1,16 @@
 // The passes of a wide union's groups. Private to viewer/shaders.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "viewer/shaders/assemble.h"
+#include "viewer/shaders/groups.h"
 
 namespace sdf::viewer {
 
-/// Those of the distance's groups, whose rays may go as far as it says times `inverse`; none if it is one
-/// group.
-std::vector<GroupShaders> groupShaders(const Expr& distance, double inverse, const ShaderOptions& options);
+/// Those of the operands' groups, whose rays may go as far as these say times `inverse`; none if it is one
+/// group. They tell the winners' numbers if asked.
+std::vector<GroupShaders> groupShaders(std::span<const Numbered> operands, bool winners, double inverse,
+                                       const ShaderOptions& options);
 
 }  // namespace sdf::viewer

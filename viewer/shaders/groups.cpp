@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "sdf/base/box.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/expr/hoist.h"
 
 namespace sdf::viewer {
 namespace {
@@ -22,34 +22,13 @@ constexpr std::size_t kMany = 40;
 // Numbers that a group's parameters may be: every driver has room for 1024, and some are the scene's own.
 constexpr std::size_t kMostNumbers = 960;
 
-std::vector<Expr> operandsOf(const Expr& distance) {
-  std::vector<Expr> result, open{distance};
-  std::unordered_set<Expr> seen;
-  while (!open.empty()) {
-    const Expr e = open.back();
-    open.pop_back();
-    if (!seen.insert(e).second) continue;
-    if (e.op() == Op::Min)
-      open.insert(open.end(), {e.arg(1), e.arg(0)});
-    else
-      result.push_back(e);
-  }
-  return result;
-}
-
-Expr leastOf(std::span<const Expr> all) {
-  Expr least = all.front();
-  for (const Expr& other : all.subspan(1)) least = min(least, other);
-  return least;
-}
-
 /// What the operands of a union have in common, and how they are made otherwise.
 class Likeness {
  public:
-  explicit Likeness(std::span<const Expr> operands) {
+  explicit Likeness(std::span<const Numbered> operands) {
     std::unordered_map<Expr, std::size_t> uses;
-    for (const Expr& e : operands)
-      for (const Expr& node : topologicalOrder({&e, 1})) ++uses[node];
+    for (const Numbered& operand : operands)
+      for (const Expr& node : topologicalOrder({&operand.distance, 1})) ++uses[node];
     for (const auto& [node, count] : uses)
       if (count == operands.size()) common_.emplace(node, common_.size());
   }
@@ -81,6 +60,9 @@ class Likeness {
     }));
   }
 
+  /// A new parameter that stands at this value.
+  Expr parameter(double v) { return Expr::parameter({"constant " + std::to_string(parameters_++), v, v, v}); }
+
   /// The operand with new parameters for those of its constants that not all have.
   Expr withParameters(const Expr& operand) {
     std::unordered_map<Expr, Expr> done;
@@ -88,8 +70,7 @@ class Likeness {
       Expr made = node;
       if (common_.contains(node)) {
       } else if (node.isConstant()) {
-        const double v = node.constantValue();
-        made = Expr::parameter({"constant " + std::to_string(parameters_++), v, v, v});
+        made = parameter(node.constantValue());
       } else if (arity(node.op()) > 0) {
         std::vector<Expr> args;
         for (int i = 0; i < arity(node.op()); ++i) args.push_back(done.at(node.arg(i)));
@@ -106,7 +87,7 @@ class Likeness {
 };
 
 struct Placed {
-  Expr operand;
+  Numbered operand;
   glm::dvec3 place;
 };
 
@@ -122,6 +103,27 @@ glm::dvec3 placeOf(const Expr& operand) {
     p = next;
   }
   return p;
+}
+
+struct Members {
+  std::vector<Expr> distances, numbers;
+
+  void add(const Expr& distance, const Expr& number) {
+    distances.push_back(distance);
+    numbers.push_back(number);
+  }
+
+  Group joined() const {
+    Expr least = distances.front();
+    for (std::size_t i = 1; i < distances.size(); ++i) least = min(least, distances[i]);
+    return {least, numberOfLeast(distances, numbers)};
+  }
+};
+
+// How many of so many operands a group takes: half as many as there are groups then.
+std::size_t sizeOf(std::size_t operands, std::size_t numbersEach) {
+  const auto root = static_cast<std::size_t>(std::lround(std::sqrt(0.5 * static_cast<double>(operands))));
+  return std::clamp(kMostNumbers / numbersEach, std::size_t{1}, root);
 }
 
 // Puts neighbours side by side: cut across their longest side, at whole groups, again and again.
@@ -141,32 +143,29 @@ void arrange(std::span<Placed> all, std::size_t size) {
 
 }  // namespace
 
-std::vector<Expr> groupsOf(const Expr& distance) {
-  const std::vector<Expr> operands = operandsOf(distance);
-  if (operands.size() < kMany) return {distance};
+std::vector<Group> groupsOf(std::span<const Numbered> operands) {
   Likeness likeness(operands);
   std::map<std::string, std::vector<Placed>> kinds;
-  for (const Expr& e : operands) kinds[likeness.kindOf(e)].push_back({e, placeOf(e)});
-  std::vector<Expr> result, others;
+  for (const Numbered& e : operands) kinds[likeness.kindOf(e.distance)].push_back({e, placeOf(e.distance)});
+  std::vector<Group> result;
+  Members others;
   for (auto& [kind, alike] : kinds) {
     if (alike.size() < kMany) {
-      for (const Placed& p : alike) others.push_back(p.operand);
+      for (const Placed& p : alike) others.add(p.operand.distance, p.operand.number);
       continue;
     }
-    const std::size_t numbers = likeness.numbersOf(alike.front().operand);
-    const auto root = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(alike.size()))));
-    const std::size_t size =
-        std::clamp(kMostNumbers / std::max(numbers, std::size_t{1}), std::size_t{1}, root);
+    const std::size_t size = sizeOf(alike.size(), likeness.numbersOf(alike.front().operand.distance) + 1);
     arrange(alike, size);
     while (alike.size() % size != 0) alike.push_back(alike.back());
     for (std::size_t i = 0; i < alike.size(); i += size) {
-      std::vector<Expr> group;
-      for (std::size_t k = i; k < i + size; ++k) group.push_back(likeness.withParameters(alike[k].operand));
-      result.push_back(leastOf(group));
+      Members group;
+      for (std::size_t k = i; k < i + size; ++k)
+        group.add(likeness.withParameters(alike[k].operand.distance),
+                  likeness.parameter(alike[k].operand.number));
+      result.push_back(group.joined());
     }
   }
-  if (result.empty()) return {distance};
-  if (!others.empty()) result.push_back(leastOf(others));
+  if (!others.distances.empty()) result.push_back(others.joined());
   return result;
 }
 

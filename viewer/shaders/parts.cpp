@@ -289,9 +289,13 @@ float takenHit(Ray ray, float tMax, out int status, out int readings) {
   return min(plane, t);
 }
 
+// And sets `winner`, the number of the operand that is hit.
 vec3 takenNormal(vec3 p, float t) {
   vec4 hit = texelFetch(hits, ivec2(gl_FragCoord.xy), 0);
-  return t < (hit.w < 0.0 ? -1.0 - hit.w : hit.w) ? PLANE_NORMAL : hit.xyz;
+  float far = length(hit.xyz);
+  bool plane = t < (hit.w < 0.0 ? -1.0 - hit.w : hit.w);
+  winner = plane ? PLANE_WINNER : floor(far - 0.5);
+  return plane ? PLANE_NORMAL : hit.xyz / far;
 }
 )";
 
@@ -317,7 +321,7 @@ vec3 radiance(Ray ray, float t, out bool budget) {
     vec3 n = FIRST(takenNormal(p, t), normalAt(p, d));
     float s[ATTRIBUTES];
     FOOTPRINT
-    sdfSurface(p, n, s);
+    SURFACE
     vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;
@@ -522,7 +526,8 @@ const char* const kHits = R"(
 uniform sampler2D starts;
 uniform vec2 corner;                // of this group's starts, in their texture
 uniform float tile;                 // that has one start, pixels
-layout(location = 0) out vec4 hit;  // the normal and t, or -1 - t where steps ran out
+// The normal, longer by the winner's number than 1; and t, or -1 - t where steps ran out.
+layout(location = 0) out vec4 hit;
 
 void main() {
   sdfTakeValues();
@@ -531,7 +536,8 @@ void main() {
   vec2 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0).rb;
   ray.end = span.y;
   float t = march(ray, span.x, maxDistance - ray.before, status, readings);
-  hit = vec4(normalAt(ray.origin + t * ray.direction, ray.direction), status == BUDGET ? -1.0 - t : t);
+  vec3 p = ray.origin + t * ray.direction;
+  hit = vec4((1.0 + WINNER) * normalAt(p, ray.direction), status == BUDGET ? -1.0 - t : t);
   gl_FragDepth = status == MISS ? 1.0 : t / maxDistance;
   STORE_COUNTS
 }

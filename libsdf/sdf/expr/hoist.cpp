@@ -49,6 +49,11 @@ Expr chosen(Op choice, const Expr& a, const Expr& b) {
   return Expr::make(g->op, g->place == 0 ? std::array{*g->term, inner} : std::array{inner, *g->term});
 }
 
+Expr isLessEqual(const Expr& a, const Expr& b) {
+  const std::optional<Common> g = common(a, b);
+  return g ? isLessEqual(g->a, g->b) : lessEqual(a, b);
+}
+
 // Longer lists are joined as they come: a look at all pairs would take too long.
 constexpr std::size_t kMostOperands = 64;
 
@@ -101,5 +106,15 @@ class Hoister {
 }  // namespace
 
 Expr hoisted(const Expr& e) { return Hoister().run(e); }
+
+Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers) {
+  Expr least = hoisted(values.front()), number = numbers.front();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const Expr value = hoisted(values[i]);
+    number = select(isLessEqual(least, value), number, numbers[i]);
+    least = chosen(Op::Min, least, value);
+  }
+  return number;
+}
 
 }  // namespace sdf

@@ -1,6 +1,8 @@
 // Less work for the same values: functions that keep an order taken once after a minimum instead of once for
 // each argument.
 #pragma once
+#include <span>
+
 #include "sdf/expr/expr.h"
 
 namespace sdf {
@@ -11,5 +13,10 @@ namespace sdf {
 /// of floats, too) but for the sign of zeros and for NaN, whose place is up to the reading; facts about
 /// slopes are those that follow from the arguments. Cost: linear in the size of the graph.
 Expr hoisted(const Expr& e);
+
+/// The number of the least value, comparing what is left of two values without the functions that both are
+/// of: the first such where these arguments are equal, any where only the functions round them to one value.
+/// As many numbers as values, at least one. Cost: linear in the size of the graphs.
+Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers);
 
 }  // namespace sdf
