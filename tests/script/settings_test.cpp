@@ -51,6 +51,13 @@ TEST(Settings, LightsArriveInOrder) {
   EXPECT_TRUE(scene.lights[2].castsShadow);
 }
 
+TEST(Settings, AreOneLightWhereNothingIsSaidOfLight) {
+  ASSERT_EQ(withSphere("").lights.size(), 1u);
+  expectVector(withSphere("").lights[0].vector, 1, 1, 1);
+  EXPECT_TRUE(withSphere("ambient(0.5)").lights.empty());
+  EXPECT_EQ(withSphere("point_light()").lights.size(), 1u);
+}
+
 TEST(Settings, TheRestArrives) {
   const Scene scene = withSphere(R"(
     ambient{0.1, 0.2, 0.3}
