@@ -35,7 +35,7 @@ void declare(CLI::App& app, Words& words) {
   add("--size", words.size, "WxH", "of the picture in pixels [1280x720]");
   add("-t,--time", words.time, "T", "the scene's time in seconds [0]");
   add("--samples", words.samples, "N", "samples a pixel: 1, 4, 9, ... [1]");
-  add("--steps", words.steps, "N", "readings of the distance that a ray may take [512]");
+  add("--steps", words.steps, "N", "readings of the distance that a ray may take [1024]");
   add("--view", words.view, "NAME",
       "picture, normals, steps, slice, gradient, material, occlusion or shadow");
   add("--method", words.method, "NAME", "how rays are marched: auto (auto-relaxed) or plain");

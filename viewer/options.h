@@ -17,7 +17,7 @@ struct Options {
   std::optional<int> bench;  ///< frames
   int width = 1280, height = 720;
   int samples = 1;  ///< a side
-  int maxSteps = 512;
+  int maxSteps = 1024;
   double time = 0.0;
   std::optional<int> frames;
   double framesPerSecond = 24.0;

@@ -91,7 +91,7 @@ double changeByMovedEdges(const std::vector<glm::dvec3>& c, double share) {
 // How much farther out than the threshold hits lie: their distance is read as less than it is around edges
 // that are cut or blended. The planet's relief divides its distance by its slope, and its colours change
 // within a fiftieth of its radius.
-double floating(const std::string& sample) { return sample == "planet" ? 12.0 : 3.0; }
+double floating(const std::string& sample) { return sample == "planet" ? 6.0 : 2.0; }
 
 // A hit counts within `threshold` of a pixel's radius, so all edges move outwards by half that share of a
 // pixel.

@@ -34,15 +34,23 @@ std::vector<glm::vec4> uniformsOf(const GlslWriter& writer, const Parameters& pa
   return vectors;
 }
 
-Shot::Shot(const Frame& frame, int width, int height, const std::optional<Box>& bounds, double maxDistance)
-    : frame_(frame), width_(width), height_(height), maxDistance_(maxDistance) {
+Extent::Extent(const Scene& scene) : maxDistance(scene.maxDistance) {
+  const Shape whole = scene.whole();
+  if (whole.bounds.finite()) bounds = whole.bounds;
+  // Occlusion by steps counts how many it takes to the hit.
+  const bool counts = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps;
+  loose = whole.claim.kind > ClaimKind::ExactOutside && !counts;
+}
+
+Shot::Shot(const Frame& frame, int width, int height, const Extent& extent)
+    : frame_(frame), width_(width), height_(height), extent_(extent) {
   const Eye& eye = frame.look.eye;
   const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up));
   right_ = eye.mirrored ? -right : right;
   up_ = glm::cross(right, forward);
   forward_ = forward / (2.0 * std::tan(0.5 * glm::radians(eye.fov)));
-  ahead_ = aheadOf(forward_, eye, bounds);
+  ahead_ = aheadOf(forward_, eye, extent_.bounds);
 }
 
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
@@ -54,12 +62,12 @@ void Shot::set(const Program& program, const std::vector<glm::vec4>& values) con
   program.set("up", glm::vec3(up_));
   program.set("forward", glm::vec3(forward_));
   real("ahead", ahead_);
-  real("maxDistance", maxDistance_);
+  real("maxDistance", extent_.maxDistance);
   const double pixelRadius = std::tan(0.5 * glm::radians(eye.fov)) / height_;
   real("pixelRadius", pixelRadius);
   real("footprint", frame_.filter ? 2.0 * pixelRadius / frame_.samples : 0.0);
   real("epsilon", frame_.epsilon);
-  real("threshold", frame_.threshold);
+  real("threshold", extent_.loose ? 0.5 * frame_.threshold : frame_.threshold);
   program.set("maxSteps", frame_.maxSteps);
   const int side = frame_.samples;
   program.set("within", glm::vec2(sample_ % side + 0.5, sample_ / side + 0.5) / static_cast<float>(side));

@@ -15,9 +15,9 @@ struct Frame {
   Look look;
   int samples = 1;          ///< a side: a pixel takes its square
   bool filter = true;       ///< patterns are averaged over what a sample covers; see shaders/filter.h
-  int maxSteps = 512;       ///< readings that a ray may take
+  int maxSteps = 1024;      ///< readings that a ray may take
   double epsilon = 1e-5;    ///< least distance that counts as a hit, scene units
-  double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit
+  double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit, half of it for loose scenes
 };
 
 /// The frame of the scene's own look.
@@ -26,15 +26,24 @@ Frame frameOf(const Scene& scene, Parameters parameters = {});
 /// Values of the writer's uniform sdfValues; empty if there is none.
 std::vector<glm::vec4> uniformsOf(const GlslWriter& writer, const Parameters& parameters);
 
+/// What rays need to know of a scene.
+struct Extent {
+  explicit Extent(const Scene& scene);
+
+  std::optional<Box> bounds;  ///< if they are finite
+  double maxDistance;
+  bool loose;  ///< distances may be less than the way to the surface, so that rays count as hits farther off
+};
+
 /// A frame's rays through the pixels of a picture of this size. The frame must outlive it.
 class Shot {
  public:
   /// Rays begin up to a ball around the bounds, if there are any, and end at maxDistance.
-  Shot(const Frame& frame, int width, int height, const std::optional<Box>& bounds, double maxDistance);
+  Shot(const Frame& frame, int width, int height, const Extent& extent);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  double maxDistance() const { return maxDistance_; }
+  double maxDistance() const { return extent_.maxDistance; }
 
   int samples() const { return frame_.samples * frame_.samples; }
   /// A sample's share of its pixel.
@@ -48,7 +57,7 @@ class Shot {
  private:
   const Frame& frame_;
   int width_, height_, sample_ = 0;
-  double maxDistance_;
+  Extent extent_;
   glm::dvec3 right_, up_, forward_;  // forward as long as the picture plane is far away, in picture heights
   double ahead_;                     // of the eye, where rays begin
 };

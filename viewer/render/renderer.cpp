@@ -36,12 +36,9 @@ Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options
 
 Renderer::Renderer(const Scene& scene, SceneShaders shaders)
     : shaders_(std::move(shaders)),
+      extent_(scene),
       shadow_(scene.shadow),
-      tapSpacing_(scene.ambientOcclusion.spacing),
-      maxDistance_(scene.maxDistance) {
-  const Box bounds = scene.whole().bounds;
-  if (bounds.finite() && !bounds.empty()) bounds_ = bounds;
-}
+      tapSpacing_(scene.ambientOcclusion.spacing) {}
 
 Status Renderer::compile() {
   if (!shaders_.groups.empty()) {
@@ -176,7 +173,7 @@ Status Renderer::drawSample(const Frame& frame, const Shot& shot, const Target& 
 
 Status Renderer::draw(const Frame& frame, const Target& target) {
   values_ = uniformsOf(shaders_.values, frame.parameters);
-  Shot shot(frame, target.width(), target.height(), bounds_, maxDistance_);
+  Shot shot(frame, target.width(), target.height(), extent_);
   samples_ = shot.samples();
   if (groups_ || cones_)
     if (auto s = groups_ ? groups_->begin(frame, shot) : drawCones(shot); !s) return s;

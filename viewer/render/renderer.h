@@ -55,9 +55,9 @@ class Renderer {
   std::optional<Target> sums_;           // of several samples
   int samples_ = 1;                      // of the frame drawn last
   std::vector<glm::vec4> values_;        // of the frame that is being drawn, for the shaders' sdfValues
-  std::optional<Box> bounds_;            // of the whole scene, if it is finite
+  Extent extent_;
   Shadow shadow_;
-  double tapSpacing_, maxDistance_;
+  double tapSpacing_;
   double compileSeconds_ = 0.0;
 };
 
