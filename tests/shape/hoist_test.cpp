@@ -95,7 +95,7 @@ TEST(NumberOfLeast, ComparesWhatIsUnderCommonFunctions) {
   EXPECT_EQ(f({0.1, 0.0, 0.0}), 10.0);
   EXPECT_EQ(f({0.9, 1.2, 1.0}), 20.0);
   EXPECT_EQ(f({-3.0, -1.0, -2.0}), 30.0);
-  EXPECT_EQ(f({0.5, 0.5, 0.5}), 10.0) << "the first of a tie";
+  EXPECT_EQ(f({0.5, 0.5, 0.5}), 20.0) << "the last of a tie";
 }
 
 TEST(NumberOfLeast, TakesValuesOfAnyKind) {

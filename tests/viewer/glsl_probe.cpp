@@ -47,7 +47,8 @@ std::string mainOf(std::size_t count) {
   for (std::size_t i = 0; i < layers; ++i)
     text += "layout(location = " + std::to_string(i) + ") out vec4 layer" + std::to_string(i) + ";\n";
   text +=
-      "void main() {\n  sdfTakeValues();\n  ivec2 at = ivec2(int(gl_FragCoord.x), textureSize(points, 0).y - 1 - "
+      "void main() {\n  sdfTakeValues();\n  ivec2 at = ivec2(int(gl_FragCoord.x), textureSize(points, 0).y - "
+      "1 - "
       "int(gl_FragCoord.y));\n  vec3 p = texelFetch(points, at, 0).xyz, n = texelFetch(normals, at, "
       "0).xyz;\n";
   if (count == 1) {

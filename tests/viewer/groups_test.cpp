@@ -9,8 +9,10 @@
 #include <set>
 
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/expr/hoist.h"
 #include "sdf/script/script.h"
 #include "sdf/shape/booleans.h"
+#include "sdf/shape/operators.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
 #include "viewer/gpu_render.h"
@@ -113,6 +115,15 @@ TEST(Groups, AreNoneOfFewOperandsAndOfNoUnion) {
   EXPECT_TRUE(groupsOf(std::span<const Numbered>()).empty());
 }
 
+TEST(Groups, TakeOneRootForBallsOfOneRadiusBesideOthers) {
+  for (const Group& group : groupsOf((balls(98) | rarities()).distance)) {
+    if (operandsOf(group.distance).size() != 7) continue;
+    const Expr read = hoisted(group.distance);
+    const auto order = topologicalOrder({&read, 1});
+    EXPECT_EQ(std::count_if(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Sqrt; }), 1);
+  }
+}
+
 TEST(Groups, KeepWhatAllOperandsShare) {
   const Expr turn = Expr::parameter({"turn", 0.3, 0.0, 1.0});
   const Expr whole = rotate(balls(60), Vec3E(Expr(0.0), turn * 90.0, Expr(0.0))).distance;
@@ -124,16 +135,21 @@ TEST(Groups, KeepWhatAllOperandsShare) {
   for (const Group& group : groupsOf(whole)) EXPECT_EQ(sines(group.distance), 1);
 }
 
-TEST(Winner, DecidesWhatComparisonsOfDistancesDid) {
-  Material red, blue;
-  red.color = Vec3E(Expr(1.0), Expr(0.0), Expr(0.0));
-  blue.color = Vec3E(Expr(0.0), Expr(0.0), Expr(1.0));
-  const Shape a = balls(3, 5).paint(red), b = crates(4).paint(blue), c = sphere(0.2).paint(red);
-  const Shape whole = (a | b) | c;
-  const std::vector<Expr> operands = operandsOf(whole.distance);
-  const Expr winner = Expr::parameter({"winner", 0.0, 0.0, 100.0});
-  const auto surface = viewer::decided(whole.surface, operands, winner);
-  for (std::size_t i = 0; i < operands.size(); ++i) {
+const Expr kWinner = Expr::parameter({"winner", 0.0, 0.0, 100.0});
+
+Shape painted(const Shape& shape, const glm::dvec3& color, double reflectivity = 0.0) {
+  Material m;
+  m.color = Vec3E(color);
+  m.reflectivity = reflectivity;
+  return shape.paint(m);
+}
+
+constexpr glm::dvec3 kRed(1.0, 0.0, 0.0), kBlue(0.0, 0.0, 1.0);
+
+TEST(Winner, DecidesWhatTheUnionChose) {
+  const Shape whole = (painted(balls(3, 5), kRed) | painted(crates(4), kBlue)) | painted(sphere(0.2), kRed);
+  const auto surface = viewer::decided(whole.surface, whole.distance, kWinner);
+  for (int i = 0; i < 8; ++i) {
     const bool isBlue = i >= 3 && i < 7;
     for (const auto& [attribute, value] :
          {std::pair(Attribute::Red, isBlue ? 0.0 : 1.0), std::pair(Attribute::Blue, isBlue ? 1.0 : 0.0)}) {
@@ -143,11 +159,14 @@ TEST(Winner, DecidesWhatComparisonsOfDistancesDid) {
   }
 }
 
-TEST(Winner, LeavesOtherComparisons) {
-  const Shape a = sphere(1.0), b = translate(sphere(1.0), Vec3E(Expr(1.0)));
-  const Expr x = position().x, stripes = less(x, 0.5), blended = less(a.distance, b.distance + 0.1);
-  const std::vector<Expr> outputs{stripes, blended};
-  EXPECT_EQ(viewer::decided(outputs, operandsOf((a | b).distance), Expr(0.0)), outputs);
+TEST(Winner, LeavesWhatOperandsAndMaterialsChoose) {
+  const Shape a = painted(sphere(1.0), kRed), b = painted(translate(sphere(1.0), Vec3E(Expr(1.0))), kBlue);
+  const Shape operand = round(a | b, 0.1);  // takes its colour from its own operands
+  const Shape whole = unite(std::vector{a, b, operand});
+  const auto surface = viewer::decided(whole.surface, whole.distance, kWinner);
+  const Expr red = bind(surface[static_cast<std::size_t>(Attribute::Red)], {{"winner", 2.0}});
+  EXPECT_EQ(evaluate(Tape(red), {-0.8, 0.9, 0.0}), 1.0);
+  EXPECT_EQ(evaluate(Tape(red), {1.8, 0.9, 0.0}), 0.0);
 }
 
 /// Pictures of a scene drawn in groups and by one shader.
@@ -183,13 +202,6 @@ Scene lit(const Shape& shape) {
   return scene;
 }
 
-Shape painted(const Shape& shape, const glm::dvec3& color, double reflectivity = 0.0) {
-  Material m;
-  m.color = Vec3E(color);
-  m.reflectivity = reflectivity;
-  return shape.paint(m);
-}
-
 TEST(GroupedPicture, IsTheOneShadersOfAUnion) {
   expectSamePicture(lit(balls(100) | crates(70) | rarities()));
 }
@@ -211,6 +223,52 @@ TEST(GroupedPicture, HasPlanesOfTheirOwnColors) {
   scene.shadow.kind = Shadow::Kind::Soft;
   scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
   expectSamePicture(scene);
+}
+
+TEST(GroupedPicture, HasPlanesThatAreAlsoInTheUnion) {
+  const Shape floor = plane(Vec3E(Expr(0.0), Expr(1.0), Expr(0.0)), -0.4);
+  Scene scene = lit(painted(floor | balls(60), {0.8, 0.6, 0.2}));
+  scene.add("floor", painted(floor, kBlue));
+  scene.add("wall", painted(plane(Vec3E(Expr(0.0), Expr(0.0), Expr(1.0)), -2.5), {0.1, 0.7, 0.2}));
+  expectSamePicture(scene);
+}
+
+TEST(GroupedPicture, IsOneShadersOfManyPlanes) {
+  Scene scene;
+  for (int i = 0; i < 50; ++i)
+    scene.add("", plane(Vec3E(Expr(0.1 * i), Expr(1.0), Expr(0.3)), -1.0 - 0.01 * i));
+  EXPECT_TRUE(viewer::assemble(scene, {})->groups.empty());
+  EXPECT_EQ(renderOnGpu(scene, {}).size(), 160u * 90u);
+}
+
+// Boxes with their tops in one plane: the later ones show.
+TEST(GroupedPicture, ShowsTheLaterOfTwoCoincidentSurfaces) {
+  std::vector<Shape> slabs, stickers;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3E at(Expr(0.5 * (i % 8) - 1.8), Expr(0.0), Expr(0.5 * (i / 8) - 1.8));
+    slabs.push_back(translate(box(Vec3E(Expr(0.2), Expr(0.1), Expr(0.2))), at));
+    stickers.push_back(translate(box(Vec3E(Expr(0.12), Expr(0.1), Expr(0.12))), at));
+  }
+  Scene scene = lit(painted(unite(slabs), kBlue));
+  scene.add("stickers", painted(unite(stickers), kRed));
+  GpuRenderOptions options;
+  const auto red = [](const std::vector<glm::vec4>& pixels) {
+    return static_cast<double>(
+        std::count_if(pixels.begin(), pixels.end(), [](const glm::vec4& p) { return p.r > p.b; }));
+  };
+  const Both both = drawn(scene, options);
+  EXPECT_GT(red(both.whole), 500.0);
+  // Edges may be off by half the threshold: so much around 64 squares of this area.
+  const double edges = 0.5 * options.threshold * 4.0 * std::sqrt(64.0 * red(both.whole));
+  EXPECT_NEAR(red(both.grouped), red(both.whole), edges);
+}
+
+TEST(GroupedPicture, KnowsItsOwnNamesFromTheScenes) {
+  const Expr winner = Expr::parameter({"winner", 0.5, 0.0, 1.0}),
+             first = Expr::parameter({"0", 0.3, 0.0, 1.0});
+  Material m;
+  m.color = Vec3E(winner, first, Expr(0.1));
+  expectSamePicture(lit(unite(balls(60).paint(m), painted(rarities(), kBlue))));
 }
 
 TEST(GroupedPicture, HasMirrors) {

@@ -1,4 +1,5 @@
 // Rays where marching is hard: along surfaces, past thin things, and far from the origin.
+#include <algorithm>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
@@ -215,6 +216,25 @@ TEST(FarAway, ASceneIsDrawnFarFromTheOrigin) {
   scene.camera.from = Vec3E(kOff, 2.0, 7.0 - kOff);
   scene.camera.to = Vec3E(kOff, 0.0, -kOff);
   EXPECT_GE(againstTheCpu(scene), -10.0 * std::log10(moved * edges));
+}
+
+// Far away the sum of exponentials is 0, and the distance infinite.
+TEST(FarEnd, IsNotSeenWhereTheDistanceOverflows) {
+  const auto far = [](double x) { return length(position() - Vec3E(Expr(x), Expr(0.0), Expr(0.0))) - 1.0; };
+  Shape blend = sphere(2.0).paint(painted());
+  blend.distance = (-0.1 * log(exp(-10.0 * far(-0.6)) + exp(-10.0 * far(0.6)))).claimLipschitz(1.0);
+  blend.claim = {.kind = ClaimKind::Field, .lipschitz = 1.0};
+  for (const bool bounded : {false, true}) {
+    Scene scene = darkScene();
+    blend.bounds = bounded ? Box::centred(glm::dvec3(2.0)) : Box::everything();
+    scene.add("", blend);
+    const auto hits = [&](Method method) {
+      const auto picture = renderOnGpu(scene, materials(method));
+      return static_cast<double>(std::count_if(picture.begin(), picture.end(), isHit));
+    };
+    EXPECT_GT(hits(Method::Plain), 1000.0);
+    EXPECT_NEAR(hits(Method::AutoRelaxed), hits(Method::Plain), 0.01 * hits(Method::Plain)) << "edges";
+  }
 }
 
 }  // namespace

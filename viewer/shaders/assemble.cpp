@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <optional>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 
 #include "sdf/eval/scalar_reading.h"
@@ -19,20 +19,15 @@
 namespace sdf::viewer {
 namespace {
 
-constexpr const char* kWinner = "winner";  // the parts' variable, as a parameter
-
 constexpr const char* kAttributeNames[kAttributeCount] = {
     "RED",          "GREEN",          "BLUE",           "AMBIENT_RED",   "AMBIENT_GREEN", "AMBIENT_BLUE",
     "SPECULAR_RED", "SPECULAR_GREEN", "SPECULAR_BLUE",  "SHININESS",     "REFLECTIVITY",  "FRESNEL_POWER",
     "FRESNEL_BIAS", "EMISSION_RED",   "EMISSION_GREEN", "EMISSION_BLUE", "MATERIAL_ID"};
 
-std::string vector(const glm::dvec3& v) {
-  return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
-}
-
 /// A scene's half spaces, which rays meet without marching, and what else there is.
 struct Split {
   std::vector<Expr> planes;  ///< of each its distance, and how that changes along the direction in normal()
+  std::vector<Expr> asWritten;  ///< the planes' distances as the scene has them
   std::vector<Shape> others;
 };
 
@@ -44,6 +39,7 @@ Split split(const Scene& scene) {
       result.others.push_back(part.shape);
     } else {
       const Expr steep = length(g), once = steep.isConstant(1.0) ? Expr(1.0) : 1.0 / steep;
+      result.asWritten.push_back(part.shape.distance);
       result.planes.push_back(part.shape.distance * once);
       result.planes.push_back(dot(g, normal()) * once);
     }
@@ -82,14 +78,15 @@ Result<Read> read(Shape shape) {
 class Assembler {
  public:
   Assembler(const Scene& scene, const ShaderOptions& options, Read whole, std::optional<Read> rest,
-            std::vector<Expr> planes)
+            Split parts)
       : scene_(scene),
         options_(options),
         whole_(std::move(whole.shape)),
         unhoisted_(std::move(whole.unhoisted)),
         inverse_(whole.inverse),
         rest_(std::move(rest)),
-        planes_(std::move(planes)) {}
+        planes_(std::move(parts.planes)),
+        planesAsWritten_(std::move(parts.asWritten)) {}
 
   SceneShaders run() {
     SceneShaders result;
@@ -101,7 +98,7 @@ class Assembler {
     result.values = functions();
     if (cones && !fromHits_)
       result.cones = header(options_.es) + result.values.source() + defines(false) + parts::kCamera +
-                     parts::kRest + parts::kCones;
+                     parts::kRest + farEnd(restBounds()) + parts::kCones;
     result.tiled = cones && planes_.empty() && isPicture &&
                    (fromHits_ || topologicalOrder({&whole_.distance, 1}).size() < kLongProgram);
     const std::string body = isPicture ? picture(result.values) : debugView(result.values);
@@ -165,6 +162,7 @@ class Assembler {
       set("BOX_MIN", vector(restBounds().min));
       set("BOX_MAX", vector(restBounds().max));
     }
+    set("OPERANDS", number(operandsInAll_));
     set("PLANE_WINNER", planes_.empty() ? "0.0" : "sdfPlaneWinner(p, vec3(0.0))");
     set("SURFACE", !fromHits_  ? "sdfSurface(p, n, s);"
                    : mirrors() ? "if (bounce == 0) sdfTakenSurface(p, n, s); else sdfSurface(p, n, s);"
@@ -200,14 +198,15 @@ class Assembler {
   std::string marching() const {
     return std::string(parts::kCamera) + (readsDistance() ? parts::kField : "") +
            (readsDistance() ? parts::kRest : "") + (planes_.empty() ? parts::kNoPlanes : parts::kPlanes) +
-           (marches() ? parts::kMarch : "") + (fromHits_ ? parts::kTakenHits : "");
+           (marches() ? parts::kMarch : "") +
+           (fromHits_ ? std::string(parts::kFavoured) + parts::kTakenHits : "");
   }
 
   // Adds the surface's attributes.
   std::string surface(GlslWriter& writer) {
     if (marches()) addSurface(writer, "sdfSurface", whole_.surface);
     if (fromHits_) {
-      writer.substitute(kWinner, kWinner);
+      writer.substitute(hidden("winner"), "winner");
       addSurface(writer, "sdfTakenSurface", takenSurface_);
     }
     return filters_ ? parts::kFootprint : "";
@@ -239,15 +238,22 @@ class Assembler {
 
   // Makes ready for pictures from hits, too.
   std::vector<GroupShaders> groups() {
-    const Expr& marched = planes_.empty() ? unhoisted_ : rest_ ? rest_->unhoisted : unhoisted_;
-    const std::vector<Expr> all = operandsOf(unhoisted_), some = operandsOf(marched);
-    const std::unordered_set<Expr> isMarched(some.begin(), some.end());
+    if (!planes_.empty() && !rest_) return {};
+    const std::vector<Expr> all = operandsOf(unhoisted_);
+    std::unordered_map<Expr, double> numbers;
+    for (const Expr& e : all) numbers.emplace(e, static_cast<double>(numbers.size()));
     std::vector<Numbered> operands;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      (isMarched.contains(all[i]) ? operands : planeOperands_).push_back({all[i], static_cast<double>(i)});
-    takenSurface_ = decided(whole_.surface, all, Expr::parameter({kWinner, 0.0, 0.0, kInfinity}));
+    for (const Expr& e : operandsOf(rest_ ? rest_->unhoisted : unhoisted_)) {
+      if (!numbers.contains(e)) return {};  // the rest is read in another way
+      operands.push_back({e, numbers.at(e)});
+    }
+    for (const Expr& e : planesAsWritten_) planeOperands_.push_back({e, numbers.at(e)});
+    takenSurface_ =
+        decided(whole_.surface, unhoisted_, Expr::parameter({hidden("winner"), 0.0, 0.0, kInfinity}));
     const bool winners = !std::equal(takenSurface_.begin(), takenSurface_.end(), whole_.surface.begin());
-    return groupShaders(operands, winners, rest_ ? rest_->inverse : inverse_, options_);
+    operandsInAll_ = static_cast<double>(all.size());
+    return groupShaders(operands, operandsInAll_, winners, rest_ ? rest_->inverse : inverse_, restBounds(),
+                        options_);
   }
 
   const Box& restBounds() const { return rest_ ? rest_->shape.bounds : whole_.bounds; }
@@ -308,6 +314,8 @@ class Assembler {
   double inverse_;
   std::optional<Read> rest_;  // if there are planes, and more than planes
   std::vector<Expr> planes_;
+  std::vector<Expr> planesAsWritten_;
+  double operandsInAll_ = 0.0;
   std::vector<Numbered> planeOperands_;  // of the union's operands
   std::vector<Expr> takenSurface_;       // from the winner's number
   bool fromHits_ = false;                // what is written takes the groups' hits
@@ -334,7 +342,7 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
     if (!others) return others.error();
     rest = std::move(*others);
   }
-  return Assembler(scene, options, std::move(*whole), std::move(rest), std::move(parts.planes)).run();
+  return Assembler(scene, options, std::move(*whole), std::move(rest), std::move(parts)).run();
 }
 
 std::string forBackground(const std::string& picture) { return defining("BACKGROUND_ONLY", picture); }

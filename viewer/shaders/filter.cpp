@@ -5,14 +5,15 @@
 
 #include "sdf/base/box.h"
 #include "sdf/expr/gradient.h"
+#include "viewer/shaders/source.h"
 
 namespace sdf::viewer {
 namespace {
 
 // A parameter that the writer knows to be GLSL's.
 Expr pixelTerm(const std::string& term, GlslWriter& writer) {
-  writer.substitute(term, term);
-  return Expr::parameter({term, 0.0, -kInfinity, kInfinity});
+  writer.substitute(hidden(term), term);
+  return Expr::parameter({hidden(term), 0.0, -kInfinity, kInfinity});
 }
 
 // a * b, of which gradients leave much 0.

@@ -8,10 +8,12 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "sdf/base/box.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/hoist.h"
+#include "viewer/shaders/source.h"
 
 namespace sdf::viewer {
 namespace {
@@ -19,37 +21,38 @@ namespace {
 // Fewer like operands cost less together than the passes that would draw their groups.
 constexpr std::size_t kMany = 40;
 
-// Numbers that a group's parameters may be: every driver has room for 1024, and some are the scene's own.
-constexpr std::size_t kMostNumbers = 960;
+// Parameters of a group: drivers have room for 1024 numbers at least, and more follow from these.
+constexpr std::size_t kMostNumbers = 480;
 
-/// What the operands of a union have in common, and how they are made otherwise.
+// The same for operands that differ in nothing but constants.
+std::string kindOf(const Expr& operand) {
+  std::string kind;
+  std::unordered_map<Expr, std::size_t> places;
+  for (const Expr& node : topologicalOrder({&operand, 1})) {
+    const std::size_t place = places.size();
+    places.emplace(node, place);
+    kind += std::to_string(static_cast<int>(node.op()));
+    if (node.op() == Op::Variable) kind += "v" + std::to_string(static_cast<int>(node.variableIndex()));
+    for (int i = 0; i < arity(node.op()); ++i) kind += "," + std::to_string(places.at(node.arg(i)));
+    kind += ";";
+  }
+  return kind;
+}
+
+struct Placed {
+  Numbered operand;
+  glm::dvec3 place;
+};
+
+/// What operands of one kind have in common, and their other constants as parameters.
 class Likeness {
  public:
-  explicit Likeness(std::span<const Numbered> operands) {
+  explicit Likeness(std::span<const Placed> operands) {
     std::unordered_map<Expr, std::size_t> uses;
-    for (const Numbered& operand : operands)
-      for (const Expr& node : topologicalOrder({&operand.distance, 1})) ++uses[node];
+    for (const Placed& p : operands)
+      for (const Expr& node : topologicalOrder({&p.operand.distance, 1})) ++uses[node];
     for (const auto& [node, count] : uses)
-      if (count == operands.size()) common_.emplace(node, common_.size());
-  }
-
-  /// The same for operands that differ in nothing but constants.
-  std::string kindOf(const Expr& operand) const {
-    std::string kind;
-    std::unordered_map<Expr, std::size_t> places;
-    for (const Expr& node : topologicalOrder({&operand, 1})) {
-      const std::size_t place = places.size();
-      places.emplace(node, place);
-      if (const auto shared = common_.find(node); shared != common_.end()) {
-        kind += "common " + std::to_string(shared->second);
-      } else if (!node.isConstant()) {
-        kind += std::to_string(static_cast<int>(node.op()));
-        if (node.op() == Op::Variable) kind += "v" + std::to_string(static_cast<int>(node.variableIndex()));
-        for (int i = 0; i < arity(node.op()); ++i) kind += "," + std::to_string(places.at(node.arg(i)));
-      }
-      kind += ";";
-    }
-    return kind;
+      if (count == operands.size()) common_.insert(node);
   }
 
   /// Its constants that not all have.
@@ -82,13 +85,8 @@ class Likeness {
   }
 
  private:
-  std::unordered_map<Expr, std::size_t> common_;
+  std::unordered_set<Expr> common_;
   std::size_t parameters_ = 0;
-};
-
-struct Placed {
-  Numbered operand;
-  glm::dvec3 place;
 };
 
 // A point of its surface, or near it: that to which steps along the gradient lead from the origin.
@@ -120,6 +118,12 @@ struct Members {
   }
 };
 
+// A union's later operand wins a tie.
+void sortByNumber(std::span<Placed> all) {
+  std::sort(all.begin(), all.end(),
+            [](const Placed& a, const Placed& b) { return a.operand.number < b.operand.number; });
+}
+
 // How many of so many operands a group takes: half as many as there are groups then.
 std::size_t sizeOf(std::size_t operands, std::size_t numbersEach) {
   const auto root = static_cast<std::size_t>(std::lround(std::sqrt(0.5 * static_cast<double>(operands))));
@@ -144,28 +148,33 @@ void arrange(std::span<Placed> all, std::size_t size) {
 }  // namespace
 
 std::vector<Group> groupsOf(std::span<const Numbered> operands) {
-  Likeness likeness(operands);
   std::map<std::string, std::vector<Placed>> kinds;
-  for (const Numbered& e : operands) kinds[likeness.kindOf(e.distance)].push_back({e, placeOf(e.distance)});
+  for (const Numbered& e : operands) kinds[kindOf(e.distance)].push_back({e, placeOf(e.distance)});
   std::vector<Group> result;
-  Members others;
+  std::vector<Placed> others;
   for (auto& [kind, alike] : kinds) {
-    if (alike.size() < kMany) {
-      for (const Placed& p : alike) others.add(p.operand.distance, p.operand.number);
+    Likeness likeness(alike);
+    const std::size_t numbers = likeness.numbersOf(alike.front().operand.distance) + 1;
+    if (alike.size() < kMany || numbers > kMostNumbers) {
+      others.insert(others.end(), alike.begin(), alike.end());
       continue;
     }
-    const std::size_t size = sizeOf(alike.size(), likeness.numbersOf(alike.front().operand.distance) + 1);
+    const std::size_t size = sizeOf(alike.size(), numbers);
     arrange(alike, size);
     while (alike.size() % size != 0) alike.push_back(alike.back());
     for (std::size_t i = 0; i < alike.size(); i += size) {
-      Members group;
-      for (std::size_t k = i; k < i + size; ++k)
-        group.add(likeness.withParameters(alike[k].operand.distance),
-                  likeness.parameter(alike[k].operand.number));
-      result.push_back(group.joined());
+      const std::span group(alike.data() + i, size);
+      sortByNumber(group);
+      Members members;
+      for (const Placed& p : group)
+        members.add(likeness.withParameters(p.operand.distance), likeness.parameter(p.operand.number));
+      result.push_back(members.joined());
     }
   }
-  if (!others.distances.empty()) result.push_back(others.joined());
+  sortByNumber(others);
+  Members rest;
+  for (const Placed& p : others) rest.add(p.operand.distance, p.operand.number);
+  if (!others.empty()) result.push_back(rest.joined());
   return result;
 }
 

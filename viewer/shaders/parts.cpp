@@ -277,25 +277,32 @@ vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
 }
 )";
 
+// Within a quarter of how far off a ray may be when it hits.
+const char* const kFavoured = R"(
+float favoured(Ray ray, float t, float number) {
+  return t - 0.25 * (epsilon + threshold * pixelRadius * (ray.before + t)) * (number + 1.0) / OPERANDS;
+}
+)";
+
 const char* const kTakenHits = R"(
 uniform sampler2D hits;
+bool onPlane = false;
 
-// The first of what the groups' passes and the planes say of this pixel's ray.
+// The first of what the groups' passes and the planes say of this pixel's ray. Sets `winner`, too.
 float takenHit(Ray ray, float tMax, out int status, out int readings) {
-  float w = texelFetch(hits, ivec2(gl_FragCoord.xy), 0).w, t = min(w < 0.0 ? -1.0 - w : w, tMax);
-  float plane = planesFrom(ray);
+  vec4 hit = texelFetch(hits, ivec2(gl_FragCoord.xy), 0);
+  float t = min(hit.w < 0.0 ? -1.0 - hit.w : hit.w, tMax), plane = planesFrom(ray);
+  vec3 p = ray.origin + plane * ray.direction;
+  float number = floor(length(hit.xyz) - 0.5), planes = PLANE_WINNER;
+  onPlane = plane < tMax && favoured(ray, plane, planes) < favoured(ray, t, number);
+  winner = onPlane ? planes : number;
   readings = 0;
-  status = plane < t ? HIT : w < 0.0 ? BUDGET : t < tMax ? HIT : MISS;
-  return min(plane, t);
+  status = onPlane ? HIT : hit.w < 0.0 ? BUDGET : t < tMax ? HIT : MISS;
+  return onPlane ? plane : t;
 }
 
-// And sets `winner`, the number of the operand that is hit.
-vec3 takenNormal(vec3 p, float t) {
-  vec4 hit = texelFetch(hits, ivec2(gl_FragCoord.xy), 0);
-  float far = length(hit.xyz);
-  bool plane = t < (hit.w < 0.0 ? -1.0 - hit.w : hit.w);
-  winner = plane ? PLANE_WINNER : floor(far - 0.5);
-  return plane ? PLANE_NORMAL : hit.xyz / far;
+vec3 takenNormal(vec3 p) {
+  return onPlane ? PLANE_NORMAL : normalize(texelFetch(hits, ivec2(gl_FragCoord.xy), 0).xyz);
 }
 )";
 
@@ -318,7 +325,7 @@ vec3 radiance(Ray ray, float t, out bool budget) {
     }
     if (status == BUDGET) budget = true;
     vec3 p = ray.origin + t * ray.direction, d = ray.direction;
-    vec3 n = FIRST(takenNormal(p, t), normalAt(p, d));
+    vec3 n = FIRST(takenNormal(p), normalAt(p, d));
     float s[ATTRIBUTES];
     FOOTPRINT
     SURFACE
@@ -497,12 +504,12 @@ void main() {
   sdfTakeValues();
   Ray ray = rayThrough((floor(gl_FragCoord.xy - corner) + 0.5) * tile);
   float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
-  vec3 span = first ? vec3(0.0, 0.0, maxDistance) : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).rgb;
+  vec3 span = first ? vec3(0.0, 0.0, farEnd(ray, spread, widening)) : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).rgb;
   float t = span.x, end = span.z;
   bool back = false;  // from the end
   int readings = 0;
   while (readings < 64) {
-    if (t >= end) {
+    if (!back && t >= end) {
       t = maxDistance;
       break;
     }
@@ -513,6 +520,7 @@ void main() {
       if (back || !first) break;
       back = true;
     } else if (back) {
+      if (!(end - free > t)) break;  // something is at t: so far off this distance is not to be trusted
       end -= free;
     } else {
       t += free / (1.0 + widening);
@@ -537,8 +545,9 @@ void main() {
   ray.end = span.y;
   float t = march(ray, span.x, maxDistance - ray.before, status, readings);
   vec3 p = ray.origin + t * ray.direction;
-  hit = vec4((1.0 + WINNER) * normalAt(p, ray.direction), status == BUDGET ? -1.0 - t : t);
-  gl_FragDepth = status == MISS ? 1.0 : t / maxDistance;
+  float number = WINNER;
+  hit = vec4((1.0 + number) * normalAt(p, ray.direction), status == BUDGET ? -1.0 - t : t);
+  gl_FragDepth = status == MISS ? 1.0 : favoured(ray, t, number) / maxDistance;
   STORE_COUNTS
 }
 )";

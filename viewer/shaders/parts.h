@@ -39,6 +39,9 @@ extern const char* const kOcclusionTaps;
 extern const char* const kLightSettings;
 /// Phong's lights over the attributes s[]: direct(p, n, d, s).
 extern const char* const kLights;
+/// favoured(ray, t, number): t less a hair that grows with the operand's number, since of two operands that
+/// are hit at once the later shows.
+extern const char* const kFavoured;
 /// takenHit(...) and takenNormal(...): what the primary ray hits, from a texture. FIRST(taken, marched)
 /// chooses.
 extern const char* const kTakenHits;

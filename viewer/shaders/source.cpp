@@ -1,6 +1,7 @@
 #include "viewer/shaders/source.h"
 
 #include <cstdio>
+#include <glm/geometric.hpp>
 
 #include "sdf/expr/gradient.h"
 #include "viewer/shaders/parts.h"
@@ -18,8 +19,22 @@ std::string number(double v) {
   return std::string("float(") + text + ")";
 }
 
+std::string vector(const glm::dvec3& v) {
+  return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
+}
+
 std::string define(const std::string& name, const std::string& value) {
   return "#define " + name + " " + value + "\n";
+}
+
+std::string farEnd(const Box& bounds) {
+  const std::string head = "float farEnd(Ray ray, float spread, float widening) {\n";
+  constexpr double kBeyondFloats = 1e15;  // whose squares would be
+  if (!bounds.finite() || bounds.longestSide() > kBeyondFloats) return head + "  return maxDistance;\n}\n";
+  return head + "  float along = dot(" + vector(bounds.centre()) +
+         " - ray.origin, ray.direction);\n  float reach = along + " +
+         number(0.5 * glm::length(bounds.size())) + " + spread * ahead;\n" +
+         "  return widening < 0.5 ? clamp(reach / (1.0 - widening), 0.0, maxDistance) : maxDistance;\n}\n";
 }
 
 std::string normals(GlslWriter& writer, const Expr& distance) {

@@ -12,11 +12,39 @@ struct Row {
   std::size_t first, last;
 };
 
-std::optional<Row> together(const Row& a, const Row& b) {
-  if (a.last + 1 == b.first) return Row{a.first, b.last};
-  if (b.last + 1 == a.first) return Row{b.first, a.last};
-  return std::nullopt;
-}
+class Decider {
+ public:
+  Decider(const Expr& distance, Expr winner) : winner_(std::move(winner)) {
+    const std::vector<Expr> operands = operandsOf(distance);
+    for (std::size_t i = 0; i < operands.size(); ++i) rows_.emplace(operands[i], Row{i, i});
+    for (const Expr& e : topologicalOrder({&distance, 1})) {
+      if (e.op() != Op::Min) continue;
+      const auto a = rowOf(e.arg(0)), b = rowOf(e.arg(1));
+      if (a && b && a->last + 1 == b->first) rows_.emplace(e, Row{a->first, b->last});
+    }
+  }
+
+  // An attribute of what has this distance.
+  Expr decided(const Expr& attribute, const Expr& distance) const {
+    if (distance.op() != Op::Min || attribute.op() != Op::Select) return attribute;
+    const Expr choice = attribute.arg(0), a = distance.arg(0), b = distance.arg(1);
+    const auto first = rowOf(a), second = rowOf(b);
+    // As unite writes it: the second where it is no farther.
+    const bool ofUnion = choice.op() == Op::LessEqual && choice.arg(0) == b && choice.arg(1) == a;
+    if (!ofUnion || !first || !second || first->last >= second->first) return attribute;
+    return select(less(static_cast<double>(second->first) - 0.5, winner_), decided(attribute.arg(1), b),
+                  decided(attribute.arg(2), a));
+  }
+
+ private:
+  std::optional<Row> rowOf(const Expr& e) const {
+    const auto found = rows_.find(e);
+    return found == rows_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  Expr winner_;
+  std::unordered_map<Expr, Row> rows_;
+};
 
 }  // namespace
 
@@ -35,36 +63,10 @@ std::vector<Expr> operandsOf(const Expr& distance) {
   return result;
 }
 
-std::vector<Expr> decided(std::span<const Expr> outputs, std::span<const Expr> operands, const Expr& winner) {
-  std::unordered_map<Expr, Row> rows;
-  for (std::size_t i = 0; i < operands.size(); ++i) rows.emplace(operands[i], Row{i, i});
-  const auto rowOf = [&](const Expr& e) {
-    const auto found = rows.find(e);
-    return found == rows.end() ? std::nullopt : std::optional(found->second);
-  };
-  // What it is if the winner is on either side; elsewhere another comparison leaves this one out.
-  const auto decision = [&](const Expr& e) -> std::optional<Expr> {
-    if (e.op() != Op::Less && e.op() != Op::LessEqual) return std::nullopt;
-    const auto a = rowOf(e.arg(0)), b = rowOf(e.arg(1));
-    if (!a || !b) return std::nullopt;
-    const auto edge = [](std::size_t place) { return Expr(static_cast<double>(place) - 0.5); };
-    if (a->last < b->first) return less(winner, edge(b->first));
-    if (b->last < a->first) return less(edge(a->first), winner);
-    return std::nullopt;
-  };
-  std::unordered_map<Expr, Expr> made;
-  for (const Expr& e : topologicalOrder(outputs)) {
-    if (e.op() == Op::Min) {
-      const auto a = rowOf(e.arg(0)), b = rowOf(e.arg(1));
-      if (const auto both = a && b ? together(*a, *b) : std::nullopt) rows.emplace(e, *both);
-    }
-    std::vector<Expr> args;
-    for (int i = 0; i < arity(e.op()); ++i) args.push_back(made.at(e.arg(i)));
-    const auto known = decision(e);
-    made.emplace(e, known ? *known : args.empty() ? e : Expr::make(e.op(), args));
-  }
+std::vector<Expr> decided(std::span<const Expr> attributes, const Expr& distance, const Expr& winner) {
+  const Decider decider(distance, winner);
   std::vector<Expr> result;
-  for (const Expr& e : outputs) result.push_back(made.at(e));
+  for (const Expr& e : attributes) result.push_back(decider.decided(e, distance));
   return result;
 }
 

@@ -11,9 +11,9 @@ namespace sdf::viewer {
 /// it is no minimum. Cost: linear in the number of minima.
 std::vector<Expr> operandsOf(const Expr& distance);
 
-/// The outputs, where `winner`, the place of the least in `operands`, decides all comparisons between two of
-/// them, or two minima of some that stand in a row. It must stand where it does at the point of each reading.
-/// Cost: linear in the size of the graph.
-std::vector<Expr> decided(std::span<const Expr> outputs, std::span<const Expr> operands, const Expr& winner);
+/// A union's attributes, where `winner`, the place among operandsOf(distance) of the one that is least,
+/// decides what the union chose by its operands' distances. Choices that operands or materials make stay.
+/// Cost: linear in the number of minima.
+std::vector<Expr> decided(std::span<const Expr> attributes, const Expr& distance, const Expr& winner);
 
 }  // namespace sdf::viewer

@@ -111,7 +111,7 @@ Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers) 
   Expr least = hoisted(values.front()), number = numbers.front();
   for (std::size_t i = 1; i < values.size(); ++i) {
     const Expr value = hoisted(values[i]);
-    number = select(isLessEqual(least, value), number, numbers[i]);
+    number = select(isLessEqual(value, least), numbers[i], number);
     least = chosen(Op::Min, least, value);
   }
   return number;

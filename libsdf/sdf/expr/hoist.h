@@ -15,7 +15,7 @@ namespace sdf {
 Expr hoisted(const Expr& e);
 
 /// The number of the least value, comparing what is left of two values without the functions that both are
-/// of: the first such where these arguments are equal, any where only the functions round them to one value.
+/// of: the last such where these arguments are equal, any where only the functions round them to one value.
 /// As many numbers as values, at least one. Cost: linear in the size of the graphs.
 Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers);
 
