@@ -73,7 +73,7 @@ class Headless {
                                   {"compile_ms", renderer->compileSeconds() * 1e3},
                                   {"first_frame_ms", first},
                                   {"frame_ms", times[times.size() / 2]},
-                                  {"shader_bytes", renderer->shaders().picture.size()},
+                                  {"shader_bytes", renderer->shaders().bytes()},
                                   {"readings_a_ray",
                                    {{"primary", readings->primary},
                                     {"shadow", readings->shadow},

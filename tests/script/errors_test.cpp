@@ -164,6 +164,7 @@ TEST(Errors, ValuesThatMakeNoSenseAreRefused) {
        "scene.lua:1: shadows: 'kind' must be one of \"none\", \"hard\", \"soft\", "
        "\"improved\" or \"signed\", got a string \"sharp\""},
       {"gamma(0)", "scene.lua:1: gamma must be positive, got 0"},
+      {"max_distance(1e20)", "scene.lua:1: max_distance must be at most 1e15, got 1e+20"},
       {"bounds({1, 1, 1}, {0, 2, 2})",
        "scene.lua:1: bounds: the first corner must be below the second on every axis"},
       {"return sphere(1):paint{shininess = 0}",

@@ -76,8 +76,7 @@ void Gui::statistics(const Session& session, const Canvas& canvas, Requests& req
   ImGui::Text("%.1f ms a frame, %d x %d, %d samples", 1e3 * frame.seconds, frame.width, frame.height,
               frame.samples * frame.samples);
   const Renderer& renderer = session.renderer();
-  ImGui::Text("shaders: %zu bytes, compiled in %.0f ms",
-              renderer.shaders().picture.size() + renderer.shaders().cones.size(),
+  ImGui::Text("shaders: %zu bytes, compiled in %.0f ms", renderer.shaders().bytes(),
               1e3 * renderer.compileSeconds());
   if (frame.outOfSteps) ImGui::Text("%.2f %% of the pixels ran out of steps", 100.0 * *frame.outOfSteps);
   requests.measure |= ImGui::Button("Count readings (M)");

@@ -330,6 +330,12 @@ std::string defining(const std::string& name, const std::string& shader) {
 
 }  // namespace
 
+std::size_t SceneShaders::bytes() const {
+  std::size_t sum = picture.size() + cones.size();
+  for (const GroupShaders& group : groups) sum += group.cones.size() + group.hits.size();
+  return sum;
+}
+
 Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) {
   if (const auto sound = checked(scene); !sound) return sound.error();
   auto whole = read(scene.whole());

@@ -48,6 +48,9 @@ struct SceneShaders {
   bool counted = false;              ///< countReadings
   bool tiled = false;                ///< where the cones saw nothing, there is only background
   std::vector<GroupShaders> groups;  ///< of a wide union, from whose hits the picture is drawn; else none
+
+  /// Of all that is drawn with.
+  std::size_t bytes() const;
 };
 
 /// Errors (Scene): what `checked` finds, and a shape whose distance has no known slope.

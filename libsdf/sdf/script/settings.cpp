@@ -124,7 +124,13 @@ double positiveArgument(lua_State* L) {
   if (!(v > 0.0)) raise(L, subject(L) + " must be positive, got " + numberText(v));
   return v;
 }
-int setMaxDistance(lua_State* L) { return contextOf(L).scene.maxDistance = positiveArgument(L), 0; }
+int setMaxDistance(lua_State* L) {
+  constexpr double kMost = 1e15;  // the squares of more are beyond a GPU's floats
+  const double v = positiveArgument(L);
+  if (v > kMost) raise(L, subject(L) + " must be at most 1e15, got " + numberText(v));
+  contextOf(L).scene.maxDistance = v;
+  return 0;
+}
 int setGamma(lua_State* L) { return contextOf(L).scene.gamma = positiveArgument(L), 0; }
 
 int setBounds(lua_State* L) {
