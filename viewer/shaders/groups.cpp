@@ -39,18 +39,13 @@ std::string kindOf(const Expr& operand) {
   return kind;
 }
 
-struct Placed {
-  Numbered operand;
-  glm::dvec3 place;
-};
-
 /// What operands of one kind have in common, and their other constants as parameters.
 class Likeness {
  public:
-  explicit Likeness(std::span<const Placed> operands) {
+  explicit Likeness(std::span<const Numbered> operands) {
     std::unordered_map<Expr, std::size_t> uses;
-    for (const Placed& p : operands)
-      for (const Expr& node : topologicalOrder({&p.operand.distance, 1})) ++uses[node];
+    for (const Numbered& operand : operands)
+      for (const Expr& node : topologicalOrder({&operand.distance, 1})) ++uses[node];
     for (const auto& [node, count] : uses)
       if (count == operands.size()) common_.insert(node);
   }
@@ -89,6 +84,11 @@ class Likeness {
   std::size_t parameters_ = 0;
 };
 
+struct Placed {
+  Numbered operand;
+  glm::dvec3 place;
+};
+
 // A point of its surface, or near it: that to which steps along the gradient lead from the origin.
 glm::dvec3 placeOf(const Expr& operand) {
   constexpr int kSteps = 8;
@@ -119,10 +119,7 @@ struct Members {
 };
 
 // A union's later operand wins a tie.
-void sortByNumber(std::span<Placed> all) {
-  std::sort(all.begin(), all.end(),
-            [](const Placed& a, const Placed& b) { return a.operand.number < b.operand.number; });
-}
+bool inOrder(const Numbered& a, const Numbered& b) { return a.number < b.number; }
 
 // How many of so many operands a group takes: half as many as there are groups then.
 std::size_t sizeOf(std::size_t operands, std::size_t numbersEach) {
@@ -145,35 +142,42 @@ void arrange(std::span<Placed> all, std::size_t size) {
   arrange(all.subspan(cut), size);
 }
 
+// Adds the groups of one kind, unless it has too many numbers.
+bool split(std::span<const Numbered> alike, std::vector<Group>& result) {
+  Likeness likeness(alike);
+  const std::size_t numbers = likeness.numbersOf(alike.front().distance) + 1;
+  if (numbers > kMostNumbers) return false;
+  std::vector<Placed> placed;
+  for (const Numbered& e : alike) placed.push_back({e, placeOf(e.distance)});
+  const std::size_t size = sizeOf(placed.size(), numbers);
+  arrange(placed, size);
+  while (placed.size() % size != 0) placed.push_back(placed.back());
+  for (std::size_t i = 0; i < placed.size(); i += size) {
+    const std::span group(placed.data() + i, size);
+    std::sort(group.begin(), group.end(),
+              [](const Placed& a, const Placed& b) { return inOrder(a.operand, b.operand); });
+    Members members;
+    for (const Placed& p : group)
+      members.add(likeness.withParameters(p.operand.distance), likeness.parameter(p.operand.number));
+    result.push_back(members.joined());
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<Group> groupsOf(std::span<const Numbered> operands) {
-  std::map<std::string, std::vector<Placed>> kinds;
-  for (const Numbered& e : operands) kinds[kindOf(e.distance)].push_back({e, placeOf(e.distance)});
+  std::map<std::string, std::vector<Numbered>> kinds;
+  for (const Numbered& e : operands) kinds[kindOf(e.distance)].push_back(e);
   std::vector<Group> result;
-  std::vector<Placed> others;
-  for (auto& [kind, alike] : kinds) {
-    Likeness likeness(alike);
-    const std::size_t numbers = likeness.numbersOf(alike.front().operand.distance) + 1;
-    if (alike.size() < kMany || numbers > kMostNumbers) {
+  std::vector<Numbered> others;
+  for (const auto& [kind, alike] : kinds) {
+    if (alike.size() < kMany || !split(alike, result))
       others.insert(others.end(), alike.begin(), alike.end());
-      continue;
-    }
-    const std::size_t size = sizeOf(alike.size(), numbers);
-    arrange(alike, size);
-    while (alike.size() % size != 0) alike.push_back(alike.back());
-    for (std::size_t i = 0; i < alike.size(); i += size) {
-      const std::span group(alike.data() + i, size);
-      sortByNumber(group);
-      Members members;
-      for (const Placed& p : group)
-        members.add(likeness.withParameters(p.operand.distance), likeness.parameter(p.operand.number));
-      result.push_back(members.joined());
-    }
   }
-  sortByNumber(others);
+  std::sort(others.begin(), others.end(), inOrder);
   Members rest;
-  for (const Placed& p : others) rest.add(p.operand.distance, p.operand.number);
+  for (const Numbered& e : others) rest.add(e.distance, e.number);
   if (!others.empty()) result.push_back(rest.joined());
   return result;
 }

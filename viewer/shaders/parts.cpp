@@ -31,6 +31,9 @@ Ray rayThrough(vec2 pixel) {
   float far = length(way);
   return Ray(from + ahead * across, way / far, ahead * far, 1e30);
 }
+
+// How near a surface counts as hit at t.
+float hitDistance(Ray ray, float t) { return epsilon + threshold * pixelRadius * (ray.before + t); }
 )";
 
 const char* const kField = R"(
@@ -114,7 +117,7 @@ float march(Ray ray, float t, float tMax, out int status, out int readings) {
     }
     if (z > 0.0) slope += 0.3 * ((next - r) / z - slope);
     t += z;
-    float near = epsilon + threshold * pixelRadius * (ray.before + t);
+    float near = hitDistance(ray, t);
     if (next <= near) {
       if (z > 0.0 && next < r) t += clamp(next * z / (r - next), -z, 4.0 * near);  // where the secant meets 0
       status = HIT;
@@ -280,7 +283,7 @@ vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
 // Within a quarter of how far off a ray may be when it hits.
 const char* const kFavoured = R"(
 float favoured(Ray ray, float t, float number) {
-  return t - 0.25 * (epsilon + threshold * pixelRadius * (ray.before + t)) * (number + 1.0) / OPERANDS;
+  return t - 0.25 * hitDistance(ray, t) * (number + 1.0) / OPERANDS;
 }
 )";
 
@@ -343,7 +346,7 @@ vec3 radiance(Ray ray, float t, out bool budget) {
     total += through * mix(fogColor, (1.0 - mirror) * local, clear);
     through *= clear * mirror;
     if (max(through.r, max(through.g, through.b)) < 1.0 / 1024.0) break;
-    float off = 2.0 * (epsilon + threshold * pixelRadius * (ray.before + t));
+    float off = 2.0 * hitDistance(ray, t);
     ray = Ray(p + off * n, reflect(d, n), ray.before + t, 1e30);
     t = 0.0;
     tMax = maxDistance;
@@ -394,101 +397,6 @@ vec3 colorOf(Ray ray, float t, out bool budget) {
 #else
 vec3 colorOf(Ray ray, float t, out bool budget) { return radiance(ray, t, budget); }
 #endif
-)";
-
-const char* const kHit = R"(
-// The primary ray of a debug view.
-bool hit(Ray ray, inout float t, out bool budget, out int readings) {
-  int status;
-  t = march(ray, t, maxDistance - ray.before, status, readings);
-  budget = status == BUDGET;
-  COUNT_PRIMARY
-  return status != MISS;
-}
-const vec3 NOTHING = vec3(0.1);
-)";
-
-const char* const kNormalsView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  return 0.5 + 0.5 * normalAt(ray.origin + t * ray.direction, ray.direction);
-}
-)";
-
-const char* const kStepsView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  hit(ray, t, budget, readings);
-  if (budget) return vec3(1.0, 0.0, 1.0);
-  float share = log2(1.0 + float(readings)) / log2(1.0 + float(maxSteps));
-  return clamp(1.5 - abs(4.0 * share - vec3(3.0, 2.0, 1.0)), 0.0, 1.0);
-}
-)";
-
-const char* const kSliceView = R"(
-uniform vec3 slicePoint, sliceNormal;
-uniform float isolines;  // their spacing
-
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  budget = false;
-  t = dot(slicePoint - ray.origin, sliceNormal) / dot(ray.direction, sliceNormal);
-  if (!(ray.before + t > 0.0)) return NOTHING;
-  float f = sdfDistance(ray.origin + t * ray.direction, vec3(0.0));
-  float pixel = 1.5 * pixelRadius * (ray.before + t);
-  float phase = f / isolines, off = abs(phase - floor(phase + 0.5)) * isolines;
-  vec3 c = (f > 0.0 ? vec3(0.9, 0.6, 0.3) : vec3(0.35, 0.6, 0.95)) * (1.0 - 0.8 * exp(-abs(f) / isolines));
-  c *= mix(0.6, 1.0, clamp(off / pixel, 0.0, 1.0));
-  return mix(vec3(1.0), c, clamp(abs(f) / (2.0 * pixel), 0.0, 1.0));
-}
-)";
-
-const char* const kGradientView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  float off = clamp(length(gradientAt(ray.origin + t * ray.direction)) - 1.0, -1.0, 1.0);
-  return vec3(max(off, 0.0), 1.0 - abs(off), max(-off, 0.0));
-}
-)";
-
-const char* const kMaterialView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = normalAt(p, d);
-  float s[ATTRIBUTES];
-  FOOTPRINT
-  sdfSurface(p, n, s);
-  return vec3(s[RED], s[GREEN], s[BLUE]);
-}
-)";
-
-const char* const kOcclusionView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  vec3 p = ray.origin + t * ray.direction, n = normalAt(p, ray.direction);
-  return vec3(OCCLUSION * STEP_OCCLUSION);
-}
-)";
-
-const char* const kShadowView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  vec3 p = ray.origin + t * ray.direction;
-  float arrives = 0.0, asked = 0.0;
-  for (int i = 0; i < LIGHTS; ++i) {
-    vec3 way = lightVector[i].xyz - lightVector[i].w * p;
-    float far = length(way), light = lightColor[i].w;
-    vec3 l = way / far;
-    if (light == 0.0) continue;
-    asked += 1.0;
-    arrives += shadow(p, l, lightVector[i].w > 0.0 ? min(shadowReach, far) : shadowReach);
-  }
-  return vec3(asked > 0.0 ? arrives / asked : 1.0);
-}
 )";
 
 // Two rays through one tile are no farther apart at equal t than their pixels' distance times

@@ -4,7 +4,7 @@
 
 namespace sdf::viewer::parts {
 
-/// The frame's uniforms, and rayThrough(pixel).
+/// The frame's uniforms, rayThrough(pixel) and hitDistance(ray, t).
 extern const char* const kCamera;
 /// Of sdfDistance: field(p), the radius of the ball around p that is free of the surface.
 extern const char* const kField;
