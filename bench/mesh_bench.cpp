@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "dense.h"
-#include "sdf/mesh/color.h"
 #include "sdf/mesh/narrow_band.h"
 #include "shapes.h"
 
@@ -20,10 +19,8 @@ constexpr double kSlope[kCompared] = {1.0, 1.0, 1.0, 1.54, 1.0};
 
 // From the shape to triangles, as the mesher does it.
 std::size_t meshSparsely(const Shape& shape, const Box& bounds, double voxelSize) {
-  const auto tape = std::make_shared<const Tape>(surfaceOutputs(shape));
-  const double slope = shape.claim.region.contains(bounds) ? shape.claim.lipschitz : kInfinity;
   Progress progress;
-  Result<NarrowBand> band = sampleNarrowBand(tape, {voxelSize, bounds, slope, kInfinity}, progress);
+  Result<NarrowBand> band = sampleNarrowBand(Model(shape).at(), {voxelSize, bounds, kInfinity}, progress);
   if (!band) {
     std::fprintf(stderr, "%s\n", band.error().message.c_str());
     std::exit(1);

@@ -8,11 +8,10 @@
 namespace sdf::test {
 namespace {
 
-// Numbers found nowhere else, for a false fact stays with its node.
 constexpr double kRadius = 0.7351;
 
 Shape claimed(Shape s, ClaimKind kind, double lipschitz, double growth = kInfinity) {
-  s.claim = {kind, lipschitz, Box::everything(), growth};
+  s.claim = {kind, lipschitz, growth};
   return s;
 }
 

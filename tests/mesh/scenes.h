@@ -58,12 +58,12 @@ inline Shape strewn(int count, double radius, bool painted = false) {
 /// A ring through a sheet that is thinner than most voxels.
 inline Shape ringAndSheet() { return torus(1.2, 0.05) | box({1.5, 1.5, 0.01}); }
 
-inline TapePtr tapeOf(const Shape& s) { return std::make_shared<const Tape>(surfaceOutputs(s)); }
+inline TapePtr tapeOf(const Shape& s) { return Model(s).at().whole(); }
 inline LocalTapes wholeTapes(const TapePtr& tape) { return {tape, tape->firstOutputOnly()}; }
 
 inline Result<NarrowBand> tryBand(const Shape& s, const Box& bounds, double voxel, Progress& progress,
                                   double maxMemory = kPlentyOfMemory) {
-  return sampleNarrowBand(tapeOf(s), {voxel, bounds, s.claim.lipschitz, maxMemory}, progress);
+  return sampleNarrowBand(Model(s).at(), {voxel, bounds, maxMemory}, progress);
 }
 
 inline NarrowBand bandOf(const Shape& s, const Box& bounds, double voxel) {

@@ -64,7 +64,7 @@ struct PointScene {
 
   PointScene(const Shape& shape, std::size_t leaves) : tape(tapeOf(shape)), whole(wholeTapes(tape)) {
     Progress progress;
-    band = sampleNarrowBand(tape, {kVoxel, region(2.0), kInfinity, kPlentyOfMemory}, progress).value();
+    band = sampleNarrowBand(Model(shape).at(), {kVoxel, region(2.0), kPlentyOfMemory}, progress).value();
     const RawSurface surface = band.extract();
     points = fullLeaves(surface, kVoxel, leaves, 7);
     points.insert(points.end(), surface.points.begin(), surface.points.end());

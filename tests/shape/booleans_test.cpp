@@ -387,17 +387,5 @@ TEST(Booleans, OfAFieldWithNoConstantStayAField) {
   EXPECT_EQ(s.claim.lipschitz, kInfinity);
 }
 
-TEST(Booleans, IntersectTheRegionsOfTheirOperandsClaims) {
-  Shape a = field(square(kX), cube(2.0)), b = a;
-  a.claim = {ClaimKind::Field, 4.0, cube(2.0)};
-  b.claim = {ClaimKind::Field, 3.0, Box{{-1.0, -9.0, -9.0}, {9.0, 9.0, 9.0}}};
-  b.distance = b.distance + 1.0;
-  const Shape s = a | b;
-  EXPECT_EQ(s.claim.lipschitz, 4.0);
-  EXPECT_EQ(s.claim.region.min.x, -1.0);
-  EXPECT_EQ(s.claim.region.max.x, 2.0);
-  EXPECT_EQ(s.distance.lipschitz(), kInfinity) << "a constant of a region must not become the node's";
-}
-
 }  // namespace
 }  // namespace sdf

@@ -222,14 +222,5 @@ TEST(Place, PassesOnAFailure) {
     EXPECT_EQ(*s.error, "bad");
 }
 
-TEST(Place, GivesUpAConstantThatHoldsOverARegionOnly) {
-  Shape s = field(square(kX), cube(2.0));
-  s.claim = {ClaimKind::Field, 4.0, cube(2.0)};
-  for (const Shape& moved : {translate(s, Vec3E(1.0)), rotate(s, Vec3E(0.3)), scale(s, 2.0)}) {
-    EXPECT_EQ(moved.claim.lipschitz, kInfinity);
-    EXPECT_EQ(moved.distance.lipschitz(), kInfinity);
-  }
-}
-
 }  // namespace
 }  // namespace sdf

@@ -100,7 +100,6 @@ class Chunk {
     const Claim& claim = bench_.of.shape.claim;
     const double step = bench_.make.size() * std::pow(10.0, uniform(random, -4.0, -0.5));
     const glm::dvec3 q = p + step * randomDirection(random);
-    if (!claim.region.contains({p, p}) || !claim.region.contains({q, q})) return;
     const double quotient = std::abs(value(q) - f) / step;
     found_.lipschitz = std::max(found_.lipschitz, quotient);
     const double most = claim.lipschitz * (1.0 + rounding(p) / step);

@@ -57,8 +57,7 @@ struct Read {
 /// With the slope that the shape claims everywhere, or else the one that its formula has near its bounds.
 /// Beyond these the formula may be steeper; there the way to the bounds is free.
 Result<Read> read(Shape shape) {
-  double slope = shape.claim.region.contains(Box::everything()) ? shape.claim.lipschitz : kInfinity;
-  if (slope == kInfinity) slope = shape.distance.lipschitz();
+  double slope = slopeOf(shape);
   if (slope == kInfinity && shape.bounds.finite()) {
     const Box near = shape.bounds.grown(0.5 * shape.bounds.longestSide());
     slope = lipschitzOver(Tape(shape.distance), near);

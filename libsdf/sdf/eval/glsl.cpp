@@ -3,8 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sdf/eval/scalar_reading.h"
-#include "sdf/eval/tape.h"
+#include "sdf/expr/apply-inl.h"
 
 namespace sdf {
 namespace {
@@ -103,15 +102,17 @@ Code squareAdd(const Code& a, const Code& c) { return mulAdd(a, a, c); }
 }  // namespace
 
 /// Writes the body of one function: a line for each node that depends on space.
-class GlslWriter::Function {
+class GlslWriter::Body {
  public:
-  explicit Function(GlslWriter& writer) : writer_(writer) {}
+  explicit Body(GlslWriter& writer) : writer_(writer) {}
 
   void write(std::span<const Expr> outputs) {
     for (const Expr& e : topologicalOrder(outputs)) {
       if (!inSpace(e)) continue;
       if (e.op() == Op::Variable) {
         names_[e] = kVariables[static_cast<int>(e.variableIndex())];
+      } else if (e.op() == Op::Claim) {
+        names_[e] = name(e.arg(0));
       } else if (e.op() == Op::Parameter) {
         names_[e] = writer_.terms_.at(e.parameterInfo().name);
       } else {
@@ -150,7 +151,7 @@ class GlslWriter::Function {
 };
 
 void GlslWriter::add(const std::string& name, std::span<const Expr> outputs) {
-  Function function(*this);
+  Body function(*this);
   function.write(outputs);
   const std::size_t count = outputs.size();
   const bool returns = count == 1 || count == 3;
@@ -201,25 +202,11 @@ std::string GlslWriter::source() const {
   return text + functions_;
 }
 
-std::vector<float> GlslWriter::uniformValues(const std::map<std::string, double>& parameters) const {
-  std::vector<Expr> bound;
-  std::vector<float> values;
-  std::vector<std::size_t> computed;
-  for (const Expr& e : uniforms_) {
-    if (e.op() == Op::Parameter) {
-      const auto found = parameters.find(e.parameterInfo().name);
-      const double value = found == parameters.end() ? e.parameterInfo().value : found->second;
-      values.push_back(static_cast<float>(value));
-    } else {
-      computed.push_back(values.size());
-      values.push_back(0.0f);
-      bound.push_back(bind(e, parameters));
-    }
-  }
-  const std::vector<double> results = evaluateAll(Tape(bound), {});
-  for (std::size_t i = 0; i < computed.size(); ++i) values[computed[i]] = static_cast<float>(results[i]);
-  values.resize((values.size() + 3) / 4 * 4);
-  return values;
+std::vector<float> GlslWriter::uniformValues(const Values& values) const {
+  const std::vector<double> numbers = uniforms().uniform(values);
+  std::vector<float> floats(numbers.begin(), numbers.end());
+  floats.resize((floats.size() + 3) / 4 * 4);
+  return floats;
 }
 
 }  // namespace sdf

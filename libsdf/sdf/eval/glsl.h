@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sdf/expr/expr.h"
+#include "sdf/eval/function.h"
 
 namespace sdf {
 
@@ -35,12 +35,14 @@ class GlslWriter {
   /// Declarations and functions, without `#version` and precision. `main` must call sdfTakeValues() before
   /// any of them.
   std::string source() const;
-  /// Values of the uniform `vec4 sdfValues[]`, in order, filled up to whole vectors: parameters have these
-  /// values or, where they are not named, their present ones. Empty if there is no such uniform.
-  std::vector<float> uniformValues(const std::map<std::string, double>& parameters) const;
+  /// The function whose outputs the uniform `vec4 sdfValues[]` holds, in order; it has none where the source
+  /// has no such uniform. Readings of many frames keep it.
+  Function uniforms() const { return Function(uniforms_); }
+  /// The uniform's values where inputs have these values, filled up to whole vectors.
+  std::vector<float> uniformValues(const Values& values) const;
 
  private:
-  class Function;
+  class Body;
   std::string uniform(const Expr& e);
   std::string commentOf(const Expr& e) const;
 

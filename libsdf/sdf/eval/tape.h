@@ -60,36 +60,35 @@ enum class Decision : std::uint8_t {
   Second  ///< the other way round
 };
 
+/// Immutable, and cheap to copy: copies and specialised tapes share what they can.
 class Tape {
  public:
-  /// Compiles the outputs, sharing common parts, folding parameters at their present values, and fusing
-  /// operations (e.g. sqrt of a sum of squares). Cost: linear in the size of the graph.
+  /// Compiles the outputs with parameters at their defaults; see Function for other values.
   explicit Tape(std::span<const Expr> outputs);
   explicit Tape(const Expr& output) : Tape(std::span(&output, 1)) {}
 
-  const std::vector<Instruction>& instructions() const { return instructions_; }
-  const std::vector<Operand>& outputs() const { return outputs_; }
+  const std::vector<Instruction>& instructions() const { return code_->instructions; }
+  const std::vector<Operand>& outputs() const { return code_->outputs; }
   double constant(std::size_t i) const { return pool_->doubles[i]; }
-  const double* doubles() const { return pool_->doubles.data(); }
   const float* floats() const { return pool_->floats.data(); }
 
   /// Register form of the tape, for the batch readings.
-  const std::vector<RegisterInstruction>& program() const { return program_; }
+  const std::vector<RegisterInstruction>& program() const { return code_->program; }
   /// Registers used by program(), variables included.
-  std::uint32_t registerCount() const { return registerCount_; }
+  std::uint32_t registerCount() const { return code_->registerCount; }
   /// Registers (or constants) that hold the outputs at the end.
-  const std::vector<Operand>& programOutputs() const { return programOutputs_; }
+  const std::vector<Operand>& programOutputs() const { return code_->programOutputs; }
 
   /// Instructions that can be decided (isChoice or isComparison); decisions are given in their order on the
   /// tape.
-  std::size_t decisionCount() const { return decisionCount_; }
+  std::size_t decisionCount() const { return code_->decisionCount; }
   /// Slope bound of output i.
-  float lipschitz(std::size_t output = 0) const { return slope(outputs_[output]); }
+  float lipschitz(std::size_t output = 0) const { return code_->slope(outputs()[output]); }
   /// Slope bound of an operand's value.
-  float slope(Operand operand) const;
+  float slope(Operand operand) const { return code_->slope(operand); }
   /// True where every decision can be taken from slopes alone (all min, max and comparisons have finite slope
   /// bounds).
-  bool hasSlopes() const { return hasSlopes_; }
+  bool hasSlopes() const { return code_->hasSlopes; }
 
   /// The tape with decided branches dropped, and all that only they needed. Values are unchanged wherever the
   /// decisions hold (the batch reading's up to its rounding, as other operations may be fused). nullptr where
@@ -99,30 +98,40 @@ class Tape {
   std::shared_ptr<const Tape> firstOutputOnly() const;
 
  private:
+  friend class TapeCompiler;
+  friend class Function;
+  friend class UnionTapes;
+
   struct Pool {
     std::vector<double> doubles;  // 0 and 1 come first: what a decided comparison turns into
     std::vector<float> floats;
   };
+  struct Code {
+    std::vector<Instruction> instructions;
+    std::vector<Operand> outputs;
+    std::vector<RegisterInstruction> program;
+    std::vector<Operand> programOutputs;
+    std::uint32_t registerCount = 0;
+    std::size_t decisionCount = 0;
+    bool hasSlopes = true;
 
-  Tape() = default;
+    float slope(Operand operand) const;
+    // Slope bound that follows from the arguments alone, for the operations that join branches: a branch
+    // that jumps may have been dropped since the graph was built.
+    float inheritedSlope(const Instruction& instruction) const;
+    // Derives all else from instructions and outputs.
+    void finish();
+    void allocateRegisters();
+  };
+
+  Tape(std::shared_ptr<const Code> code, std::shared_ptr<const Pool> pool)
+      : code_(std::move(code)), pool_(std::move(pool)) {}
   // The instructions that `outputs` need, each value replaced by what `known` says it is.
   std::shared_ptr<const Tape> reduced(const std::vector<Operand>& known,
                                       std::span<const Operand> outputs) const;
-  // Slope bound that follows from the arguments alone, for the operations that join branches: a branch that
-  // jumps may have been dropped since the graph was built.
-  float inheritedSlope(const Instruction& instruction) const;
-  void finish();
-  void allocateRegisters();
 
-  std::vector<Instruction> instructions_;
-  std::vector<Operand> outputs_;
+  std::shared_ptr<const Code> code_;
   std::shared_ptr<const Pool> pool_;
-  std::vector<RegisterInstruction> program_;
-  std::vector<Operand> programOutputs_;
-  std::uint32_t registerCount_ = 0;
-  std::size_t decisionCount_ = 0;
-  bool hasSlopes_ = true;
-  friend class TapeCompiler;
 };
 
 using TapePtr = std::shared_ptr<const Tape>;

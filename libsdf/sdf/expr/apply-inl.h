@@ -76,7 +76,7 @@ auto apply(const Ts&... args) {
   return Apply<op>::of(args...);
 }
 
-/// Calls f with the tag of `op`, which must not be a leaf.
+/// Calls f with the tag of `op`, which must be an operation of ops.def.
 template <class F>
 void dispatch(Op op, F&& f) {
   switch (op) {
@@ -92,9 +92,10 @@ void dispatch(Op op, F&& f) {
   }
 }
 
-/// The value of `op` where args(i) yields its i-th argument.
+/// The value of `op` where args(i) yields its i-th argument. Every reading passes through a claim.
 template <class T, class Args>
 T evaluateOp(Op op, Args&& args) {
+  if (op == Op::Claim) return args(0);
   T result{};
   dispatch(op, [&]<class Tag>(Tag tag) {
     result = [&]<int... i>(std::integer_sequence<int, i...>) { return apply<tag.op>(args(i)...); }

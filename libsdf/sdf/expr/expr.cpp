@@ -27,7 +27,7 @@ class Node {
   std::array<const Node*, kMaxGraphArity> args{};
   std::size_t hash = 0;
   Interval range;
-  mutable std::atomic<double> lipschitz{0.0};
+  double lipschitz = 0.0;
   mutable std::atomic<int> references{1};
 };
 
@@ -57,10 +57,7 @@ struct Same {
 
 using Fact = Dual<Interval, 1>;  // range and slope, over all of space
 
-Fact factOf(const Node& n) {
-  const double l = n.lipschitz;
-  return {n.range, {Interval(-l, l)}};
-}
+Fact factOf(const Node& n) { return {n.range, {Interval(-n.lipschitz, n.lipschitz)}}; }
 
 void setFacts(Node& n) {
   switch (n.op) {
@@ -79,6 +76,10 @@ void setFacts(Node& n) {
       n.lipschitz = coordinate ? 1.0 : inf;
       return;
     }
+    case Op::Claim:
+      n.range = n.args[0]->range;
+      n.lipschitz = n.value;
+      return;
     default:
       break;
   }
@@ -232,7 +233,7 @@ std::optional<Expr> simplified(Op op, std::span<const Expr> args) {
 }  // namespace
 
 Expr Expr::make(Op op, std::span<const Expr> args) {
-  assert(static_cast<int>(args.size()) == arity(op) && arity(op) > 0 && !info(op).fused);
+  assert(static_cast<int>(args.size()) == arity(op) && arity(op) > 0 && !info(op).fused && op != Op::Claim);
   if (std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.isConstant(); }))
     return evaluateOp<double>(op, [&](int i) { return args[i].constantValue(); });
   if (std::optional<Expr> simpler = simplified(op, args)) return *std::move(simpler);
@@ -252,11 +253,14 @@ Variable Expr::variableIndex() const { return node_->variable; }
 const ParameterInfo& Expr::parameterInfo() const { return *node_->parameter; }
 const Interval& Expr::range() const { return node_->range; }
 double Expr::lipschitz() const { return node_->lipschitz; }
-const Expr& Expr::claimLipschitz(double bound) const {
-  double known = node_->lipschitz;
-  while (bound < known && !node_->lipschitz.compare_exchange_weak(known, bound)) {
-  }
-  return *this;
+Expr Expr::claimLipschitz(double bound) const {
+  if (!(bound < lipschitz())) return *this;
+  const Expr about = unclaimed();
+  auto n = std::make_unique<Node>();
+  n->op = Op::Claim;
+  n->value = bound;
+  n->args[0] = about.node_;
+  return NodeTable::instance().intern(std::move(n));
 }
 
 namespace {
@@ -322,30 +326,59 @@ double uniformValue(const Expr& e) {
   return values.at(e.node());
 }
 
-namespace {
+Expr remade(const Expr& node, std::span<const Expr> args) {
+  if (args.empty()) return node;
+  return node.op() == Op::Claim ? args[0].claimLipschitz(node.lipschitz()) : Expr::make(node.op(), args);
+}
 
-// Rebuilds graphs with their leaves replaced by leaf(e); facts carry over, multiplied by `stretch`.
-template <class Leaf>
-std::vector<Expr> rebuild(std::span<const Expr> roots, double stretch, Leaf leaf) {
+std::vector<Expr> rewrite(std::span<const Expr> roots, const Replacement& replacement) {
   std::unordered_map<const Node*, Expr> made;
   std::vector<Expr> args;
   for (const Expr& n : topologicalOrder(roots)) {
     args.clear();
-    for (int i = 0; i < arity(n.op()); ++i) args.push_back(made.at(n.arg(i).node()));
-    Expr e = args.empty() ? leaf(n) : Expr::make(n.op(), args);
-    const double bound = n.lipschitz() * stretch;
-    if (bound == bound) e.claimLipschitz(bound);
-    made.emplace(n.node(), std::move(e));
+    bool same = true;
+    for (int i = 0; i < arity(n.op()); ++i) {
+      const Expr argument = n.arg(i);
+      args.push_back(made.at(argument.node()));
+      same = same && args.back() == argument;
+    }
+    std::optional<Expr> e = replacement(n, args);
+    if (!e) e = same ? n : n.op() == Op::Claim ? args[0] : remade(n, args);
+    made.emplace(n.node(), *std::move(e));
   }
   std::vector<Expr> result;
   for (const Expr& r : roots) result.push_back(made.at(r.node()));
   return result;
 }
 
+Expr rewrite(const Expr& root, const Replacement& replacement) {
+  return rewrite({&root, 1}, replacement).front();
+}
+
+std::vector<Expr> withoutClaims(std::span<const Expr> roots) {
+  return rewrite(roots, [](const Expr& n, std::span<const Expr> args) {
+    return n.op() == Op::Claim ? std::optional(args[0]) : std::nullopt;
+  });
+}
+
+namespace {
+
+// Rewrites with leaves replaced by leaf(e); facts carry over, multiplied by `stretch`.
+template <class Leaf>
+std::vector<Expr> withLeaves(std::span<const Expr> roots, double stretch, Leaf leaf) {
+  constexpr double kRounding = 1e-12;  // a claim that gains no more than rounding loses is not worth a node
+  return rewrite(roots, [&](const Expr& n, std::span<const Expr> args) -> std::optional<Expr> {
+    const double bound = n.lipschitz() * stretch;
+    if (n.op() == Op::Claim) return args[0].claimLipschitz(bound);
+    const Expr e = args.empty() ? leaf(n) : remade(n, args);
+    return bound < e.lipschitz() * (1.0 - kRounding) ? e.claimLipschitz(bound) : e;
+  });
+}
+
 }  // namespace
 
 std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch) {
-  return rebuild(es, stretch, [&](const Expr& leaf) {
+  return withLeaves(es, stretch, [&](const Expr& leaf) {
     const bool coordinate = leaf.op() == Op::Variable && leaf.variableIndex() <= Variable::Z;
     return coordinate ? position[static_cast<int>(leaf.variableIndex())] : leaf;
   });
@@ -364,12 +397,12 @@ Expr bind(const Expr& e, const std::map<std::string, double>& values) {
     if (it != values.end() && !n.range().contains(it->second))
       stretch = std::numeric_limits<double>::infinity();
   }
-  return rebuild({&e, 1}, stretch,
-                 [&](const Expr& leaf) {
-                   if (leaf.op() != Op::Parameter) return leaf;
-                   const auto it = values.find(leaf.parameterInfo().name);
-                   return it == values.end() ? leaf : Expr(it->second);
-                 })
+  return withLeaves({&e, 1}, stretch,
+                    [&](const Expr& leaf) {
+                      if (leaf.op() != Op::Parameter) return leaf;
+                      const auto it = values.find(leaf.parameterInfo().name);
+                      return it == values.end() ? leaf : Expr(it->second);
+                    })
       .front();
 }
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,10 +21,11 @@ namespace sdf {
 enum class Variable : std::uint8_t { X, Y, Z, NX, NY, NZ };
 inline constexpr int kVariableCount = 6;
 
-/// A named number that the user may change: its present value and the range it is meant for.
+/// The declaration of a named number that the user may change: the range it is meant for, and what it is
+/// where nobody says otherwise. The graph knows no other value of it; readings are told (eval/function.h).
 struct ParameterInfo {
   std::string name;
-  double value = 0.0;
+  double value = 0.0;  ///< the default
   double min = 0.0;
   double max = 1.0;
   bool operator==(const ParameterInfo&) const = default;
@@ -49,6 +51,8 @@ class Expr {
 
   Op op() const;
   Expr arg(int i) const;
+  /// The expression itself, or what a claim is about.
+  Expr unclaimed() const { return op() == Op::Claim ? arg(0) : *this; }
   double constantValue() const;                ///< op() == Constant
   Variable variableIndex() const;              ///< op() == Variable
   const ParameterInfo& parameterInfo() const;  ///< op() == Parameter
@@ -58,12 +62,11 @@ class Expr {
   /// Encloses the expression's value over all of space and over every value of its parameters.
   const Interval& range() const;
   /// Proven L with |f(p) - f(q)| <= L |p - q| for all p, q and every value of the parameters in their ranges;
-  /// infinite where none is known. Derived from the arguments as the node is built, and lowered by
-  /// claimLipschitz.
+  /// infinite where none is known. Derived from the arguments' as the node is built; a claim has its own.
   double lipschitz() const;
-  /// States a proven global Lipschitz bound for this function. Returns *this. Nodes built on it later inherit
-  /// the fact.
-  const Expr& claimLipschitz(double bound) const;
+  /// The same function with a proven global Lipschitz bound: a node of its own, so that only what is built on
+  /// it relies on the claim. The expression itself where that is known to be no steeper already.
+  [[nodiscard]] Expr claimLipschitz(double bound) const;
 
   /// Same node, that is the same function written the same way.
   friend bool operator==(const Expr& a, const Expr& b) { return a.node_ == b.node_; }
@@ -116,8 +119,23 @@ std::vector<Expr> topologicalOrder(std::span<const Expr> roots);
 
 /// Does the expression depend on the position or the normal?
 bool dependsOnSpace(const Expr& e);
-/// Value of an expression that does not depend on space, with parameters at their present values.
+/// Value of an expression that does not depend on space, with parameters at their defaults.
 double uniformValue(const Expr& e);
+
+/// The node's operation over other arguments, as many as it has; a leaf is itself. A claim keeps its bound,
+/// which must hold for the new argument.
+Expr remade(const Expr& node, std::span<const Expr> args);
+
+/// What stands for a node, given what stands for its arguments; nothing where the node is to be remade.
+using Replacement = std::function<std::optional<Expr>(const Expr& node, std::span<const Expr> args)>;
+/// The graphs with nodes replaced, arguments first and each node once. Claims about what has changed are
+/// dropped unless `replacement` says otherwise: they speak of the function as it was. Cost: the size of the
+/// graphs.
+std::vector<Expr> rewrite(std::span<const Expr> roots, const Replacement& replacement);
+Expr rewrite(const Expr& root, const Replacement& replacement);
+
+/// The same values without claims, for readings that ask for the formula's form alone.
+std::vector<Expr> withoutClaims(std::span<const Expr> roots);
 
 /// The expression with x, y, z replaced. `stretch` bounds the operator norm of the replacement's Jacobian:
 /// facts about Lipschitz constants carry over, multiplied by it; pass infinity where it is not known. Cost:
@@ -126,8 +144,8 @@ Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch);
 /// Several at once, sharing the work.
 std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch);
 
-/// The expression with parameters of these names set to these values (they become constants). Facts carry
-/// over where the values lie in their parameters' ranges.
+/// The expression with parameters of these names as constants of these values. Facts carry over where the
+/// values lie in their parameters' ranges. Readings of many values take a Function instead.
 Expr bind(const Expr& e, const std::map<std::string, double>& values);
 
 }  // namespace sdf

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -73,39 +74,31 @@ Expr chosen(Op choice, const std::vector<Expr>& operands) {
 
 class Hoister {
  public:
-  Expr run(const Expr& e) {
-    for (const Expr& node : topologicalOrder({&e, 1})) done_.emplace(node, made(node));
-    return done_.at(e);
+  std::optional<Expr> operator()(const Expr& node, std::span<const Expr> args) {
+    if (node.op() != Op::Min && node.op() != Op::Max) return std::nullopt;
+    std::vector<Expr> all = operands(node.arg(0), args[0], node.op());
+    const std::vector<Expr> more = operands(node.arg(1), args[1], node.op());
+    if (all.size() + more.size() > kMostOperands) return chosen(node.op(), args[0], args[1]);
+    all.insert(all.end(), more.begin(), more.end());
+    return chosen(node.op(), operands_[node] = std::move(all));
   }
 
  private:
-  Expr made(const Expr& node) {
-    if (node.op() == Op::Min || node.op() == Op::Max) {
-      std::vector<Expr> all = operands(node.arg(0), node.op());
-      const std::vector<Expr> more = operands(node.arg(1), node.op());
-      if (all.size() + more.size() > kMostOperands)
-        return chosen(node.op(), done_.at(node.arg(0)), done_.at(node.arg(1)));
-      all.insert(all.end(), more.begin(), more.end());
-      return chosen(node.op(), operands_[node] = std::move(all));
-    }
-    std::vector<Expr> args;
-    for (int i = 0; i < arity(node.op()); ++i) args.push_back(done_.at(node.arg(i)));
-    return args.empty() ? node : Expr::make(node.op(), args);
-  }
-
   // What a minimum of minima takes the least of.
-  std::vector<Expr> operands(const Expr& e, Op choice) const {
+  std::vector<Expr> operands(const Expr& e, const Expr& done, Op choice) const {
     const auto list = e.op() == choice ? operands_.find(e) : operands_.end();
-    return list == operands_.end() ? std::vector{done_.at(e)} : list->second;
+    return list == operands_.end() ? std::vector{done} : list->second;
   }
 
-  std::unordered_map<Expr, Expr> done_;
   std::unordered_map<Expr, std::vector<Expr>> operands_;
 };
 
 }  // namespace
 
-Expr hoisted(const Expr& e) { return Hoister().run(e); }
+Expr hoisted(const Expr& e) {
+  Hoister hoister;
+  return rewrite(withoutClaims({&e, 1}), std::ref(hoister)).front();
+}
 
 Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers) {
   Expr least = hoisted(values.front()), number = numbers.front();

@@ -10,8 +10,8 @@ namespace sdf {
 /// The expression with min(g(a), g(b)) written as g(min(a, b)), and max alike, wherever g is a square root, a
 /// sum or difference with one term in common, or a product with a common factor that is never negative. A
 /// union of balls of one radius then takes one root. Values are the same to the bit (such a g keeps the order
-/// of floats, too) but for the sign of zeros and for NaN, whose place is up to the reading; facts about
-/// slopes are those that follow from the arguments. Cost: linear in the size of the graph.
+/// of floats, too) but for the sign of zeros and for NaN, whose place is up to the reading; claims are
+/// dropped. Cost: linear in the size of the graph.
 Expr hoisted(const Expr& e);
 
 /// The number of the least value, comparing what is left of two values without the functions that both are

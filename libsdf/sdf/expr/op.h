@@ -9,6 +9,7 @@ enum class Op : std::uint8_t {
   Constant,   ///< leaf: a number
   Variable,   ///< leaf: a coordinate of the position or of the normal
   Parameter,  ///< leaf: a named number that the user may change
+  Claim,      ///< its argument's value, with a proven bound on the slope that the formula does not show
 #define SDF_UNARY(name, call) name,
 #define SDF_BINARY(name, call) name,
 #define SDF_TERNARY(name, call) name,
@@ -31,6 +32,7 @@ inline constexpr OpInfo kOps[kOpCount] = {
     {"Constant", 0, 0, false},
     {"Variable", 0, 0, false},
     {"Parameter", 0, 0, false},
+    {"Claim", 1, 0, false},
 #define SDF_UNARY(name, call) {#name, 1, 0, false},
 #define SDF_BINARY(name, call) {#name, 2, 0, false},
 #define SDF_TERNARY(name, call) {#name, 3, 0, false},

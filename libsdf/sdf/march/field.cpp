@@ -5,12 +5,10 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "sdf/model/model.h"
+
 namespace sdf {
 namespace {
-
-constexpr double kConstantSlope = 0x1p-64;  // stands for 0: a distance that is the same everywhere
-
-bool isEverything(const Box& b) { return b.contains(Box::everything()); }
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -33,11 +31,8 @@ std::string fault(const Rays& rays, std::size_t i) {
 Result<MarchField> marchField(const Shape& shape) {
   if (!shape.ok()) return Error{ErrorKind::Scene, *shape.error};
   if (shape.dimension != 3) return Error{ErrorKind::Scene, "the shape is flat; extrude or revolve it"};
-  MarchField field{std::make_shared<const Tape>(shape.distance)};
-  const Claim& claim = shape.claim;
-  field.lipschitz = isEverything(claim.region) ? claim.lipschitz : field.distance->lipschitz();
-  field.lipschitz = std::max(field.lipschitz, kConstantSlope);
-  return field;
+  const Marchable field = marchable(shape);
+  return MarchField{std::make_shared<const Tape>(field.distance), field.slope};
 }
 
 Status checkSlope(const MarchField& field, const char* user) {

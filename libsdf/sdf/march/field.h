@@ -18,7 +18,7 @@ struct MarchField {
   double divisor() const { return hasSlope() ? lipschitz : 1.0; }
 };
 
-/// The shape's distance with the constant that it claims for all of space. Errors (Scene): a failed shape, a
+/// The shape's distance and slope as marchable() has them. Errors (Scene): a failed shape, a
 /// flat one. Cost: that of making a tape.
 Result<MarchField> marchField(const Shape& shape);
 

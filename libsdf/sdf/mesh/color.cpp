@@ -178,12 +178,6 @@ void resolveMaterials(const Shape& shape, Mesh& mesh) {
 
 }  // namespace
 
-std::vector<Expr> surfaceOutputs(const Shape& shape) {
-  auto attribute = [&](Attribute a) { return shape.surface[static_cast<int>(a)]; };
-  return {shape.distance, attribute(Attribute::Red), attribute(Attribute::Green), attribute(Attribute::Blue),
-          attribute(Attribute::MaterialId)};
-}
-
 void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
                Mesh& mesh) {
   auto normalOf = [&](std::size_t i) { return mesh.normals[i]; };

@@ -6,11 +6,6 @@
 
 namespace sdf {
 
-/// Outputs of the tape that meshing runs on: the distance, then what colouring needs of the attributes.
-enum class SurfaceOutput { Distance, Red, Green, Blue, MaterialId, Count };
-/// The expressions behind them, by SurfaceOutput.
-std::vector<Expr> surfaceOutputs(const Shape& shape);
-
 /// Fills colors, triangleMaterial and materials, orders the triangles by material, and repeats vertices where
 /// materials meet (copyOf), each copy coloured on its own side of the border. positions, normals, triangles
 /// and welded are given. Once progress is stopped the mesh may be left unfinished.

@@ -17,7 +17,6 @@ namespace sdf {
 namespace {
 
 constexpr double kDefaultResolution = 200.0;  // voxels along the longest side
-constexpr double kPadding = 2.0;              // voxels between the bounds and the first sample beyond
 
 // "y", "x and z", "x, y and z".
 std::string unboundedAxes(const Box& b) {
@@ -49,13 +48,12 @@ class Mesher {
     if (!bounds) return bounds.error();
     const double h =
         options_.voxelSize > 0.0 ? options_.voxelSize : bounds->longestSide() / kDefaultResolution;
-    const auto tape = std::make_shared<const Tape>(surfaceOutputs(shape));
-    const bool claimHolds = shape.claim.region.contains(bounds->grown(kPadding * h));
-    const BandOptions band{h, *bounds, claimHolds ? shape.claim.lipschitz : kInfinity, options_.maxMemory};
-
-    const LocalTapes whole{tape, tape->firstOutputOnly()};
+    const BandOptions band{h, *bounds, options_.maxMemory};
+    LocalTapes whole;
     auto sampled = time("sampling", [&] {
-      auto result = sampleNarrowBand(tape, band, progress_);
+      const ModelTapes model = Model(shape).at(options_.values);
+      whole = {model.whole(), model.whole()->firstOutputOnly()};
+      auto result = sampleNarrowBand(model, band, progress_);
       if (result) findUnresolved(*result, whole, progress_, result_.stats);
       return result;
     });

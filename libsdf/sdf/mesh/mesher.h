@@ -9,6 +9,7 @@
 #include "sdf/base/progress.h"
 #include "sdf/base/result.h"
 #include "sdf/mesh/mesh.h"
+#include "sdf/model/model.h"
 #include "sdf/shape/shape.h"
 
 namespace sdf {
@@ -16,6 +17,7 @@ namespace sdf {
 struct MeshOptions {
   double voxelSize = 0.0;                  ///< scene units; 0 takes 1/200 of the longest side of the bounds
   std::optional<Box> bounds{};             ///< clips the shape, closed and watertight
+  Values values{};                         ///< of the shape's inputs; its bounds hold for all in their ranges
   double maxMemory = 16.0 * (1ull << 30);  ///< bytes; refused (ErrorKind::Limits) if the estimate is above
 };
 

@@ -40,10 +40,13 @@ constexpr double kSurfaceVoxelsPerLeaf = 64.0;
 // Running so many instructions over a leaf takes no longer than making it a tape of its own.
 constexpr std::size_t kShortTape = 64;
 
+using Places = std::shared_ptr<const std::vector<std::uint32_t>>;
+
 struct Cell {
   openvdb::Coord origin;
   TapePtr tape;
-  double slope;  // bound of the distance's slope over the cell and its margin
+  Places operands;  // of a union, those that the tape is of
+  double slope;     // bound of the distance's slope over the cell and its margin
 };
 
 struct BandLeaf {
@@ -91,11 +94,11 @@ std::string gigabytes(double bytes) { return shown(bytes / (1ull << 30)); }
 
 class BandSampler {
  public:
-  BandSampler(const BandOptions& options, Progress& progress)
-      : options_(options), progress_(progress), h_(options.voxelSize) {}
+  BandSampler(const ModelTapes& model, const BandOptions& options, Progress& progress)
+      : model_(model), options_(options), progress_(progress), h_(options.voxelSize) {}
 
-  Result<NarrowBand> run(TapePtr tape) {
-    if (auto s = placeRoot(std::move(tape)); !s) return s.error();
+  Result<NarrowBand> run() {
+    if (auto s = placeRoot(); !s) return s.error();
     const int levels = levelCount();
     for (int level = 0; size_ > kLeaf; ++level) {
       stageShare_ = {static_cast<double>(level) / levels, 1.0 / levels};
@@ -111,7 +114,7 @@ class BandSampler {
 
  private:
   // The smallest cell of kLeaf * kBranch^n voxels that covers the bounds and a voxel around them.
-  Status placeRoot(TapePtr tape) {
+  Status placeRoot() {
     const Box& b = options_.bounds;
     const double voxels = b.longestSide() / h_;
     if (!(voxels < 1e8)) return tooLarge(kBytesPerSurfaceVoxel * voxels * voxels);
@@ -123,7 +126,8 @@ class BandSampler {
     const openvdb::Coord span = high_ - first;
     size_ = kLeaf * kBranch;
     while (size_ <= std::max({span.x(), span.y(), span.z()})) size_ *= kBranch;
-    cells_ = {{first, std::move(tape), options_.lipschitz}};
+    cells_ = {{first, model_.whole(), std::make_shared<const std::vector<std::uint32_t>>(model_.all()),
+               model_.slope()}};
     return okStatus();
   }
 
@@ -188,18 +192,40 @@ class BandSampler {
                           static_cast<float>(kSqrt3 * reach(size, kMargin)), static_cast<float>(margin),
                           value, w.decisions);
     for (int k = 0; k < count; ++k) {
-      const Decision* decisions = w.decisions.empty() ? nullptr : &w.decisions[k];
-      std::size_t stride = count;
       double slope = std::min<double>(tape.lipschitz(), cell.slope);
       if (!mayMeet(tape, origin[k], size, value[k], margin, slope, w)) continue;
       if (size == kLeaf && tape.instructions().size() <= kShortTape) {
-        visit(Cell{origin[k], cell.tape, slope});
+        visit(Cell{origin[k], cell.tape, cell.operands, slope});
         continue;
       }
+      const Places near = operandsNear(cell, origin[k], size);
+      if (near->empty()) continue;
+      if (near->size() < cell.operands->size()) {
+        TapePtr linked = model_.link(*near);
+        // A leaf's tape is not looked at again: one that is long is better specialised.
+        if (size > kLeaf || linked->instructions().size() <= kShortTape) {
+          visit(Cell{origin[k], std::move(linked), near, slope});
+          continue;
+        }
+      }
+      const Decision* decisions = w.decisions.empty() ? nullptr : &w.decisions[k];
+      std::size_t stride = count;
       if (!tape.hasSlopes()) decisions = refineDecisions(tape, origin[k], size, decisions, stride, w);
       const TapePtr special = tape.specialised(decisions, stride);
-      visit(Cell{origin[k], special ? special : cell.tape, slope});
+      visit(Cell{origin[k], special ? special : cell.tape, cell.operands, slope});
     }
+  }
+
+  // Those of the cell's operands that can matter in a child where samples are looked at: within a voxel and a
+  // half's slope of zero, and a little more.
+  Places operandsNear(const Cell& cell, const openvdb::Coord& origin, int size) const {
+    constexpr double kVoxels = 2.0;
+    if (cell.operands->size() == 1 || model_.slope() == kInfinity) return cell.operands;
+    const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
+    std::vector<std::uint32_t> near =
+        model_.near({c - half, c + half}, kVoxels * h_ * model_.slope() + slack(c), *cell.operands);
+    if (near.size() == cell.operands->size()) return cell.operands;
+    return std::make_shared<const std::vector<std::uint32_t>>(std::move(near));
   }
 
   // Can the zero set meet the cell (and a voxel around it)? First by the slope bound; then, where that is
@@ -320,7 +346,7 @@ class BandSampler {
     NarrowBand band;
     band.grid_->voxelSize = h_;
     band.grid_->samples = samples_;
-    band.grid_->lipschitz = options_.lipschitz;
+    band.grid_->lipschitz = model_.slope();
     band.grid_->notNumbers = {
         notNumbers_,
         glm::vec3(firstNotNumber_.x(), firstNotNumber_.y(), firstNotNumber_.z()) * static_cast<float>(h_)};
@@ -336,6 +362,7 @@ class BandSampler {
     return band;
   }
 
+  const ModelTapes& model_;
   const BandOptions& options_;
   Progress& progress_;
   double h_;
@@ -428,8 +455,8 @@ RawSurface NarrowBand::extract() {
   return surface;
 }
 
-Result<NarrowBand> sampleNarrowBand(TapePtr tape, const BandOptions& options, Progress& progress) {
-  return BandSampler(options, progress).run(std::move(tape));
+Result<NarrowBand> sampleNarrowBand(const ModelTapes& model, const BandOptions& options, Progress& progress) {
+  return BandSampler(model, options, progress).run();
 }
 
 }  // namespace sdf

@@ -7,7 +7,7 @@
 #include "sdf/base/box.h"
 #include "sdf/base/progress.h"
 #include "sdf/base/result.h"
-#include "sdf/eval/tape.h"
+#include "sdf/model/model.h"
 
 namespace sdf {
 
@@ -84,15 +84,14 @@ class NarrowBand {
 struct BandOptions {
   double voxelSize;
   Box bounds;        ///< finite; samples are taken in it
-  double lipschitz;  ///< slope bound of output 0 over the bounds, where better known than the tape's own; or
-                     ///< infinity
   double maxMemory;  ///< bytes
 };
 
 /// Works down from the bounds to leaves of 8³ voxels, four ways along each axis at each step. A cell whose
 /// Lipschitz ball or interval excludes the surface is dropped; a surviving one gets the tape specialised to
-/// it (Duff 1992; Keeter 2020). The work grows with the surface, not with the volume. Runs in parallel; the
-/// result does not depend on the number of threads. Errors: Limits (memory), Interrupted.
-Result<NarrowBand> sampleNarrowBand(TapePtr tape, const BandOptions& options, Progress& progress);
+/// it (Duff 1992; Keeter 2020), or linked from those operands of a union that can matter there. The work
+/// grows with the surface, not with the volume. Runs in parallel; the result does not depend on the number of
+/// threads. Errors: Limits (memory), Interrupted.
+Result<NarrowBand> sampleNarrowBand(const ModelTapes& model, const BandOptions& options, Progress& progress);
 
 }  // namespace sdf

@@ -72,12 +72,11 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   const Expr ratio = sqrt(square(across) + square(up));  // distance from the bend's centre, in radii
   const Expr x = atan2(across, up) * (1.0 / k);
   // (1 - ratio) / k without the cancellation that a slight bend would suffer.
-  const Expr y = (p.y * 2.0 - (square(p.x) + square(p.y)) * k) / (ratio + 1.0);
-  y.claimLipschitz(1.0);
+  const Expr y = ((p.y * 2.0 - (square(p.x) + square(p.y)) * k) / (ratio + 1.0)).claimLipschitz(1.0);
   Shape warped = movedTo(shape, {x, y, p.z}, kInfinity);
   warped.bounds = curvature.isConstant() ? bentBox(b, curvature.constantValue()) : bentBoxForAny(b);
 
-  const double growth = growthOf(shape.claim), steepest = globalLipschitz(shape);
+  const double growth = growthOf(shape.claim), steepest = slopeOf(shape);
   if (!std::isfinite(growth * steepest)) return asField(std::move(warped));
   const double gap = std::min(kPi / most - farthestAlong(b, 0), 0.25 * (1.0 - folding) / most);
   Expr fold = abs(k) * gap;

@@ -12,6 +12,8 @@ namespace {
 
 using Kind = Blend::Kind;
 
+bool isHard(const Blend& blend) { return blend.kind == Kind::Hard; }
+
 // A distance and the surface that goes with it.
 struct Layer {
   Expr distance;
@@ -34,14 +36,14 @@ Expr difference(const Expr& a, const Expr& b, const Blend& blend, double sign) {
 
 // The gradient of each smooth form is a weighted mean of the operands' gradients: the claim on the result.
 Expr lower(const Expr& a, const Expr& b, const Blend& blend) {
-  if (blend.kind == Kind::Hard) return min(a, b);
+  if (isHard(blend)) return min(a, b);
   const Expr result = blend.kind == Kind::Chamfer ? min(min(a, b), (a + b - blend.k) * 0.5)
                                                   : difference(a, b, blend, -1.0) + min(a, b);
   return result.claimLipschitz(steeper(a, b));
 }
 
 Expr upper(const Expr& a, const Expr& b, const Blend& blend) {
-  if (blend.kind == Kind::Hard) return max(a, b);
+  if (isHard(blend)) return max(a, b);
   const Expr result = blend.kind == Kind::Chamfer ? max(max(a, b), (a + b + blend.k) * 0.5)
                                                   : difference(a, b, blend, 1.0) + max(a, b);
   return result.claimLipschitz(steeper(a, b));
@@ -67,7 +69,7 @@ Expr weightOfSecond(const Expr& a, const Expr& b, const Blend& blend) {
 Attributes mixSurfaces(const Layer& a, const Layer& b, const Blend& blend) {
   if (a.surface == b.surface) return a.surface;
   const Expr second = lessEqual(b.distance, a.distance);
-  const bool hard = blend.kind == Kind::Hard;
+  const bool hard = isHard(blend);
   const Expr weight = hard ? second : weightOfSecond(a.distance, b.distance, blend);
   Attributes mixed;
   for (int i = 0; i < kAttributeCount; ++i) {
@@ -105,8 +107,7 @@ Layer exponentialUnion(const std::vector<Layer>& layers, const Expr& k) {
     weights.push_back(exp((least - l.distance) * (1.0 / k)));
     total = total + weights.back();
   }
-  Layer result{log(total) * (-1.0 * k) + least, nearest.surface};
-  result.distance.claimLipschitz(least.lipschitz());
+  Layer result{(log(total) * (-1.0 * k) + least).claimLipschitz(least.lipschitz()), nearest.surface};
   for (int i = 0; i < kAttributeCount; ++i) {
     const auto same = [&](const Layer& l) { return l.surface[i] == layers[0].surface[i]; };
     if (i == static_cast<int>(Attribute::MaterialId) || std::all_of(layers.begin(), layers.end(), same))
@@ -116,19 +117,6 @@ Layer exponentialUnion(const std::vector<Layer>& layers, const Expr& k) {
     result.surface[i] = sum / total;
   }
   return result;
-}
-
-// How far, in units of k, a union of n shapes blended from left to right may lie below the hard one. With x
-// the depth so far, one more operand adds at most h^n / 2n for h = 1 - x, and x + (1 - x)^n / 2n grows with
-// x: equal distances are the worst. The sum stays below 1.
-double deepest(Kind kind, std::size_t n) {
-  if (kind == Kind::Exponential) return std::log(static_cast<double>(n));
-  double x = 0.0;
-  for (std::size_t i = 1; i < n && kind != Kind::Hard; ++i) {
-    const double h = 1.0 - x;
-    x += kind == Kind::Chamfer ? h / 2.0 : kind == Kind::Quadratic ? h * h / 4.0 : h * h * h / 6.0;
-  }
-  return x;
 }
 
 // Why the operation is impossible: the first operand's error, or something about all of them.
@@ -143,13 +131,13 @@ std::optional<Shape> refusal(const char* op, const std::vector<Shape>& shapes, c
         shapes[i].dimension == shapes[0].dimension,
         "shape " + std::to_string(flat + 1) + " is flat and others are solid; extrude or revolve it first");
   }
-  if (blend.kind != Kind::Hard) check.positive("k", blend.k);
+  if (!isHard(blend)) check.positive("k", blend.k);
   if (check.ok()) return std::nullopt;
   return check.failure();
 }
 
 Blend guarded(Blend blend) {
-  if (blend.kind != Kind::Hard) blend.k = keptPositive(blend.k);
+  if (!isHard(blend)) blend.k = keptPositive(blend.k);
   return blend;
 }
 
@@ -158,13 +146,24 @@ Blend guarded(Blend blend) {
 Shape combined(const std::vector<Shape>& shapes, const Blend& blend, ClaimKind best) {
   Shape result = shapes[0];
   Claim& claim = result.claim;
-  claim.kind = blend.kind == Kind::Hard ? best : ClaimKind::Field;
+  claim.kind = isHard(blend) ? best : ClaimKind::Field;
   for (const Shape& s : shapes) {
     claim.kind = weaker(claim.kind, s.claim.kind);
     claim.lipschitz = std::max(claim.lipschitz, s.claim.lipschitz);
-    claim.region = intersect(claim.region, s.claim.region);
   }
   return result;
+}
+
+// The operands, those of hard unions in the place of the union; nothing where all operands matter everywhere.
+std::shared_ptr<const Union> listOf(const std::vector<Shape>& shapes, const Blend& blend) {
+  if (blend.kind == Kind::Exponential) return nullptr;
+  auto list = std::make_shared<Union>(Union{blend, {}});
+  for (const Shape& s : shapes)
+    if (isHard(blend) && s.outer && isHard(s.outer->blend))
+      list->operands.insert(list->operands.end(), s.outer->operands.begin(), s.outer->operands.end());
+    else
+      list->operands.push_back(s);
+  return list;
 }
 
 std::vector<Layer> layersOf(const std::vector<Shape>& shapes) {
@@ -175,13 +174,31 @@ std::vector<Layer> layersOf(const std::vector<Shape>& shapes) {
 
 }  // namespace
 
+// With x the depth so far, one more operand adds at most h^n / 2n for h = 1 - x, and x + (1 - x)^n / 2n grows
+// with x: equal distances are the worst. The sum stays below 1.
+double deepestBlend(Kind kind, std::size_t n) {
+  if (kind == Kind::Exponential) return std::log(static_cast<double>(n));
+  double x = 0.0;
+  for (std::size_t i = 1; i < n && kind != Kind::Hard; ++i) {
+    const double h = 1.0 - x;
+    x += kind == Kind::Chamfer ? h / 2.0 : kind == Kind::Quadratic ? h * h / 4.0 : h * h * h / 6.0;
+  }
+  return x;
+}
+
+std::array<Expr, 3> unionJoin(const Blend& given) {
+  const Blend blend = guarded(given);
+  const Expr a = position().x, b = position().y, second = lessEqual(b, a);
+  return {lower(a, b, blend), isHard(blend) ? second : weightOfSecond(a, b, blend), second};
+}
+
 Shape unite(const std::vector<Shape>& shapes, const Blend& given) {
   if (auto refused = refusal("union", shapes, given)) return *refused;
   if (shapes.size() == 1) return shapes[0];
   const Blend blend = guarded(given);
   const std::vector<Layer> layers = layersOf(shapes);
   Layer joined;
-  if (blend.kind == Kind::Hard) {
+  if (isHard(blend)) {
     joined = balancedUnion(layers);
   } else if (blend.kind == Kind::Exponential && layers.size() > 2) {
     joined = exponentialUnion(layers, blend.k);
@@ -193,8 +210,7 @@ Shape unite(const std::vector<Shape>& shapes, const Blend& given) {
   result.distance = joined.distance;
   result.surface = joined.surface;
   result.materials = mergedMaterials(shapes);
-  const double swell =
-      blend.kind == Kind::Hard ? 0.0 : deepest(blend.kind, shapes.size()) * blend.k.range().hi;
+  const double swell = isHard(blend) ? 0.0 : deepestBlend(blend.kind, shapes.size()) * blend.k.range().hi;
   result.bounds = Box{};
   result.claim.growth = 0.0;
   for (const Shape& s : shapes) {
@@ -202,7 +218,9 @@ Shape unite(const std::vector<Shape>& shapes, const Blend& given) {
     result.bounds = unite(result.bounds, swell > 0.0 ? grow(s.bounds, growth * swell) : s.bounds);
     result.claim.growth = std::max(result.claim.growth, growth);
   }
-  return settled(std::move(result));
+  result = settled(std::move(result));
+  result.outer = listOf(shapes, blend);
+  return result;
 }
 
 Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
@@ -218,7 +236,7 @@ Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
     // What has no bounds cannot leave them: a lattice cut to a box grows as the box does.
     if (!isEverything(s.bounds)) result.claim.growth = std::max(result.claim.growth, growthOf(s.claim));
   }
-  if (blend.kind == Kind::Hard) {
+  if (isHard(blend)) {
     result.distance = balancedMax(distances);
   } else {
     for (std::size_t i = 1; i < shapes.size(); ++i)
@@ -233,7 +251,7 @@ Shape subtract(const std::vector<Shape>& shapes, const Blend& given) {
   const Blend blend = guarded(given);
   Shape result = combined(shapes, blend, ClaimKind::Bound);
   result.claim.growth = growthOf(shapes[0].claim);
-  if (blend.kind == Kind::Hard) {
+  if (isHard(blend)) {
     std::vector<Layer> cutters = layersOf(shapes);
     for (Layer& l : cutters) l.surface = shapes[0].surface;
     result.distance = max(result.distance, -balancedUnion(std::span(cutters).subspan(1)).distance);

@@ -130,7 +130,7 @@ Shape repeatGrid(const Shape& shape, const Vec3E& cell, const std::optional<glm:
     jumps = jumps || a.windowed();
   }
   const ClaimKind kind = shape.claim.kind;
-  const double steepest = globalLipschitz(shape), cap = capOf(shape, axes);
+  const double steepest = slopeOf(shape), cap = capOf(shape, axes);
   result.claim = {apart ? kind : weaker(kind, ClaimKind::ExactOutside), steepest};
   result.claim.growth = growthOf(shape.claim);
   if (jumps && kind > ClaimKind::ExactOutside) {

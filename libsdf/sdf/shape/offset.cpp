@@ -20,7 +20,7 @@ bool dependsOnZ(const Expr& e) {
 // lo being the least offset, so that (f + lo) / L is a bound, too, and a much larger one away from the
 // surface.
 Shape displaced(const Shape& shape, const Expr& offset, const Expr& slope) {
-  const double growth = growthOf(shape.claim), steepest = globalLipschitz(shape);
+  const double growth = growthOf(shape.claim), steepest = slopeOf(shape);
   const Expr sum = max(slope + steepest, 1.0);
   const bool known = std::isfinite(steepest) && std::isfinite(uniformValue(slope));
   Shape result = shape;
@@ -62,7 +62,6 @@ Shape morph(const Shape& a, const Shape& b, const Expr& t) {
   result.bounds = unite(a.bounds, b.bounds);
   result.claim.kind = ClaimKind::Field;
   result.claim.lipschitz = std::max(a.claim.lipschitz, b.claim.lipschitz);
-  result.claim.region = intersect(a.claim.region, b.claim.region);
   result.claim.growth = std::max(growthOf(a.claim), growthOf(b.claim));
   return settled(std::move(result));
 }
@@ -119,7 +118,7 @@ Shape elongate(const Shape& shape, const Vec3E& half) {
   // general: where the gap is, the nearest point may lie beyond the cut.
   Shape result = movedTo(shape, at, 1.0);
   result.bounds = bounds;
-  result.claim = withoutRegion(shape.claim);
+  result.claim = shape.claim;
   result.claim.kind = weaker(shape.claim.kind, ClaimKind::Bound);
   result.claim.growth = growthOf(shape.claim);
   return settled(std::move(result));

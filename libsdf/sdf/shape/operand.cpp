@@ -67,11 +67,6 @@ std::optional<Expr> outsideBox(const Box& b) {
   return outside;
 }
 
-double globalLipschitz(const Shape& s) {
-  const double stated = isEverything(s.claim.region) ? s.claim.lipschitz : kInfinity;
-  return std::min(stated, s.distance.lipschitz());
-}
-
 bool isOneLipschitz(double lipschitz) {
   constexpr double kRounding =
       1e-12;  // of a chain of some thousand interval operations, each outward by an ulp
@@ -79,13 +74,10 @@ bool isOneLipschitz(double lipschitz) {
 }
 
 Shape settled(Shape s) {
-  if (isEverything(s.claim.region)) s.distance.claimLipschitz(s.claim.lipschitz);
-  const double known = s.distance.lipschitz();
-  if (known <= s.claim.lipschitz) {
-    s.claim.lipschitz = known;
-    s.claim.region = Box::everything();
-  }
-  if (s.claim.kind == ClaimKind::Field && isOneLipschitz(known)) s.claim.kind = ClaimKind::Bound;
+  s.distance = s.distance.claimLipschitz(s.claim.lipschitz);
+  s.claim.lipschitz = s.distance.lipschitz();
+  s.outer.reset();
+  if (s.claim.kind == ClaimKind::Field && isOneLipschitz(s.claim.lipschitz)) s.claim.kind = ClaimKind::Bound;
   return s;
 }
 
@@ -105,11 +97,12 @@ bool isEven(const Expr& e, int axis) {
   return remap(e, {p.x, p.y, p.z}, 1.0) == e;
 }
 
-Claim withoutRegion(Claim c) {
-  if (isEverything(c.region)) return c;
-  c.lipschitz = kInfinity;
-  c.region = Box::everything();
-  return c;
+std::shared_ptr<const Union> mappedUnion(const Shape& shape,
+                                         const std::function<Shape(const Shape&)>& operation) {
+  if (!shape.outer) return nullptr;
+  auto mapped = std::make_shared<Union>(Union{shape.outer->blend, {}});
+  for (const Shape& operand : shape.outer->operands) mapped->operands.push_back(operation(operand));
+  return mapped;
 }
 
 std::vector<MaterialPtr> mergedMaterials(const std::vector<Shape>& shapes) {

@@ -1,6 +1,7 @@
 // What the operators share: guards for parameters, boxes, and the rules by which claims carry over.
 // Private to sdf/shape.
 #pragma once
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,13 +42,12 @@ Expr outsideSlab(const Expr& x, double lo, double hi);
 /// the box; or nothing where there is none.
 std::optional<Expr> outsideBox(const Box& b);
 
-/// Lipschitz constant over all of space, infinite where none is proven.
-double globalLipschitz(const Shape& s);
 /// Up to rounding, the distance changes no faster than the position: |f| then never exceeds the distance to
 /// its zero set.
 bool isOneLipschitz(double lipschitz);
-/// Makes claim and graph tell each other what they know: a global constant goes to the node, a better derived
-/// one to the claim, and a field that is 1-Lipschitz everywhere is a bound.
+/// Makes claim and graph tell each other what they know: a global constant goes to the graph, a better
+/// derived one to the claim, and a field that is 1-Lipschitz everywhere is a bound. What was a list of
+/// operands is one shape.
 Shape settled(Shape s);
 
 /// The shape with its distance and attributes looked up at another position; `stretch` as in remap. Bounds
@@ -56,8 +56,9 @@ Shape movedTo(const Shape& s, const Vec3E& position, double stretch);
 /// Does the expression keep its value when x, y or z changes sign, provably by the way it is written (as
 /// functions of |x| or x^2 do)?
 bool isEven(const Expr& e, int axis);
-/// Where a claim holds only over a region that the operator cannot carry over, its constant is given up.
-Claim withoutRegion(Claim c);
+/// The list of a union with something done to each operand; nothing where the shape is no union.
+std::shared_ptr<const Union> mappedUnion(const Shape& shape,
+                                         const std::function<Shape(const Shape&)>& operation);
 
 /// Every material of the list once, by first appearance.
 std::vector<MaterialPtr> mergedMaterials(const std::vector<Shape>& shapes);

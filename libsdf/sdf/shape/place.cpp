@@ -108,9 +108,11 @@ Shape turned(const Shape& shape, const Matrix& m) {
   const Vec3E p = position();
   Shape result = movedTo(shape, {weighted(back[0], p), weighted(back[1], p), weighted(back[2], p)}, 1.0);
   result.bounds = isEverything(shape.bounds) ? shape.bounds : turnedBox(shape.bounds, m);
-  result.claim = withoutRegion(shape.claim);
+  result.claim = shape.claim;
   result.claim.growth = shape.claim.growth * turnedGrowth(m);
-  return settled(std::move(result));
+  result = settled(std::move(result));
+  result.outer = mappedUnion(shape, [&](const Shape& operand) { return turned(operand, m); });
+  return result;
 }
 
 // Heights of the box over the plane through the origin across n.
@@ -160,13 +162,15 @@ Shape translate(const Shape& shape, const Vec3E& offset) {
   Check check("translate");
   if (!check.vector("offset", offset, Rule::Any).ok()) return check.failure();
   Shape result = movedTo(shape, position() - offset, 1.0);
-  result.claim = withoutRegion(shape.claim);
+  result.claim = shape.claim;
   for (int i = 0; i < 3; ++i) {
     const Interval& by = component(offset, i).range();
     result.bounds.min[i] += by.lo;
     result.bounds.max[i] += by.hi;
   }
-  return settled(std::move(result));
+  result = settled(std::move(result));
+  result.outer = mappedUnion(shape, [&](const Shape& operand) { return translate(operand, offset); });
+  return result;
 }
 
 Shape rotate(const Shape& shape, const Vec3E& angles) {
@@ -212,11 +216,14 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
     result.bounds.min[i] = side.lo;
     result.bounds.max[i] = side.hi;
   }
-  result.claim = withoutRegion(shape.claim);
+  result.claim = shape.claim;
   if (!uniform) result.claim.kind = weaker(shape.claim.kind, ClaimKind::Bound);
   result.claim.growth =
       uniform ? shape.claim.growth : growthOf(shape.claim) * most.range().hi / least.range().lo;
-  return settled(std::move(result));
+  result = settled(std::move(result));
+  if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard)
+    result.outer = mappedUnion(shape, [&](const Shape& operand) { return scale(operand, factors); });
+  return result;
 }
 
 Shape scale(const Shape& shape, const Expr& factor) { return scale(shape, Vec3E(factor)); }
@@ -235,7 +242,7 @@ Shape mirror(const Shape& shape, const Vec3E& normal) {
   const Matrix across = reflection(n);
   Shape image = movedTo(shape, reflected(n, side), 1.0);
   image.bounds = isEverything(shape.bounds) ? shape.bounds : turnedBox(shape.bounds, across);
-  image.claim = withoutRegion(shape.claim);
+  image.claim = shape.claim;
   image.claim.growth = shape.claim.growth * turnedGrowth(across);
   image = settled(std::move(image));
   if (side == 0) return unite(shape, image);

@@ -88,7 +88,7 @@ Shape polarRepeat(const Shape& shape, int count) {
   const bool even = clear && std::max(-seen.lo, seen.hi) <= sector / 2.0 && isEven(shape.distance, 2);
   const int candidates = static_cast<int>(std::ceil(seen.width() / sector)) + 1;
   const ClaimKind kind = shape.claim.kind;
-  const double steepest = globalLipschitz(shape), growth = growthOf(shape.claim);
+  const double steepest = slopeOf(shape), growth = growthOf(shape.claim);
   const bool exact = kind <= ClaimKind::ExactOutside;
   if (!even && (!clear || candidates > kMostCandidates || candidates >= count)) {
     check.that(count <= kMostCopiedOut, "the shape reaches the y axis or spans more than 3 of the " +

@@ -18,8 +18,8 @@ using std::numbers::sqrt3;
 const double kRoot6 = sqrt2 * sqrt3;
 
 Expr faceDistance(const Expr& out, const Expr& pastEdge, const Expr& pastCorner) {
-  out.claimLipschitz(1.0), pastEdge.claimLipschitz(1.0), pastCorner.claimLipschitz(1.0);
-  return norm(max(out, 0.0), max(pastEdge, 0.0), max(pastCorner, 0.0)) + min(out, 0.0);
+  const auto above = [](const Expr& height) { return max(height.claimLipschitz(1.0), 0.0); };
+  return norm(above(out), above(pastEdge), above(pastCorner)) + min(out.claimLipschitz(1.0), 0.0);
 }
 
 Shape prism(const char* name, int sides, const Expr& radius, const Expr& halfHeight) {

@@ -1,5 +1,7 @@
 #include "sdf/shape/shape.h"
 
+#include "sdf/shape/operand.h"
+
 #include <atomic>
 #include <cassert>
 
@@ -53,6 +55,7 @@ Shape Shape::paint(const MaterialPtr& material) const {
   Shape painted = *this;
   painted.surface = attributesOf(*material);
   painted.materials = {material};
+  painted.outer = mappedUnion(*this, [&](const Shape& operand) { return operand.paint(material); });
   return painted;
 }
 

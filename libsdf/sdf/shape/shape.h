@@ -1,5 +1,6 @@
 // Shape: a signed distance with its surface, its bounds, and a claim of what the distance is worth.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "sdf/base/result.h"
 #include "sdf/expr/expr.h"
 #include "sdf/expr/vec.h"
+#include "sdf/shape/blend.h"
 
 namespace sdf {
 
@@ -24,8 +26,7 @@ enum class ClaimKind {
 /// Proven facts about a shape's distance. Every operator derives its result's claim from its operands'.
 struct Claim {
   ClaimKind kind = ClaimKind::Exact;
-  double lipschitz = 1.0;  ///< |f(p) - f(q)| <= lipschitz |p - q| within `region`; infinite where unknown
-  Box region = Box::everything();  ///< convex region over which `lipschitz` holds
+  double lipschitz = 1.0;  ///< |f(p) - f(q)| <= lipschitz |p - q| for all p and q; infinite where unknown
   /// Proven m: where f <= c for some c >= 0, the point lies in the shape's bounds grown by m c. It says how
   /// far a solid can swell when its distance is lowered (round, smooth union). Infinite where unknown; read
   /// it through growthOf.
@@ -77,6 +78,8 @@ const MaterialPtr& defaultMaterial();
 /// The material's fields as attribute expressions.
 Attributes attributesOf(const Material& material);
 
+struct Union;
+
 /// A shape is a value: operators return new shapes and share the graph. A shape made from bad arguments
 /// carries the first error on through every operator; whoever uses it (Scene, the mesher, the scene language)
 /// reports it.
@@ -88,6 +91,9 @@ struct Shape {
   Box bounds =
       Box::everything();  ///< contains the solid (f <= 0); infinite sides where it is unbounded or unknown
   Claim claim;
+  /// The operands where the shape is a union, else nothing. Moving, turning, scaling and painting a union
+  /// keeps the list; whatever else is done to it makes one shape of it.
+  std::shared_ptr<const Union> outer;
   int dimension = 3;  ///< 2: a flat shape in x and y (its distance ignores z), to be extruded or revolved
   std::optional<std::string> error;
 
@@ -98,5 +104,15 @@ struct Shape {
   Shape paint(const MaterialPtr& material) const;
   Shape paint(Material material) const { return paint(makeMaterial(std::move(material))); }
 };
+
+/// A union as the list of what was united: the least of their distances is the shape's, blended from left to
+/// right. Hard unions within hard unions are one list.
+struct Union {
+  Blend blend;
+  std::vector<Shape> operands;  ///< at least two
+};
+
+/// Proven bound of the distance's slope over all of space; infinite where none is known.
+inline double slopeOf(const Shape& s) { return std::min(s.claim.lipschitz, s.distance.lipschitz()); }
 
 }  // namespace sdf

@@ -257,10 +257,9 @@ Shape field(const Expr& distance, const Box& bounds, double lipschitz) {
   c.that(!bounds.empty(), "bounds must not be empty");
   if (!c.ok()) return c.failure();
   Shape s;
-  s.distance = distance;
-  s.distance.claimLipschitz(lipschitz);
+  s.distance = distance.claimLipschitz(lipschitz);
   s.bounds = bounds;
-  s.claim = {ClaimKind::Field, s.distance.lipschitz(), Box::everything()};
+  s.claim = {ClaimKind::Field, s.distance.lipschitz()};
   return s;
 }
 

@@ -23,11 +23,11 @@ Shape extrude(const Shape& flat, const Expr& halfHeight) {
   const Expr lid = abs(position().z) - h;
   Shape result = flat;
   result.dimension = 3;
-  result.claim = withoutRegion(flat.claim);
-  result.claim.lipschitz = std::max(1.0, globalLipschitz(flat));
+  result.claim = flat.claim;
+  result.claim.lipschitz = std::max(1.0, slopeOf(flat));
   // side depends on x and y, lid on z: the length of the pair is no steeper than the steeper of the two.
-  const Expr corner = sqrt(square(max(side, 0.0)) + square(max(lid, 0.0)));
-  corner.claimLipschitz(std::max(1.0, side.lipschitz()));
+  const Expr corner =
+      sqrt(square(max(side, 0.0)) + square(max(lid, 0.0))).claimLipschitz(std::max(1.0, side.lipschitz()));
   result.distance = corner + min(max(side, lid), 0.0);
   result.bounds.min.z = -h.range().hi;
   result.bounds.max.z = h.range().hi;
@@ -48,7 +48,7 @@ Shape revolve(const Shape& flat, const Expr& offset) {
   result.bounds = {{-right, flat.bounds.min.y, -right}, {right, flat.bounds.max.y, right}};
   // A flat shape across the axis, unless it is its own mirror image, may owe its nearest point to the side
   // that is dropped. One that touches the axis may have an edge there, which the solid has not.
-  result.claim = withoutRegion(flat.claim);
+  result.claim = flat.claim;
   const bool even = offset.isConstant(0.0) && isEven(flat.distance, 0);
   const ClaimKind best = even || left > 0.0 ? ClaimKind::Exact
                          : left == 0.0      ? ClaimKind::ExactOutside

@@ -47,7 +47,7 @@ Shape twist(const Shape& shape, const Expr& rate) {
   if (rate.isConstant(0.0)) return shape;
   const Vec3E p = position();
   const double radius = radiusAbout(shape.bounds, 1) * (1.0 + kMargin);
-  const double steepest = globalLipschitz(shape);
+  const double steepest = slopeOf(shape);
   const bool known = radius > 0.0 && std::isfinite(radius) && std::isfinite(steepest);
   const Expr r = length(p.x, p.z).claimLipschitz(1.0);
   const Expr inward = known ? Expr(radius) / max(r, radius) : Expr(1.0);
@@ -86,7 +86,7 @@ Shape taper(const Shape& shape, const Expr& rate) {
   const Expr atBottom = rate * bottom + 1.0, atTop = rate * top + 1.0;
   const Expr narrowest = min(atBottom, atTop);
   const Expr radius = max(atBottom, atTop) * (radiusAbout(b, 1) * (1.0 + kMargin));
-  const double steepest = globalLipschitz(shape), widest = radius.range().hi;
+  const double steepest = slopeOf(shape), widest = radius.range().hi;
   const bool known = radius.range().lo > 0.0 && std::isfinite(widest) && std::isfinite(steepest);
   const Expr stretch =
       known ? stretchOf(1.0 / narrowest, radius * rate / square(narrowest)) : Expr(kInfinity);

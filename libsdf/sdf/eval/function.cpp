@@ -1,0 +1,82 @@
+#include "sdf/eval/function.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "sdf/eval/tape_compiler.h"
+#include "sdf/expr/apply-inl.h"
+
+namespace sdf {
+
+struct Function::Compiled {
+  std::vector<Expr> outputs;
+  std::vector<ParameterInfo> inputs;
+  TapePtr tape;  // at the defaults
+  std::vector<UniformStep> steps;
+  std::vector<InputPlace> places;
+
+  // The tape's constants where inputs have these values, and whether all lie in their ranges.
+  std::pair<std::vector<double>, bool> constantsAt(const Values& values,
+                                                   std::vector<double> constants) const {
+    bool inRange = true;
+    for (const InputPlace& input : places)
+      if (const auto it = values.find(input.parameter.parameterInfo().name); it != values.end()) {
+        constants[input.place] = it->second;
+        inRange = inRange && input.parameter.range().contains(it->second);
+      }
+    for (const UniformStep& step : steps)
+      constants[step.out] = evaluateOp<double>(step.op, [&](int k) { return constants[step.in[k]]; });
+    return {std::move(constants), inRange};
+  }
+};
+
+Function::Function(std::vector<Expr> outputs) {
+  TapeCompiler compiler(outputs);
+  auto compiled = std::make_shared<Compiled>();
+  compiled->steps = compiler.takeSteps();
+  compiled->places = compiler.takeInputs();
+  compiled->tape = std::make_shared<const Tape>(compiler.take());
+  for (const InputPlace& input : compiled->places) {
+    const ParameterInfo& info = input.parameter.parameterInfo();
+    const auto same = [&](const ParameterInfo& other) { return other.name == info.name; };
+    if (std::none_of(compiled->inputs.begin(), compiled->inputs.end(), same))
+      compiled->inputs.push_back(info);
+  }
+  compiled->outputs = std::move(outputs);
+  compiled_ = std::move(compiled);
+}
+
+const std::vector<Expr>& Function::outputs() const { return compiled_->outputs; }
+const std::vector<ParameterInfo>& Function::inputs() const { return compiled_->inputs; }
+
+TapePtr Function::at(const Values& values) const {
+  const Tape& tape = *compiled_->tape;
+  if (compiled_->places.empty() || values.empty()) return compiled_->tape;
+  auto pool = std::make_shared<Tape::Pool>(*tape.pool_);
+  bool inRange = true;
+  std::tie(pool->doubles, inRange) = compiled_->constantsAt(values, std::move(pool->doubles));
+  pool->floats.assign(pool->doubles.begin(), pool->doubles.end());
+  std::shared_ptr<const Tape::Code> code = tape.code_;
+  if (!inRange) {
+    auto unbounded = std::make_shared<Tape::Code>(*code);
+    for (Instruction& instruction : unbounded->instructions)
+      instruction.lipschitz = std::numeric_limits<float>::infinity();
+    unbounded->finish();
+    code = std::move(unbounded);
+  }
+  return std::shared_ptr<const Tape>(new Tape(std::move(code), std::move(pool)));
+}
+
+std::vector<double> Function::uniform(const Values& values) const {
+  const Tape& tape = *compiled_->tape;
+  const std::vector<double> constants = compiled_->constantsAt(values, tape.pool_->doubles).first;
+  std::vector<double> result;
+  for (const Operand o : tape.outputs()) {
+    assert(o.isConstant());
+    result.push_back(constants[o.index()]);
+  }
+  return result;
+}
+
+}  // namespace sdf

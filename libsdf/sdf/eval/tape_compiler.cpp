@@ -1,0 +1,198 @@
+#include "sdf/eval/tape_compiler.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "sdf/expr/apply-inl.h"
+
+namespace sdf {
+namespace {
+
+float roundedUp(double slope) {
+  const float f = static_cast<float>(slope);
+  return f < slope ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+}
+
+}  // namespace
+
+TapeCompiler::TapeCompiler(std::span<const Expr> outputs) {
+  pool_->doubles = {0.0, 1.0};
+  literals_ = {{std::bit_cast<std::uint64_t>(0.0), kZero}, {std::bit_cast<std::uint64_t>(1.0), kOne}};
+  gather(outputs);
+  layOutUniform();
+  chooseInstructions(outputs);
+  for (Index i = 0; i < nodes_.size(); ++i)
+    if (!matches_[i].args.empty()) emit(i);
+  for (const Expr& e : outputs) code_->outputs.push_back(place(indexOf(e)));
+  pool_->floats.assign(pool_->doubles.begin(), pool_->doubles.end());
+  code_->finish();
+}
+
+void TapeCompiler::use(const Expr& e) {
+  NodeInfo& node = nodes_[indexOf(e)];
+  if (e.op() == Op::Claim)
+    node.claimed = std::max(node.claimed, e.lipschitz());
+  else
+    node.unclaimed = true;
+}
+
+void TapeCompiler::gather(std::span<const Expr> outputs) {
+  for (Expr& e : topologicalOrder(outputs)) {
+    if (e.op() == Op::Claim) continue;
+    NodeInfo node;
+    node.uniform = e.op() != Op::Variable;
+    for (int k = 0; k < arity(e.op()); ++k) {
+      const Expr argument = e.arg(k);
+      use(argument);
+      node.args[k] = indexOf(argument);
+      ++nodes_[node.args[k]].uses;
+      node.uniform = node.uniform && nodes_[node.args[k]].uniform;
+    }
+    indices_.emplace(e.node(), static_cast<Index>(nodes_.size()));
+    node.e = std::move(e);
+    nodes_.push_back(std::move(node));
+  }
+  for (const Expr& e : outputs) use(e);
+}
+
+std::uint32_t TapeCompiler::literal(double v) {
+  const auto [it, fresh] = literals_.try_emplace(std::bit_cast<std::uint64_t>(v),
+                                                 static_cast<std::uint32_t>(pool_->doubles.size()));
+  if (fresh) pool_->doubles.push_back(v);
+  return it->second;
+}
+
+// What depends on inputs alone is computed in double, once for all points.
+void TapeCompiler::layOutUniform() {
+  for (NodeInfo& node : nodes_) {
+    if (!node.uniform) continue;
+    if (node.e.isConstant()) {
+      node.place = literal(node.e.constantValue());
+      continue;
+    }
+    node.place = static_cast<Index>(pool_->doubles.size());
+    if (node.e.op() == Op::Parameter) {
+      inputs_.push_back({node.e, node.place});
+      pool_->doubles.push_back(node.e.parameterInfo().value);
+      continue;
+    }
+    UniformStep step{node.e.op(), {}, node.place};
+    for (int k = 0; k < arity(step.op); ++k) step.in[k] = nodes_[node.args[k]].place;
+    pool_->doubles.push_back(evaluateOp<double>(step.op, [&](int k) { return pool_->doubles[step.in[k]]; }));
+    steps_.push_back(step);
+  }
+}
+
+void TapeCompiler::chooseInstructions(std::span<const Expr> outputs) {
+  matches_.resize(nodes_.size());
+  for (const Expr& e : outputs) nodes_[indexOf(e)].needed = true;
+  for (Index i = static_cast<Index>(nodes_.size()); i-- > 0;) {
+    if (!nodes_[i].needed || nodes_[i].uniform || arity(op(i)) == 0) continue;
+    matches_[i] = match(i);
+    for (const Index a : matches_[i].args) nodes_[a].needed = true;
+  }
+}
+
+/// a - offset; no offset where the expression is not a shift by a number.
+struct TapeCompiler::Shifted {
+  Index base;
+  std::optional<Number> offset;
+};
+
+TapeCompiler::Shifted TapeCompiler::shifted(Index i) const {
+  const bool difference = op(i) == Op::Sub;
+  if (!difference && op(i) != Op::Add) return {i, {}};
+  if (nodes_[arg(i, 1)].uniform) return {arg(i, 0), Number{arg(i, 1), !difference}};
+  if (!difference && nodes_[arg(i, 0)].uniform) return {arg(i, 1), Number{arg(i, 0), true}};
+  return {i, {}};
+}
+
+TapeCompiler::Match TapeCompiler::match(Index i) const {
+  if (Match m = matchLength(i, {}); !m.args.empty()) return m;
+  if (const Shifted s = shifted(i); s.offset && nodes_[s.base].uses == 1) {
+    if (Match m = matchLength(s.base, {&*s.offset, 1}); !m.args.empty()) return m;
+    if (op(s.base) == Op::Abs) return {Op::AbsMinus, {arg(s.base, 0)}, {*s.offset}};
+  }
+  if (op(i) == Op::Add)
+    for (const int k : {0, 1}) {
+      const Index product = arg(i, k), rest = arg(i, 1 - k);
+      if (nodes_[product].uses > 1) continue;
+      if (op(product) ==
+          Op::Mul) {  // a constant factor second, where the batch reading keeps it in a register
+        const bool swap = nodes_[arg(product, 0)].uniform;
+        return {Op::MulAdd, {arg(product, swap), arg(product, !swap), rest}, {}};
+      }
+      if (op(product) == Op::Square) return {Op::MulAdd, {arg(product, 0), arg(product, 0), rest}, {}};
+    }
+  Match m{op(i), {}, {}};
+  for (int k = 0; k < arity(m.op); ++k) m.args.push_back(arg(i, k));
+  return m;
+}
+
+// sqrt(a² + b²) - offset, sqrt(a² + b² + c²) - offset, and the latter with shifted arguments. Squares and
+// sums that others use as well are worked out again: that is cheaper than a pass through memory.
+TapeCompiler::Match TapeCompiler::matchLength(Index root, std::span<const Number> offset) const {
+  std::vector<Index> terms;
+  if (op(root) != Op::Sqrt || nodes_[root].uniform || !collectSquares(arg(root, 0), terms)) return {};
+  // The fused operations add the first square last, as a² + (b² + c²) does. (a² + b²) + c² rounds otherwise.
+  const Index sum = arg(root, 0);
+  if (op(sum) == Op::Add && op(arg(sum, 0)) == Op::Add)
+    std::rotate(terms.begin(), terms.end() - 1, terms.end());
+  const Number zero{~Index{0}};
+  const Number last = offset.empty() ? zero : offset.front();
+  if (terms.size() == 2) return {Op::Length2, terms, {last}};
+  if (terms.size() != 3) return {};
+  Match m{Op::Distance3, {}, {}};
+  int shifts = 0;
+  for (const Index t : terms) {
+    const Shifted s = shifted(t);
+    shifts += s.offset.has_value();
+    m.args.push_back(s.base);
+    m.numbers.push_back(s.offset.value_or(zero));
+  }
+  m.numbers.push_back(last);
+  return shifts >= 2 ? m : Match{Op::Length3, terms, {last}};
+}
+
+bool TapeCompiler::collectSquares(Index i, std::vector<Index>& terms) const {
+  if (op(i) == Op::Square) return terms.push_back(arg(i, 0)), terms.size() <= 3;
+  if (op(i) == Op::Add) return collectSquares(arg(i, 0), terms) && collectSquares(arg(i, 1), terms);
+  return false;
+}
+
+// A fused operation's numbers lie in a row, so they are not shared.
+std::uint32_t TapeCompiler::inPool(const Number& number) {
+  const auto place = static_cast<std::uint32_t>(pool_->doubles.size());
+  if (number.node == ~Index{0}) {
+    pool_->doubles.push_back(0.0);
+    return place;
+  }
+  const NodeInfo& node = nodes_[number.node];
+  const double value = pool_->doubles[node.place];
+  pool_->doubles.push_back(number.negative ? -value : value);
+  if (!node.e.isConstant()) steps_.push_back({number.negative ? Op::Neg : Op::Claim, {node.place}, place});
+  return place;
+}
+
+Operand TapeCompiler::place(Index i) const {
+  const NodeInfo& node = nodes_[i];
+  if (node.uniform) return Operand::constant(node.place);
+  return op(i) == Op::Variable ? Operand::variable(node.e.variableIndex()) : Operand::value(node.place);
+}
+
+void TapeCompiler::emit(Index i) {
+  const Match& m = matches_[i];
+  NodeInfo& node = nodes_[i];
+  const double slope = node.e.lipschitz();
+  Instruction instruction{m.op, {}, 0, roundedUp(node.unclaimed ? slope : std::min(slope, node.claimed))};
+  for (std::size_t k = 0; k < m.args.size(); ++k) instruction.in[k] = place(m.args[k]);
+  if (!m.numbers.empty()) instruction.constants = static_cast<std::uint32_t>(pool_->doubles.size());
+  for (const Number& number : m.numbers) inPool(number);
+  node.place = static_cast<Index>(code_->instructions.size());
+  code_->instructions.push_back(instruction);
+}
+
+}  // namespace sdf

@@ -1,0 +1,94 @@
+// From a graph to a tape, and to what computes the tape's constants from values of its inputs. Private to
+// eval/.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "sdf/eval/tape.h"
+
+namespace sdf {
+
+inline constexpr std::uint32_t kZero = 0;  // places of 0 and 1 in every pool
+inline constexpr std::uint32_t kOne = 1;
+
+/// One value that depends on inputs alone: places in the pool. A copy is written as a claim.
+struct UniformStep {
+  Op op;
+  std::array<std::uint32_t, kMaxArity> in;
+  std::uint32_t out;
+};
+
+/// An input's place in the pool.
+struct InputPlace {
+  Expr parameter;
+  std::uint32_t place;
+};
+
+/// Chooses an instruction for every node that is needed, working back from the outputs, so that what a fused
+/// operation swallows is emitted only if somebody else needs it; then emits in order. A claim is no
+/// instruction: where a node is used through claims alone, its value has the slope that they state.
+class TapeCompiler {
+ public:
+  explicit TapeCompiler(std::span<const Expr> outputs);
+
+  /// The tape with inputs at their defaults.
+  Tape take() { return Tape(std::move(code_), std::move(pool_)); }
+  std::vector<UniformStep> takeSteps() { return std::move(steps_); }
+  std::vector<InputPlace> takeInputs() { return std::move(inputs_); }
+
+ private:
+  using Index = std::uint32_t;
+  struct NodeInfo {
+    Expr e;
+    std::array<Index, 3> args{};
+    int uses = 0;
+    bool uniform = false;    // depends on inputs alone
+    bool needed = false;     // by an output or an instruction
+    bool unclaimed = false;  // has a user that relies on no claim
+    double claimed = 0.0;    // the largest slope that claims state
+    Index place = 0;         // in the pool if uniform, else among the instructions
+  };
+  // A number that a fused operation takes: a literal, or a uniform node, perhaps negated.
+  struct Number {
+    Index node = 0;
+    bool negative = false;
+  };
+  struct Match {
+    Op op = Op::Constant;
+    std::vector<Index> args;
+    std::vector<Number> numbers;
+  };
+  struct Shifted;
+
+  void gather(std::span<const Expr> outputs);
+  void use(const Expr& e);
+  void layOutUniform();
+  void chooseInstructions(std::span<const Expr> outputs);
+  Match match(Index i) const;
+  Match matchLength(Index root, std::span<const Number> offset) const;
+  bool collectSquares(Index i, std::vector<Index>& terms) const;
+  Shifted shifted(Index i) const;
+  std::uint32_t literal(double v);
+  std::uint32_t inPool(const Number& number);
+  Operand place(Index i) const;
+  void emit(Index i);
+
+  Op op(Index i) const { return nodes_[i].e.op(); }
+  Index arg(Index i, int k) const { return nodes_[i].args[k]; }
+  Index indexOf(const Expr& e) const { return indices_.at(e.unclaimed().node()); }
+
+  std::vector<NodeInfo> nodes_;  // without claims, arguments before their users
+  std::unordered_map<const Node*, Index> indices_;
+  std::vector<Match> matches_;  // by node
+  std::unordered_map<std::uint64_t, std::uint32_t> literals_;
+  std::vector<UniformStep> steps_;
+  std::vector<InputPlace> inputs_;
+  std::shared_ptr<Tape::Pool> pool_ = std::make_shared<Tape::Pool>();
+  std::shared_ptr<Tape::Code> code_ = std::make_shared<Tape::Code>();
+};
+
+}  // namespace sdf

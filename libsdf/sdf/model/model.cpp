@@ -1,0 +1,115 @@
+#include "sdf/model/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/shape/operand.h"
+
+namespace sdf {
+namespace {
+
+std::vector<Expr> surfaceOutputs(const Shape& shape) {
+  const auto attribute = [&](Attribute a) { return shape.surface[static_cast<int>(a)]; };
+  return {shape.distance, attribute(Attribute::Red), attribute(Attribute::Green), attribute(Attribute::Blue),
+          attribute(Attribute::MaterialId)};
+}
+
+// The largest gap between the boxes along an axis; 0 where they meet.
+double gapBetween(const Box& a, const Box& b) {
+  const glm::dvec3 gaps = glm::max(a.min - b.max, b.min - a.max);
+  return std::max({0.0, gaps.x, gaps.y, gaps.z});
+}
+
+}  // namespace
+
+Model::Model(Shape shape) {
+  auto compiled = std::make_shared<Compiled>();
+  compiled->shape = std::move(shape);
+  compiled_ = compiled;
+  for (const Shape& operand : operands()) compiled->functions.emplace_back(surfaceOutputs(operand));
+  if (!this->shape().outer || this->shape().outer->blend.kind == Blend::Kind::Hard) return;
+  const Blend& blend = this->shape().outer->blend;
+  const auto join = unionJoin(blend);
+  compiled->blend.emplace(std::vector<Expr>{join[0], join[1], join[2], blend.k});
+}
+
+std::span<const Shape> Model::operands() const {
+  const Shape& s = shape();
+  return s.outer ? std::span<const Shape>(s.outer->operands) : std::span(&s, 1);
+}
+
+ModelTapes Model::at(const Values& values) const {
+  ModelTapes result;
+  std::vector<TapePtr> tapes;
+  for (const Function& f : functions()) tapes.push_back(f.at(values));
+  for (std::uint32_t i = 0; i < tapes.size(); ++i) result.all_.push_back(i);
+  if (!shape().outer) {
+    result.whole_ = tapes.front();
+    result.slope_ = std::min<double>(slopeOf(shape()), result.whole_->lipschitz());
+    return result;
+  }
+  TapePtr join;
+  if (compiled_->blend) {
+    join = compiled_->blend->at(values);
+    const double k = join->constant(join->outputs().back().index());
+    result.sink_ = k * deepestBlend(shape().outer->blend.kind, tapes.size());
+    result.width_ = k + result.sink_;
+  }
+  result.tapes_.emplace(tapes, join);
+  result.whole_ = result.tapes_->link(result.all_);
+  result.slope_ = std::min<double>(slopeOf(shape()), result.whole_->lipschitz());
+  for (const Shape& operand : operands())
+    result.reaches_.push_back({operand.bounds, growthOf(operand.claim)});
+  return result;
+}
+
+// Where the model's distance is at most `most`, some operand's is at most most + sink. Among the distances of
+// n operands there is then a gap of a width between those and most + sink + (n + 1) widths: what lies beyond
+// it has no part in what is blended before it, and whatever was blended before is lost in the first operand
+// that is nearer than the gap (see booleans.h: a blend is its lesser distance where the other is k larger).
+std::vector<std::uint32_t> ModelTapes::near(const Box& box, double most,
+                                            std::span<const std::uint32_t> among) const {
+  std::vector<std::uint32_t> result(among.begin(), among.end());
+  if (!tapes_) return result;
+  std::vector<double> least(among.size());
+  for (std::size_t i = 0; i < among.size(); ++i) {
+    const Reach& reach = reaches_[among[i]];
+    const double gap = gapBetween(box, reach.bounds);
+    least[i] = gap > 0.0 ? gap / reach.growth : 0.0;
+  }
+  double limit = most + sink_ + width_;
+  for (std::size_t kept = 0, before = ~std::size_t{0}; kept != before;) {
+    before = kept;
+    result.clear();
+    for (std::size_t i = 0; i < among.size(); ++i)
+      if (least[i] <= limit) result.push_back(among[i]);
+    kept = result.size();
+    limit = most + sink_ + width_ * static_cast<double>(kept + 1);
+    if (width_ == 0.0) break;
+  }
+  return result;
+}
+
+TapePtr ModelTapes::link(std::span<const std::uint32_t> operands) const {
+  return tapes_ && operands.size() < all_.size() ? tapes_->link(operands) : whole_;
+}
+
+double slopeIn(const Shape& shape, const Box& box) {
+  const double everywhere = slopeOf(shape);
+  return everywhere < kInfinity ? everywhere : lipschitzOver(Tape(shape.distance), box);
+}
+
+Marchable marchable(const Shape& shape) {
+  constexpr double kConstant = 0x1p-64;  // stands for 0: a distance that is the same everywhere
+  Marchable result{shape.distance, std::max(slopeOf(shape), kConstant)};
+  if (result.slope < kInfinity || !shape.bounds.finite()) return result;
+  const Box near = shape.bounds.grown(0.5 * shape.bounds.longestSide());
+  result.slope = std::max(slopeIn(shape, near), kConstant);
+  if (result.slope < kInfinity)
+    result.distance =
+        select(less(0.0, *outsideBox(near)), *outsideBox(shape.bounds) * result.slope, shape.distance);
+  return result;
+}
+
+}  // namespace sdf
