@@ -11,7 +11,10 @@ double lower(const Expr& e) { return e.range().nan ? -kInfinity : e.range().lo; 
 
 Expr positiveSize(const Expr& size) { return lower(size) > 0.0 ? size : max(size, kSmallestSize); }
 
-Expr scaled(const Expr& a, const Expr& factor) { return factor.isConstant(0.0) ? Expr(0.0) : a * factor; }
+Expr scaled(const Expr& a, const Expr& factor) {
+  if (a.isConstant(0.0) || factor.isConstant(0.0)) return 0.0;
+  return factor.isConstant(-1.0) ? -a : a * factor;
+}
 
 Expr weighted(const Vec3E& v, const Vec3E& weights) {
   return scaled(v.x, weights.x) + scaled(v.y, weights.y) + scaled(v.z, weights.z);

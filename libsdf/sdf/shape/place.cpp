@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sdf/shape/booleans.h"
+#include "sdf/shape/formula.h"
 #include "sdf/shape/operand.h"
 
 namespace sdf {
@@ -13,23 +14,13 @@ namespace {
 
 using Matrix = std::array<Vec3E, 3>;  // rows
 
-// Terms with a zero factor are left out: the graph itself must keep 0 * x, for x may be infinite.
-Expr timesUnlessZero(const Expr& a, const Expr& b) {
-  if (a.isConstant(0.0) || b.isConstant(0.0)) return 0.0;
-  return a.isConstant(-1.0) ? -b : a * b;
-}
-Expr weighted(const Vec3E& weights, const Vec3E& v) {
-  const Expr x = timesUnlessZero(weights.x, v.x), y = timesUnlessZero(weights.y, v.y);
-  return x + y + timesUnlessZero(weights.z, v.z);
-}
-
 Vec3E column(const Matrix& m, int i) { return {component(m[0], i), component(m[1], i), component(m[2], i)}; }
 Matrix transposed(const Matrix& m) { return {column(m, 0), column(m, 1), column(m, 2)}; }
 
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix m;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) component(m[i], j) = weighted(a[i], column(b, j));
+    for (int j = 0; j < 3; ++j) component(m[i], j) = weighted(column(b, j), a[i]);
   return m;
 }
 
@@ -52,10 +43,8 @@ Matrix turn(int axis, const Expr& angle) {
 // Rodrigues' formula for a unit axis.
 Matrix turnAbout(const Vec3E& n, const Expr& angle) {
   const Expr c = snapped(cos(angle)), s = snapped(sin(angle)), rest = 1.0 - c;
-  const auto both = [&](const Expr& a, const Expr& b) {
-    return timesUnlessZero(timesUnlessZero(a, b), rest);
-  };
-  const auto aside = [&](const Expr& a) { return timesUnlessZero(a, s); };
+  const auto both = [&](const Expr& a, const Expr& b) { return scaled(rest, scaled(b, a)); };
+  const auto aside = [&](const Expr& a) { return scaled(s, a); };
   return {Vec3E{both(n.x, n.x) + c, both(n.x, n.y) - aside(n.z), both(n.x, n.z) + aside(n.y)},
           {both(n.x, n.y) + aside(n.z), both(n.y, n.y) + c, both(n.y, n.z) - aside(n.x)},
           {both(n.x, n.z) - aside(n.y), both(n.y, n.z) + aside(n.x), both(n.z, n.z) + c}};
@@ -106,7 +95,7 @@ double turnedGrowth(const Matrix& m) {
 Shape turned(const Shape& shape, const Matrix& m) {
   const Matrix back = transposed(m);
   const Vec3E p = position();
-  Shape result = movedTo(shape, {weighted(back[0], p), weighted(back[1], p), weighted(back[2], p)}, 1.0);
+  Shape result = movedTo(shape, {weighted(p, back[0]), weighted(p, back[1]), weighted(p, back[2])}, 1.0);
   result.bounds = isEverything(shape.bounds) ? shape.bounds : turnedBox(shape.bounds, m);
   result.claim = shape.claim;
   result.claim.growth = shape.claim.growth * turnedGrowth(m);
@@ -138,7 +127,7 @@ Vec3E reflected(const Vec3E& n, int side) {
     component(q, i) = side == 0 ? -x : positive ? abs(x) : -abs(x);
     return q;
   }
-  const Expr height = weighted(n, p);
+  const Expr height = weighted(p, n);
   const Expr wrong = side == 0 ? height : side > 0 ? min(height, 0.0) : max(height, 0.0);
   const auto reflect = [&](const Expr& x, const Expr& slope) {
     return slope.isConstant(0.0) ? x : wrong * (-2.0 * slope) + x;
@@ -150,8 +139,7 @@ Matrix reflection(const Vec3E& n) {
   Matrix m;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      component(m[i], j) =
-          Expr(i == j ? 1.0 : 0.0) - timesUnlessZero(timesUnlessZero(component(n, i), component(n, j)), 2.0);
+      component(m[i], j) = Expr(i == j ? 1.0 : 0.0) - scaled(scaled(component(n, i), component(n, j)), 2.0);
   return m;
 }
 
