@@ -105,18 +105,14 @@ Comparison compareWithWhole(const PointScene& scene) {
   forEachRun(
       scene.points.size(), [&](std::size_t i) { return scene.points[i]; }, scene.band, scene.whole, progress,
       [&](const PointRun& run) {
-        float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints];
+        PointRows at;
         float local[kOutputs + 1][kBatchPoints], whole[kOutputs + 1][kBatchPoints];
-        for (std::size_t i = 0; i < run.count; ++i) {
-          const glm::vec3& p = scene.points[run.first + i];
-          x[i] = p.x, y[i] = p.y, z[i] = p.z;
-        }
-        const Rows rows{.x = x, .y = y, .z = z};
+        for (std::size_t i = 0; i < run.count; ++i) at.set(i, scene.points[run.first + i]);
         float* const l[] = {local[0], local[1], local[2], local[3], local[4]};
         float* const w[] = {whole[0], whole[1], whole[2], whole[3], whole[4]};
-        run.batch.evaluate(*run.tapes.surface, rows, run.count, l);
-        run.batch.evaluate(*run.tapes.distance, rows, run.count, local[kOutputs]);
-        run.batch.evaluate(*scene.tape, rows, run.count, w);
+        run.batch.evaluate(*run.tapes.surface, at.rows(), run.count, l);
+        run.batch.evaluate(*run.tapes.distance, at.rows(), run.count, local[kOutputs]);
+        run.batch.evaluate(*scene.tape, at.rows(), run.count, w);
         std::copy_n(whole[0], run.count, whole[kOutputs]);
         const std::lock_guard lock(guard);
         for (int k = 0; k <= kOutputs; ++k) {

@@ -7,6 +7,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,6 +27,16 @@ struct Rows {
   const float* nx = nullptr;
   const float* ny = nullptr;
   const float* nz = nullptr;
+};
+
+/// A block of points in rows: what one pass takes.
+struct PointRows {
+  float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints];
+
+  void set(std::size_t i, const glm::vec3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
+  glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  Rows rows() const { return {x, y, z}; }
+  Rows rows(const PointRows& normals) const { return {x, y, z, normals.x, normals.y, normals.z}; }
 };
 
 /// Scratch memory for the batch readings; one per thread.

@@ -32,10 +32,13 @@ std::span<const Arm> armsOf(NormalMethod method) {
   return tetrahedron;
 }
 
-struct FloatRows {
-  explicit FloatRows(std::size_t count) : x(count), y(count), z(count), f(count) {}
-  std::vector<float> x, y, z, f;
-  Rows rows() const { return {x.data(), y.data(), z.data()}; }
+/// Points that one pass takes.
+struct Block {
+  const MarchField& field;
+  const Vectors& points;
+  std::size_t first, count;
+
+  glm::dvec3 at(std::size_t i) const { return points[first + i]; }
 };
 
 double largest(const glm::dvec3& v) {
@@ -44,42 +47,34 @@ double largest(const glm::dvec3& v) {
 }
 
 // Unnormalised gradients by differences, those that rounding could explain set to 0.
-std::vector<glm::dvec3> differences(const MarchField& field, const Vectors& points,
-                                    const NormalOptions& options) {
-  const std::size_t count = points.size();
-  BatchEvaluator batch;
-  FloatRows at(count);
-  std::vector<glm::dvec3> sum(count, glm::dvec3(0.0));
-  std::vector<double> size(count, 0.0);
+void differences(const Block& block, const NormalOptions& options, BatchEvaluator& batch, glm::dvec3* sum) {
+  PointRows at;
+  float f[kBatchPoints];
+  double size[kBatchPoints] = {};
+  std::fill_n(sum, block.count, glm::dvec3(0.0));
   for (const Arm& arm : armsOf(options.method)) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const glm::dvec3 p = points[i] + options.step * arm.to;
-      at.x[i] = static_cast<float>(p.x), at.y[i] = static_cast<float>(p.y), at.z[i] = static_cast<float>(p.z);
+    for (std::size_t i = 0; i < block.count; ++i) {
+      const glm::dvec3 p = block.at(i) + options.step * arm.to;
+      at.set(i, p);
       size[i] = std::max(size[i], largest(p));
     }
-    batch.evaluate(*field.distance, at.rows(), count, at.f.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      sum[i] += static_cast<double>(at.f[i]) * arm.weight;
-      size[i] = std::max(size[i], std::abs(static_cast<double>(at.f[i])));
+    batch.evaluate(*block.field.distance, at.rows(), block.count, f);
+    for (std::size_t i = 0; i < block.count; ++i) {
+      sum[i] += static_cast<double>(f[i]) * arm.weight;
+      size[i] = std::max(size[i], std::abs(static_cast<double>(f[i])));
     }
   }
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < block.count; ++i)
     if (largest(sum[i]) <= kRounding * size[i]) sum[i] = glm::dvec3(0.0);
-  return sum;
 }
 
-std::vector<glm::dvec3> gradients(const MarchField& field, const Vectors& points) {
-  const std::size_t count = points.size();
-  BatchEvaluator batch;
-  FloatRows at(count), gradient(count);
-  at.x.assign(points.x.begin(), points.x.end());
-  at.y.assign(points.y.begin(), points.y.end());
-  at.z.assign(points.z.begin(), points.z.end());
-  batch.evaluateGradient(*field.distance, at.rows(), count, at.f.data(), gradient.x.data(), gradient.y.data(),
-                         gradient.z.data());
-  std::vector<glm::dvec3> all(count);
-  for (std::size_t i = 0; i < count; ++i) all[i] = {gradient.x[i], gradient.y[i], gradient.z[i]};
-  return all;
+void gradients(const Block& block, BatchEvaluator& batch, glm::dvec3* all) {
+  PointRows at, gradient;
+  float f[kBatchPoints];
+  for (std::size_t i = 0; i < block.count; ++i) at.set(i, block.at(i));
+  batch.evaluateGradient(*block.field.distance, at.rows(), block.count, f, gradient.x, gradient.y,
+                         gradient.z);
+  for (std::size_t i = 0; i < block.count; ++i) all[i] = gradient.at(i);
 }
 
 }  // namespace
@@ -94,13 +89,19 @@ Result<Vectors> normals(const MarchField& field, const Vectors& points, const Ve
     return Error{ErrorKind::Usage, "normals: step must be positive and finite"};
   if (points.size() != otherwise.size())
     return Error{ErrorKind::Usage, "normals: the rows of points and of otherwise differ in length"};
-  const std::vector<glm::dvec3> gradient = options.method == NormalMethod::Gradient
-                                               ? gradients(field, points)
-                                               : differences(field, points, options);
+  BatchEvaluator batch;
+  glm::dvec3 gradient[kBatchPoints];
   Vectors result;
-  for (std::size_t i = 0; i < gradient.size(); ++i) {
-    const double length = glm::length(gradient[i]);
-    result.add(length > 0.0 && std::isfinite(length) ? gradient[i] / length : otherwise[i]);
+  for (std::size_t first = 0; first < points.size(); first += kBatchPoints) {
+    const Block block{field, points, first, std::min(kBatchPoints, points.size() - first)};
+    if (options.method == NormalMethod::Gradient)
+      gradients(block, batch, gradient);
+    else
+      differences(block, options, batch, gradient);
+    for (std::size_t i = 0; i < block.count; ++i) {
+      const double length = glm::length(gradient[i]);
+      result.add(length > 0.0 && std::isfinite(length) ? gradient[i] / length : otherwise[first + i]);
+    }
   }
   return result;
 }

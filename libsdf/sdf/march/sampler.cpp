@@ -18,16 +18,18 @@ double Sampler::at(const glm::dvec3& p) {
 }
 
 void Sampler::sample(const Vectors& points, std::vector<double>& value) {
-  const std::size_t count = points.size();
-  x_.assign(points.x.begin(), points.x.end());
-  y_.assign(points.y.begin(), points.y.end());
-  z_.assign(points.z.begin(), points.z.end());
-  f_.resize(count);
-  value.resize(count);
-  batch_.evaluate(*field_.distance, {x_.data(), y_.data(), z_.data()}, count, f_.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    const float size = std::max({std::abs(x_[i]), std::abs(y_[i]), std::abs(z_[i])});
-    value[i] = std::abs(f_[i]) <= kDoubtful * size ? at(points[i]) : f_[i] / field_.divisor();
+  value.resize(points.size());
+  PointRows block;
+  float f[kBatchPoints];
+  for (std::size_t first = 0; first < points.size(); first += kBatchPoints) {
+    const std::size_t count = std::min(kBatchPoints, points.size() - first);
+    for (std::size_t i = 0; i < count; ++i) block.set(i, points[first + i]);
+    batch_.evaluate(*field_.distance, block.rows(), count, f);
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::vec3 size = glm::abs(block.at(i));
+      const bool doubtful = std::abs(f[i]) <= kDoubtful * std::max({size.x, size.y, size.z});
+      value[first + i] = doubtful ? at(points[first + i]) : f[i] / field_.divisor();
+    }
   }
 }
 

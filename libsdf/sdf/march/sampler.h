@@ -24,7 +24,6 @@ class Sampler {
   const MarchField& field_;
   BatchEvaluator batch_;
   ScalarReading<double> scalar_;
-  std::vector<float> x_, y_, z_, f_;
 };
 
 /// Marches every ray, as many together as one pass of the batch reading takes. A ray that is done makes room

@@ -32,14 +32,14 @@ SurfaceSamples sampleSurface(std::size_t count, const Point& point, const Normal
   constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
   SurfaceSamples s{std::vector<glm::vec3>(count), std::vector<int>(count)};
   forEachRun(count, point, band, fallback, progress, [&](const PointRun& run) {
-    float rows[6][kBatchPoints], values[kOutputs][kBatchPoints];
+    PointRows points, normals;
+    float values[kOutputs][kBatchPoints];
     for (std::size_t i = 0; i < run.count; ++i) {
-      const glm::vec3 p = point(run.first + i), n = normal(run.first + i);
-      for (int k = 0; k < 3; ++k) rows[k][i] = p[k], rows[3 + k][i] = n[k];
+      points.set(i, point(run.first + i));
+      normals.set(i, normal(run.first + i));
     }
     float* const out[kOutputs] = {values[0], values[1], values[2], values[3], values[4]};
-    run.batch.evaluate(*run.tapes.surface, {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5]}, run.count,
-                       out);
+    run.batch.evaluate(*run.tapes.surface, points.rows(normals), run.count, out);
     for (std::size_t i = 0; i < run.count; ++i) {
       s.colors[run.first + i] = {unit(values[1][i]), unit(values[2][i]), unit(values[3][i])};
       s.ids[run.first + i] = static_cast<int>(std::lround(values[4][i]));

@@ -79,15 +79,12 @@ template <class Point, class Take>
 void forEachDistance(std::size_t count, const Point& point, const NarrowBand& band,
                      const LocalTapes& fallback, Progress& progress, const Take& take) {
   forEachRun(count, point, band, fallback, progress, [&](const PointRun& run) {
-    float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints];
-    for (std::size_t i = 0; i < run.count; ++i) {
-      const glm::vec3 p = point(run.first + i);
-      x[i] = p.x, y[i] = p.y, z[i] = p.z;
-    }
+    PointRows points;
+    for (std::size_t i = 0; i < run.count; ++i) points.set(i, point(run.first + i));
     RunGradients g;
-    g.evaluate(run, x, y, z);
+    g.evaluate(run, points);
     for (std::size_t i = 0; i < run.count; ++i)
-      take(run.first + i, distanceOf(run, g, i, {x[i], y[i], z[i]}, band.voxelSize()));
+      take(run.first + i, distanceOf(run, g, i, points.at(i), band.voxelSize()));
   });
 }
 

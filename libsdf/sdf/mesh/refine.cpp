@@ -6,21 +6,13 @@
 namespace sdf {
 namespace {
 
-// Rows of one run's positions.
-struct PositionRows {
-  float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints];
-
-  glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
-  void set(std::size_t i, const glm::vec3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
-};
-
 glm::vec3 unit(const glm::vec3& g) {
   const float length = glm::length(g);
   return length > 0.0f && std::isfinite(length) ? g / length : glm::vec3(0.0f, 1.0f, 0.0f);
 }
 
 void refineRun(const PointRun& run, float reach, glm::vec3* positions, glm::vec3* normals) {
-  PositionRows trial;
+  PointRows trial;
   RunGradients g;
   float best[kBatchPoints];
   glm::vec3 start[kBatchPoints];
@@ -31,7 +23,7 @@ void refineRun(const PointRun& run, float reach, glm::vec3* positions, glm::vec3
     trial.set(i, positions[i]);
   }
   for (int step = 0; step <= kRefineSteps; ++step) {
-    g.evaluate(run, trial.x, trial.y, trial.z);
+    g.evaluate(run, trial);
     bool moved = false;
     for (std::size_t i = 0; i < run.count; ++i) {
       const float distance = std::abs(g.distance(i, slope));

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace sdf {
 namespace {
@@ -42,14 +43,16 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
 }
 
 float RunGradients::distance(std::size_t i, float slope) const {
-  const float length = std::hypot(dx[i], dy[i], dz[i]);
+  const glm::vec3 g = gradient(i);
+  const float length = std::hypot(g.x, g.y, g.z);
   return length > kVanishing * slope ? value[i] / length : value[i] / slope;
 }
 
 glm::vec3 RunGradients::step(std::size_t i, float slope) const {
-  const float squared = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
+  const glm::vec3 g = gradient(i);
+  const float squared = glm::dot(g, g);
   if (!(squared > kVanishing * kVanishing * slope * slope)) return glm::vec3(0.0f);
-  return gradient(i) * (-value[i] / squared);
+  return g * (-value[i] / squared);
 }
 
 }  // namespace sdf

@@ -31,12 +31,14 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
 /// First-order distances and gradients of one run: |f| / |grad f| is the distance to the zero set up to
 /// second order (Taubin 1994).
 struct RunGradients {
-  float value[kBatchPoints], dx[kBatchPoints], dy[kBatchPoints], dz[kBatchPoints];
+  float value[kBatchPoints];
+  PointRows gradients;
 
-  void evaluate(const PointRun& run, const float* x, const float* y, const float* z) {
-    run.batch.evaluateGradient(*run.tapes.distance, {.x = x, .y = y, .z = z}, run.count, value, dx, dy, dz);
+  void evaluate(const PointRun& run, const PointRows& at) {
+    run.batch.evaluateGradient(*run.tapes.distance, at.rows(), run.count, value, gradients.x, gradients.y,
+                               gradients.z);
   }
-  glm::vec3 gradient(std::size_t i) const { return {dx[i], dy[i], dz[i]}; }
+  glm::vec3 gradient(std::size_t i) const { return gradients.at(i); }
   /// Signed; where the gradient vanishes the value itself, divided by `slope`, the field's slope bound.
   float distance(std::size_t i, float slope) const;
   /// The step from the point to the first-order zero set, along the gradient.

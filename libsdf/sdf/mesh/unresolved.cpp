@@ -42,13 +42,10 @@ glm::vec3 probeThrough(const NarrowBand::Suspect& s, const glm::vec3& gradient, 
 }
 
 /// One run's points, and which of them lie beyond a sign change.
-struct Probes {
-  float x[kBatchPoints], y[kBatchPoints], z[kBatchPoints], value[kBatchPoints];
+struct Probes : PointRows {
+  float value[kBatchPoints];
 
-  void set(std::size_t i, const glm::vec3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
-  void evaluate(const PointRun& run) {
-    run.batch.evaluate(*run.tapes.distance, {.x = x, .y = y, .z = z}, run.count, value);
-  }
+  void evaluate(const PointRun& run) { run.batch.evaluate(*run.tapes.distance, rows(), run.count, value); }
   bool isAcross(std::size_t i, float suspect, float voxel) const {
     const float rounding = kRounding * (std::abs(x[i]) + std::abs(y[i]) + std::abs(z[i]) + voxel);
     return (suspect < 0.0f ? value[i] : -value[i]) > rounding;
@@ -60,7 +57,7 @@ void confirm(const PointRun& run, const NarrowBand::Suspect* suspects, float vox
   Probes probes;
   for (std::size_t i = 0; i < run.count; ++i) probes.set(i, suspects[i].at);
   RunGradients at;
-  at.evaluate(run, probes.x, probes.y, probes.z);
+  at.evaluate(run, probes);
   for (std::size_t k = 0; k < kProbes; ++k) {
     for (std::size_t i = 0; i < run.count; ++i) probes.set(i, probeAt(suspects[i], k, at.gradient(i), voxel));
     probes.evaluate(run);
