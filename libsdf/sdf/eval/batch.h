@@ -1,9 +1,5 @@
 // The batch readings: float, SIMD, hundreds of points a call, with the best instruction set that the machine
-// has.
-//
-// Accuracy: each operation is within 4 ulp of its double value for float arguments, except tan (8 ulp), pow
-// and mod (2 ulp of the result plus, for mod, 1 ulp of its first argument). sin, cos and tan of |x| > 39000
-// fall back to the C library.
+// has. eval/promise.h says how accurate they are.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -75,16 +75,16 @@ HWY_INLINE Lanes equal(const Lanes& a, const Lanes& b) { return asNumber(hn::Eq(
 HWY_INLINE Lanes select(const Lanes& c, const Lanes& a, const Lanes& b) {
   return hn::IfThenElse(isTrue(c), a.v, b.v);
 }
-// x86's own min and max already take the second argument on a NaN.
+// x86's own min and max already take the second argument on a NaN; Highway's portable ones do not.
 HWY_INLINE Lanes min(const Lanes& a, const Lanes& b) {
-#if HWY_ARCH_X86
+#if HWY_ARCH_X86 && HWY_TARGET < HWY_EMU128
   return hn::Min(a.v, b.v);
 #else
   return hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v);
 #endif
 }
 HWY_INLINE Lanes max(const Lanes& a, const Lanes& b) {
-#if HWY_ARCH_X86
+#if HWY_ARCH_X86 && HWY_TARGET < HWY_EMU128
   return hn::Max(a.v, b.v);
 #else
   return hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v);
