@@ -51,6 +51,7 @@ TEST(Clauses, RefuteTheErrorsThatTheyAreFor) {
       {"not exact at an edge", isExact, claimed(column, ClaimKind::ExactOutside, 1.0)},
       {"bounds too small where moved", movesRigidly, smallBounds()},
       {"slopes too small", specialises, falseSlopes()},
+      {"a sum far above the coordinates", roundsAsADistance, field(position().x + 4096.0 - 4096.7351)},
   };
   constexpr unsigned kSeeds = 8;  // what a single subject's few dozen points may miss
   for (const auto& p : planted) {

@@ -165,7 +165,25 @@ inline Verdict keepsFloatPromise(const Subject& s) {
   return {};
 }
 
-inline constexpr Clause kReadingClauses[] = {
-    {"intervals", hasTightIntervals}, {"specialised", specialises}, {"floats", keepsFloatPromise}};
+/// The float value of the whole is no farther off than distanceRounding says.
+inline Verdict roundsAsADistance(const Subject& s) {
+  BatchEvaluator batch;
+  for (const glm::dvec3& point : s.points()) {
+    const glm::vec3 p(point);
+    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > promise(Op::Length3).largest) continue;
+    float value;
+    batch.evaluate(s.tape(), {.x = &p.x, .y = &p.y, .z = &p.z}, 1, &value);
+    const double off = std::abs(value - s.value(p)), most = distanceRounding(p, s.longest());
+    if (!(off <= most))
+      return finding("the float reading is off by ", off, " at ", exactly(glm::dvec3(p)), ", more than ",
+                     most);
+  }
+  return {};
+}
+
+inline constexpr Clause kReadingClauses[] = {{"intervals", hasTightIntervals},
+                                             {"specialised", specialises},
+                                             {"floats", keepsFloatPromise},
+                                             {"rounding", roundsAsADistance}};
 
 }  // namespace sdf::test

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdf/eval/promise.h"
+
 namespace sdf {
 namespace {
 
-// Float values are off by some tens of roundings of numbers of the size of the coordinates: 2^-18 of them.
-// Below four times that the value says little.
-constexpr double kDoubtful = 0x1p-16;
+// Of a distance's rounding: a value below it says little.
+constexpr double kDoubtful = 4.0;
 
 }  // namespace
 
@@ -26,8 +27,7 @@ void Sampler::sample(const Vectors& points, std::vector<double>& value) {
     for (std::size_t i = 0; i < count; ++i) block.set(i, points[first + i]);
     batch_.evaluate(*field_.distance, block.rows(), count, f);
     for (std::size_t i = 0; i < count; ++i) {
-      const glm::vec3 size = glm::abs(block.at(i));
-      const bool doubtful = std::abs(f[i]) <= kDoubtful * std::max({size.x, size.y, size.z});
+      const bool doubtful = std::abs(f[i]) <= kDoubtful * distanceRounding(block.at(i));
       value[first + i] = doubtful ? at(points[first + i]) : f[i] / field_.divisor();
     }
   }

@@ -13,6 +13,7 @@
 #include <mutex>
 
 #include "sdf/eval/batch.h"
+#include "sdf/eval/promise.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/mesh/band_grid-inl.h"
 
@@ -28,9 +29,6 @@ constexpr int kLeafVoxels = kLeaf * kLeaf * kLeaf;
 constexpr int kMargin = 2;  // voxels around a cell over which its tape holds: a vertex may leave its leaf by
                             // one, and move by another as it is refined
 constexpr double kSqrt3 = 1.7320508075688772;
-
-// Float values differ from the true ones by some tens of roundings of numbers of the size of the coordinates.
-constexpr double kRoundingSlack = 0x1p-18;
 
 // What a surface voxel costs in the end: its share of a leaf, extraction's buffers, vertices, triangles and
 // measuring.
@@ -160,7 +158,7 @@ class BandSampler {
   }
 
   double slack(const glm::dvec3& c) const {
-    return kRoundingSlack * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + options_.bounds.longestSide());
+    return distanceRounding(c, options_.bounds.longestSide());
   }
 
   bool inBounds(const openvdb::Coord& o, int size) const {

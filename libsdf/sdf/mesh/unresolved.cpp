@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/eval/promise.h"
+
 namespace sdf {
 namespace {
 
@@ -17,8 +19,8 @@ constexpr float kBeyond[kProbes] = {0.002f, 0.01f, 0.02f, 0.05f, 0.1f, 0.2f, 0.4
 constexpr float kThrough = 1.0f;
 // Half a cell's diagonal, and the least of what is looked beyond.
 constexpr float kReach = 0.8660254f + 0.02f;
-// Of the coordinates: what rounding may make of a zero.
-constexpr float kRounding = 0x1p-20f;
+// Of a distance's rounding: what it may make of a zero where solids touch, which few operations lead to.
+constexpr double kOfRounding = 0.25;
 
 /// The point this much further than the first-order distance; the suspect itself where that is out of reach:
 /// a flat field is low far from its surface, which then lies beside another sample.
@@ -47,8 +49,7 @@ struct Probes : PointRows {
 
   void evaluate(const PointRun& run) { run.batch.evaluate(*run.tapes.distance, rows(), run.count, value); }
   bool isAcross(std::size_t i, float suspect, float voxel) const {
-    const float rounding = kRounding * (std::abs(x[i]) + std::abs(y[i]) + std::abs(z[i]) + voxel);
-    return (suspect < 0.0f ? value[i] : -value[i]) > rounding;
+    return (suspect < 0.0f ? value[i] : -value[i]) > kOfRounding * distanceRounding(at(i), voxel);
   }
 };
 
