@@ -110,7 +110,7 @@ MeshStats distanceTo(const Shape& shape, double h, const std::vector<glm::vec3>&
   const NarrowBand band = bandOf(shape, shape.bounds, h);
   MeshStats stats;
   Progress progress;
-  measureDistance(positions, triangles, band, wholeTapes(tapeOf(shape)), progress, stats);
+  measureDistance(positions, triangles, BandField(band, wholeTapes(tapeOf(shape))), progress, stats);
   return stats;
 }
 

@@ -28,10 +28,10 @@ struct SurfaceSamples {
 
 template <class Point, class Normal>
 SurfaceSamples sampleSurface(std::size_t count, const Point& point, const Normal& normal,
-                             const NarrowBand& band, const LocalTapes& fallback, Progress& progress) {
+                             const LocalField& field, Progress& progress) {
   constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
   SurfaceSamples s{std::vector<glm::vec3>(count), std::vector<int>(count)};
-  forEachRun(count, point, band, fallback, progress, [&](const PointRun& run) {
+  forEachRun(count, point, field, progress, [&](const PointRun& run) {
     PointRows points, normals;
     float values[kOutputs][kBatchPoints];
     for (std::size_t i = 0; i < run.count; ++i) {
@@ -127,13 +127,12 @@ std::vector<BorderPoint> splitBorders(Mesh& mesh) {
 }
 
 // Colours the vertices of borders, each where its own material is seen.
-void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt, const NarrowBand& band,
-                  const LocalTapes& fallback, Progress& progress, Mesh& mesh) {
+void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt, const LocalField& field, Progress& progress, Mesh& mesh) {
   for (const float shift : kBorderShifts) {
     const SurfaceSamples s = sampleSurface(
         points.size(),
         [&](std::size_t i) { return glm::mix(mesh.positions[points[i].vertex], points[i].inside, shift); },
-        [&](std::size_t i) { return mesh.normals[points[i].vertex]; }, band, fallback, progress);
+        [&](std::size_t i) { return mesh.normals[points[i].vertex]; }, field, progress);
     std::vector<BorderPoint> elsewhere;
     for (std::size_t i = 0; i < points.size(); ++i) {
       mesh.colors[points[i].vertex] = s.colors[i];
@@ -145,9 +144,8 @@ void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt,
 
 // Averages of the attributes that a glTF material holds as single numbers, over some of the material's
 // triangles.
-void resolveMaterials(const Shape& shape, Mesh& mesh) {
-  std::vector<Expr> outputs(shape.surface.begin(), shape.surface.end());
-  const Tape tape(outputs);
+void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
+  const TapePtr tape = Function({shape.surface.begin(), shape.surface.end()}).at(values);
   const std::size_t count = mesh.materials.size();
   std::vector<std::vector<std::size_t>> trianglesOf(count);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) trianglesOf[mesh.triangleMaterial[t]].push_back(t);
@@ -159,7 +157,7 @@ void resolveMaterials(const Shape& shape, Mesh& mesh) {
     for (std::size_t i = 0; i < mine.size(); i += stride, ++samples) {
       const glm::uvec3& t = mesh.triangles[mine[i]];
       const std::vector<double> v =
-          evaluateAll(tape, glm::dvec3(centroid(mesh, t)), glm::dvec3(mesh.normals[t.x]));
+          evaluateAll(*tape, glm::dvec3(centroid(mesh, t)), glm::dvec3(mesh.normals[t.x]));
       for (int a = 0; a < kAttributeCount; ++a) sum[a] += std::isfinite(v[a]) ? v[a] : 0.0;
     }
     auto mean = [&](Attribute a) {
@@ -178,7 +176,7 @@ void resolveMaterials(const Shape& shape, Mesh& mesh) {
 
 }  // namespace
 
-void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
+void colorMesh(const Shape& shape, const Values& values, const LocalField& field, Progress& progress,
                Mesh& mesh) {
   auto normalOf = [&](std::size_t i) { return mesh.normals[i]; };
   const Expr& id = shape.surface[static_cast<int>(Attribute::MaterialId)];
@@ -189,21 +187,20 @@ void colorMesh(const Shape& shape, const NarrowBand& band, const LocalTapes& fal
   } else {
     const auto atCentroids = sampleSurface(
         mesh.triangles.size(), [&](std::size_t t) { return centroid(mesh, mesh.triangles[t]); },
-        [&](std::size_t t) { return mesh.normals[mesh.triangles[t].x]; }, band, fallback, progress);
+        [&](std::size_t t) { return mesh.normals[mesh.triangles[t].x]; }, field, progress);
     if (progress.stopped()) return;  // not every triangle has a material
     idAt = assignMaterials(shape, atCentroids.ids, mesh);
     orderByMaterial(mesh);
   }
   mesh.colors = sampleSurface(
-                    mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, band,
-                    fallback, progress)
+                    mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, field, progress)
                     .colors;
   if (mesh.materials.size() > 1) {
     std::vector<BorderPoint> border = splitBorders(mesh);
     mesh.colors.resize(mesh.positions.size());
-    colorBorders(std::move(border), idAt, band, fallback, progress, mesh);
+    colorBorders(std::move(border), idAt, field, progress, mesh);
   }
-  resolveMaterials(shape, mesh);
+  resolveMaterials(shape, values, mesh);
 }
 
 }  // namespace sdf

@@ -74,48 +74,47 @@ float distanceOf(const PointRun& run, const RunGradients& g, std::size_t i, cons
   return std::min(first, static_cast<float>(found));
 }
 
-// Calls take(i, |distance|) for each of `count` points; points of one chunk in order, chunks in parallel.
+// Calls take(i, |distance|, voxel) for each of `count` points; points of one chunk in order, chunks in parallel.
 template <class Point, class Take>
-void forEachDistance(std::size_t count, const Point& point, const NarrowBand& band,
-                     const LocalTapes& fallback, Progress& progress, const Take& take) {
-  forEachRun(count, point, band, fallback, progress, [&](const PointRun& run) {
+void forEachDistance(std::size_t count, const Point& point, const LocalField& field, Progress& progress, const Take& take) {
+  forEachRun(count, point, field, progress, [&](const PointRun& run) {
     PointRows points;
     for (std::size_t i = 0; i < run.count; ++i) points.set(i, point(run.first + i));
     RunGradients g;
     g.evaluate(run, points);
     for (std::size_t i = 0; i < run.count; ++i)
-      take(run.first + i, distanceOf(run, g, i, points.at(i), band.voxelSize()));
+      take(run.first + i, distanceOf(run, g, i, points.at(i), run.voxel), run.voxel);
   });
 }
 
 struct TriangleError {
   float squares = 0.0f;  // mean over the samples
   float largest = 0.0f;
+  float voxels = 0.0f;  // the largest in voxels
 };
 
 // The largest distance over the triangles of `list`, looked for closely.
 double largestOver(const std::vector<std::uint32_t>& list, const std::vector<glm::vec3>& positions,
-                   const std::vector<glm::uvec3>& triangles, const NarrowBand& band,
-                   const LocalTapes& fallback, Progress& progress) {
+                   const std::vector<glm::uvec3>& triangles, const LocalField& field, Progress& progress) {
   std::vector<float> distances(kFine * list.size());
   forEachDistance(
       distances.size(),
       [&](std::size_t i) {
         return finePoint(positions, triangles[list[i / kFine]], static_cast<int>(i % kFine));
       },
-      band, fallback, progress, [&](std::size_t i, float d) { distances[i] = d; });
+      field, progress, [&](std::size_t i, float d, double) { distances[i] = d; });
   return distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end());
 }
 
 }  // namespace
 
 void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                     const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
+                     const LocalField& field, Progress& progress,
                      MeshStats& stats) {
   std::vector<float> atVertices(positions.size());
   forEachDistance(
-      positions.size(), [&](std::size_t i) { return positions[i]; }, band, fallback, progress,
-      [&](std::size_t i, float d) { atVertices[i] = d; });
+      positions.size(), [&](std::size_t i) { return positions[i]; }, field, progress,
+      [&](std::size_t i, float d, double) { atVertices[i] = d; });
   static_assert(kRunChunk % kInside == 0, "a triangle's samples must lie in one chunk");
   std::vector<TriangleError> inside(triangles.size());
   forEachDistance(
@@ -123,11 +122,12 @@ void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<
       [&](std::size_t i) {
         return samplePoint(positions, triangles[i / kInside], static_cast<int>(i % kInside));
       },
-      band, fallback, progress,
-      [&](std::size_t i, float d) {
+      field, progress,
+      [&](std::size_t i, float d, double voxel) {
         TriangleError& e = inside[i / kInside];
         e.squares += d * d / kInside;
         e.largest = std::max(e.largest, d);
+        e.voxels = std::max(e.voxels, static_cast<float>(d / voxel));
       });
   double area = 0.0, squares = 0.0, largest = 0.0;
   for (const float d : atVertices) largest = std::max<double>(largest, d);
@@ -141,8 +141,8 @@ void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<
   }
   std::vector<std::uint32_t> edges;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (inside[t].largest > std::max(kEdge * band.voxelSize(), 0.5 * largest)) edges.push_back(t);
-  largest = std::max(largest, largestOver(edges, positions, triangles, band, fallback, progress));
+    if (inside[t].voxels > kEdge && inside[t].largest > 0.5 * largest) edges.push_back(t);
+  largest = std::max(largest, largestOver(edges, positions, triangles, field, progress));
   stats.rmsDistance = area > 0.0 ? std::sqrt(squares / area) : 0.0;
   stats.maxDistance = largest;
 }

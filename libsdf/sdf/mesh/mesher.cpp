@@ -54,10 +54,11 @@ class Mesher {
       const ModelTapes model = Model(shape).at(options_.values);
       whole = {model.whole(), model.whole()->firstOutputOnly()};
       auto result = sampleNarrowBand(model, band, progress_);
-      if (result) findUnresolved(*result, whole, progress_, result_.stats);
+      if (result) findUnresolved(*result, BandField(*result, whole), progress_, result_.stats);
       return result;
     });
     if (!sampled) return sampled.error();
+    const BandField field(*sampled, std::move(whole));
     RawSurface raw = time("extraction", [&] { return sampled->extract(); });
     if (raw.triangles.empty())
       return sceneError(
@@ -69,16 +70,16 @@ class Mesher {
     mesh.triangles = std::move(raw.triangles);
     mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
     time("projection", [&] {
-      refineVertices(mesh.positions, mesh.normals, *sampled, whole, progress_);
+      refineVertices(mesh.positions, mesh.normals, field, progress_);
       return 0;
     });
     time("measuring", [&] {
-      measureDistance(mesh.positions, mesh.triangles, *sampled, whole, progress_, result_.stats);
+      measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
       measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
       return 0;
     });
     time("colouring", [&] {
-      colorMesh(shape, *sampled, whole, progress_, mesh);
+      colorMesh(shape, options_.values, field, progress_, mesh);
       return 0;
     });
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};

@@ -157,9 +157,7 @@ class BandSampler {
     return {(origin.x() + half) * h_, (origin.y() + half) * h_, (origin.z() + half) * h_};
   }
 
-  double slack(const glm::dvec3& c) const {
-    return distanceRounding(c, options_.bounds.longestSide());
-  }
+  double slack(const glm::dvec3& c) const { return distanceRounding(c, options_.bounds.longestSide()); }
 
   bool inBounds(const openvdb::Coord& o, int size) const {
     return o.x() <= high_.x() && o.y() <= high_.y() && o.z() <= high_.z() && o.x() + size > low_.x() &&
@@ -413,6 +411,23 @@ const LocalTapes* NarrowBand::Finder::at(const glm::vec3& p) {
     return &it->second;
   }
   return nullptr;
+}
+
+std::unique_ptr<LocalField::Finder> BandField::finder() const {
+  class InBand : public Finder {
+   public:
+    InBand(const NarrowBand& band, const LocalTapes& whole) : leaves_(band), whole_(whole), h_(band.voxelSize()) {}
+    Local at(const glm::vec3& p) override {
+      const LocalTapes* tapes = leaves_.at(p);
+      return {tapes ? *tapes : whole_, h_};
+    }
+
+   private:
+    NarrowBand::Finder leaves_;
+    const LocalTapes& whole_;
+    double h_;
+  };
+  return std::make_unique<InBand>(band_, whole_);
 }
 
 namespace {

@@ -7,15 +7,10 @@
 #include "sdf/base/box.h"
 #include "sdf/base/progress.h"
 #include "sdf/base/result.h"
+#include "sdf/mesh/local_field.h"
 #include "sdf/model/model.h"
 
 namespace sdf {
-
-/// What a leaf of 8³ voxels (and a margin of two voxels around it) can feel of the scene.
-struct LocalTapes {
-  TapePtr surface;   ///< distance and attributes
-  TapePtr distance;  ///< output 0 alone
-};
 
 /// Triangles and quads of an extracted surface, counter-clockwise from outside.
 struct RawSurface {
@@ -46,7 +41,8 @@ class NarrowBand {
   class Finder {
    public:
     explicit Finder(const NarrowBand& band) : band_(band) {}
-    /// Tapes of the leaf at or next to a point; nullptr far from the surface.
+    /// Tapes of the leaf of 8³ voxels at or next to a point, which hold two voxels around it, too; nullptr far
+    /// from the surface.
     const LocalTapes* at(const glm::vec3& p);
 
    private:
@@ -79,6 +75,18 @@ class NarrowBand {
   friend class BandSampler;
   void settleZeros();
   std::unique_ptr<Grid> grid_;
+};
+
+/// A band's tapes, at one resolution; those of the whole model serve points far from every leaf. The band must
+/// outlive it; its samples may be gone.
+class BandField : public LocalField {
+ public:
+  BandField(const NarrowBand& band, LocalTapes whole) : band_(band), whole_(std::move(whole)) {}
+  std::unique_ptr<Finder> finder() const override;
+
+ private:
+  const NarrowBand& band_;
+  LocalTapes whole_;
 };
 
 struct BandOptions {

@@ -11,7 +11,8 @@ glm::vec3 unit(const glm::vec3& g) {
   return length > 0.0f && std::isfinite(length) ? g / length : glm::vec3(0.0f, 1.0f, 0.0f);
 }
 
-void refineRun(const PointRun& run, float reach, glm::vec3* positions, glm::vec3* normals) {
+void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
+  const float reach = static_cast<float>(run.voxel);
   PointRows trial;
   RunGradients g;
   float best[kBatchPoints];
@@ -44,13 +45,12 @@ void refineRun(const PointRun& run, float reach, glm::vec3* positions, glm::vec3
 }  // namespace
 
 void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
-                    const NarrowBand& band, const LocalTapes& fallback, Progress& progress) {
+                    const LocalField& field, Progress& progress) {
   normals.assign(positions.size(), glm::vec3(0.0f, 1.0f, 0.0f));
-  const float reach = static_cast<float>(band.voxelSize());
   const std::vector<glm::vec3> where = positions;  // runs are formed by where extraction put the vertices
   forEachRun(
-      positions.size(), [&](std::size_t i) { return where[i]; }, band, fallback, progress,
-      [&](const PointRun& run) { refineRun(run, reach, &positions[run.first], &normals[run.first]); });
+      positions.size(), [&](std::size_t i) { return where[i]; }, field, progress,
+      [&](const PointRun& run) { refineRun(run, &positions[run.first], &normals[run.first]); });
 }
 
 }  // namespace sdf

@@ -8,7 +8,7 @@ namespace sdf {
 /// extraction put the vertex; the best position met is kept. `normals` receives the unit gradient there
 /// (exact derivatives).
 void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
-                    const NarrowBand& band, const LocalTapes& fallback, Progress& progress);
+                    const LocalField& field, Progress& progress);
 
 inline constexpr int kRefineSteps = 3;
 

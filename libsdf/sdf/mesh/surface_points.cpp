@@ -17,8 +17,7 @@ constexpr float kVanishing = 1e-3f;
 
 }  // namespace
 
-void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const NarrowBand& band,
-                const LocalTapes& fallback, Progress& progress,
+void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const LocalField& field, Progress& progress,
                 const std::function<void(const PointRun&)>& work) {
   tbb::enumerable_thread_specific<BatchEvaluator> evaluators;
   const std::size_t chunks = (count + kRunChunk - 1) / kRunChunk;
@@ -26,16 +25,15 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
     if (progress.stopped()) return;
     const std::size_t end = std::min(count, (chunk + 1) * kRunChunk);
-    NarrowBand::Finder finder(band);
-    auto tapesOf = [&](std::size_t i) {
-      const LocalTapes* t = finder.at(point(i));
-      return t ? t : &fallback;
-    };
+    const auto finder = field.finder();
     for (std::size_t first = chunk * kRunChunk; first < end;) {
-      const LocalTapes* tapes = tapesOf(first);
+      const LocalField::Local here = finder->at(point(first));
+      const auto same = [&](const LocalField::Local& next) {
+        return next.tapes.surface == here.tapes.surface && next.voxel == here.voxel;
+      };
       std::size_t next = first + 1;
-      while (next < end && next - first < kBatchPoints && tapesOf(next)->surface == tapes->surface) ++next;
-      work({first, next - first, *tapes, evaluators.local()});
+      while (next < end && next - first < kBatchPoints && same(finder->at(point(next)))) ++next;
+      work({first, next - first, here.tapes, here.voxel, evaluators.local()});
       first = next;
     }
     progress.update(static_cast<double>(++done) / chunks);

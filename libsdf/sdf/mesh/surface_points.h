@@ -6,7 +6,7 @@
 
 #include "sdf/base/progress.h"
 #include "sdf/eval/batch.h"
-#include "sdf/mesh/narrow_band.h"
+#include "sdf/mesh/local_field.h"
 
 namespace sdf {
 
@@ -15,6 +15,7 @@ struct PointRun {
   std::size_t first;  ///< index of the first point
   std::size_t count;  ///< at most kBatchPoints
   const LocalTapes& tapes;
+  double voxel;  ///< the resolution there, scene units
   BatchEvaluator& batch;
 };
 
@@ -22,10 +23,9 @@ struct PointRun {
 inline constexpr std::size_t kRunChunk = 4096;
 
 /// Calls work(run) for all points, chunks of kRunChunk in parallel and each chunk in order. `point(i)` yields
-/// the i-th position; points that follow one another should lie near one another. `fallback` serves points
-/// that are far from every leaf. Returns early once progress is stopped.
-void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const NarrowBand& band,
-                const LocalTapes& fallback, Progress& progress,
+/// the i-th position; points that follow one another should lie near one another. Returns early once progress
+/// is stopped.
+void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const LocalField& field, Progress& progress,
                 const std::function<void(const PointRun&)>& work);
 
 /// First-order distances and gradients of one run: |f| / |grad f| is the distance to the zero set up to

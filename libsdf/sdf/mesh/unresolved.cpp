@@ -71,13 +71,13 @@ void confirm(const PointRun& run, const NarrowBand::Suspect* suspects, float vox
 
 }  // namespace
 
-void findUnresolved(const NarrowBand& band, const LocalTapes& fallback, Progress& progress,
+void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& progress,
                     MeshStats& stats) {
   const std::vector<NarrowBand::Suspect> suspects = band.suspects();
   const float voxel = static_cast<float>(band.voxelSize());
   std::vector<char> confirmed(suspects.size(), 0);
   forEachRun(
-      suspects.size(), [&](std::size_t i) { return suspects[i].at; }, band, fallback, progress,
+      suspects.size(), [&](std::size_t i) { return suspects[i].at; }, field, progress,
       [&](const PointRun& run) { confirm(run, &suspects[run.first], voxel, &confirmed[run.first]); });
   stats.unresolved = 0;
   for (std::size_t i = 0; i < suspects.size(); ++i)
