@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <functional>
+#include <optional>
 
 #include "support/folder.h"
 
@@ -166,20 +167,43 @@ TEST(WriteFile, LeavesNothingOnAFullDisk) {
   EXPECT_TRUE(empty);
 }
 
-TEST(WriteFile, EndsAtOnceAndLeavesNothingAfterAbandonWrites) {
+void expectInterrupted(const Status& status, const std::filesystem::path& target) {
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Interrupted);
+  EXPECT_EQ(status.error().message, "interrupted; '" + target.string() + "' was not written");
+}
+
+TEST(AbandonedWrites, EndTheRunningOnesAtOnceAndAllThatBegin) {
   const Folder folder;
-  EXPECT_TRUE(inChild([&] {
-    const Status running = writeFile(folder / "a", [&](std::ostream& out) {
-      out << "half" << std::flush;
-      abandonWrites();
-      EXPECT_TRUE(folder.empty());
-      return okStatus();
-    });
-    const Status later = writeFile(folder / "b", writing("text"));
-    return !running && running.error().kind == ErrorKind::Interrupted && !later &&
-           later.error().kind == ErrorKind::Interrupted && !testing::Test::HasFailure();
-  }));
+  std::optional<AbandonedWrites> abandoned;
+  expectInterrupted(writeFile(folder / "a",
+                              [&](std::ostream& out) {
+                                out << "half" << std::flush;
+                                EXPECT_FALSE(folder.empty());
+                                abandoned.emplace();
+                                EXPECT_TRUE(folder.empty());
+                                EXPECT_FALSE(out << "rest" << std::flush) << "the writer sees it";
+                                return okStatus();
+                              }),
+                    folder / "a");
+  expectInterrupted(writeFile(folder / "b", writing("text")), folder / "b");
   EXPECT_TRUE(folder.empty());
+}
+
+TEST(AbandonedWrites, LeaveLaterOnesAlone) {
+  const Folder folder;
+  expectInterrupted(writeFile(folder / "a",
+                              [&](std::ostream& out) {
+                                { const AbandonedWrites twice, abandoned; }
+                                EXPECT_TRUE(writeFile(folder / "b", writing("text")));
+                                out << "half";  // of a file that is gone
+                                return okStatus();
+                              }),
+                    folder / "a");
+  EXPECT_EQ(contents(folder / "b"), "text");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+  EXPECT_TRUE(writeFile(folder / "a", writing("text")));
+  EXPECT_EQ(contents(folder / "a"), "text");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <string_view>
 
-#include "sdf/base/file.h"
 #include "sdf/base/result.h"
 
 namespace sdf {
@@ -51,7 +50,7 @@ void InterruptWatch::watch() {
   std::unique_lock lock(mutex_);
   if (done_) return;
   progress_.stop();
-  abandonWrites();
+  abandoned_.emplace();
   if (finished_.wait_for(lock, kGrace, [this] { return done_; })) return;
   constexpr std::string_view kMessage = "\nsdf2gltf: interrupted\n";
   [[maybe_unused]] const ssize_t told = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());

@@ -2,8 +2,10 @@
 #pragma once
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
+#include "sdf/base/file.h"
 #include "sdf/base/progress.h"
 
 namespace sdf {
@@ -25,6 +27,7 @@ class InterruptWatch {
   std::mutex mutex_;
   std::condition_variable finished_;
   bool done_ = false;
+  std::optional<AbandonedWrites> abandoned_;
   std::thread thread_;
 };
 

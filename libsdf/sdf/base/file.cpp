@@ -20,12 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::atomic<bool> abandoned{false};
+class TemporaryFile;
 
 /// The files that are being written. Renaming and removing happen under its lock, so that none slips through.
 struct Unfinished {
   std::mutex mutex;
-  std::set<std::string> paths;
+  std::set<TemporaryFile*> files;
+  int abandonments = 0;  ///< AbandonedWrites that live
 };
 
 Unfinished& unfinished() {
@@ -81,7 +82,8 @@ fs::path resolved(fs::path target) {
 /// Buffered writing to a file descriptor that keeps the first error's reason, which std::filebuf loses.
 class DescriptorBuffer : public std::streambuf {
  public:
-  explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) {
+  DescriptorBuffer(int descriptor, const std::atomic<bool>& abandoned)
+      : descriptor_(descriptor), abandoned_(abandoned) {
     setp(buffer_.data(), buffer_.data() + buffer_.size());
   }
   int reason() const { return reason_; }
@@ -117,7 +119,7 @@ class DescriptorBuffer : public std::streambuf {
 
   bool put(const char* data, std::streamsize count) {
     while (count > 0 && reason_ == 0) {
-      if (abandoned) reason_ = EINTR;
+      if (abandoned_) reason_ = EINTR;
       const ssize_t written = reason_ == 0 ? ::write(descriptor_, data, std::min(count, kPiece)) : 0;
       if (written < 0 && errno != EINTR) reason_ = errno;
       if (written > 0) {
@@ -129,6 +131,7 @@ class DescriptorBuffer : public std::streambuf {
   }
 
   int descriptor_;
+  const std::atomic<bool>& abandoned_;
   int reason_ = 0;
   std::array<char, 1 << 16> buffer_;
 };
@@ -139,8 +142,8 @@ class TemporaryFile {
   explicit TemporaryFile(const fs::path& target) {
     static std::atomic<unsigned> counter{0};
     std::lock_guard lock(unfinished().mutex);
-    if (abandoned) {
-      reason_ = EINTR;
+    if (unfinished().abandonments > 0) {
+      abandoned_ = true;
       return;
     }
     do {
@@ -150,32 +153,40 @@ class TemporaryFile {
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     reason_ = descriptor_ < 0 ? errno : 0;
-    if (reason_ == 0) unfinished().paths.insert(path_);
+    if (reason_ == 0) unfinished().files.insert(this);
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
     std::lock_guard lock(unfinished().mutex);
-    if (unfinished().paths.erase(path_) > 0) ::unlink(path_.c_str());
+    if (unfinished().files.erase(this) > 0) ::unlink(path_.c_str());
   }
 
   int descriptor() const { return descriptor_; }
   /// errno of what failed, or 0.
   int reason() const { return reason_; }
+  const std::atomic<bool>& abandoned() const { return abandoned_; }
+
+  /// Removes the file before it is finished, under the lock of unfinished().
+  void abandon() {
+    abandoned_ = true;
+    ::unlink(path_.c_str());
+  }
 
   /// Gives the file its name. Some file systems report a failed write only when the file is closed.
   int renameTo(const fs::path& target) {
     if (::close(std::exchange(descriptor_, -1)) != 0) return errno;
     std::lock_guard lock(unfinished().mutex);
-    if (abandoned) return EINTR;
+    if (abandoned_) return EINTR;
     if (::rename(path_.c_str(), target.c_str()) != 0) return errno;
-    unfinished().paths.erase(path_);
+    unfinished().files.erase(this);
     return 0;
   }
 
  private:
   std::string path_;
+  std::atomic<bool> abandoned_ = false;
   int descriptor_ = -1;
   int reason_ = 0;
 };
@@ -200,33 +211,36 @@ Status checkWritable(const fs::path& target) {
 }
 
 Status writeFile(const fs::path& target, const std::function<Status(std::ostream&)>& write) {
-  if (abandoned) return interrupted(target);
   if (Status possible = checkWritable(target); !possible) return possible;
   const fs::path real = resolved(target);
   TemporaryFile file(real);
-  if (abandoned) return interrupted(target);
+  if (file.abandoned()) return interrupted(target);
   if (file.reason() != 0) return cannotWrite(target, file.reason());
 
-  DescriptorBuffer buffer(file.descriptor());
+  DescriptorBuffer buffer(file.descriptor(), file.abandoned());
   std::ostream stream(&buffer);
   Status written = write(stream);
   stream.flush();
-  if (abandoned) return interrupted(target);
+  if (file.abandoned()) return interrupted(target);
   if (buffer.reason() != 0) return cannotWrite(target, buffer.reason());
   if (!written) return written;
   if (!stream) return cannotWrite(target, EIO);
 
   const int reason = file.renameTo(real);
-  if (abandoned && reason == EINTR) return interrupted(target);
+  if (file.abandoned()) return interrupted(target);
   if (reason != 0) return cannotWrite(target, reason);
   return okStatus();
 }
 
-void abandonWrites() {
+AbandonedWrites::AbandonedWrites() {
   std::lock_guard lock(unfinished().mutex);
-  abandoned = true;
-  for (const std::string& path : unfinished().paths) ::unlink(path.c_str());
-  unfinished().paths.clear();
+  ++unfinished().abandonments;
+  for (TemporaryFile* file : std::exchange(unfinished().files, {})) file->abandon();
+}
+
+AbandonedWrites::~AbandonedWrites() {
+  std::lock_guard lock(unfinished().mutex);
+  --unfinished().abandonments;
 }
 
 }  // namespace sdf

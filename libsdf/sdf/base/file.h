@@ -16,11 +16,18 @@ Status checkWritable(const std::filesystem::path& target);
 /// Calls `write` with a binary stream into a new file beside `target`, and renames that to `target` once
 /// `write` has succeeded and everything is written. On any failure the new file is removed and an older
 /// `target` is left as it was. A target that is a symbolic link is followed. Errors: those of `write`; Files,
-/// with the system's reason and what to do; Interrupted after abandonWrites.
+/// with the system's reason and what to do; Interrupted where AbandonedWrites ended it.
 Status writeFile(const std::filesystem::path& target, const std::function<Status(std::ostream&)>& write);
 
-/// For programs that are told to end: removes every unfinished file at once and makes each writeFile, running
-/// or yet to come, fail with Interrupted. May be called from any thread, not from a signal handler.
-void abandonWrites();
+/// For programs that are told to end. Making one removes every unfinished file at once, and the writeFile
+/// behind it fails with Interrupted; so does each that begins while one lives. Later ones know nothing of it.
+/// May be made on any thread, not in a signal handler.
+class AbandonedWrites {
+ public:
+  AbandonedWrites();
+  ~AbandonedWrites();
+  AbandonedWrites(const AbandonedWrites&) = delete;
+  AbandonedWrites& operator=(const AbandonedWrites&) = delete;
+};
 
 }  // namespace sdf
