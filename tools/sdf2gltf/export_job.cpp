@@ -12,7 +12,7 @@
 #include "sdf/mesh/mesher.h"
 #include "sdf/script/script.h"
 
-namespace sdf {
+namespace sdf::exporter {
 namespace {
 
 /// Voxels along the longest side, unless told otherwise: a side of a thousand pixels then has five to a
@@ -218,4 +218,4 @@ Status runExport(const Options& options, ProgressLine& progress, std::ostream& o
   });
 }
 
-}  // namespace sdf
+}  // namespace sdf::exporter

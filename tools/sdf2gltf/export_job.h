@@ -5,10 +5,10 @@
 #include "options.h"
 #include "progress_line.h"
 
-namespace sdf {
+namespace sdf::exporter {
 
 /// Does what `options` ask for and prints a table for each file to `out` unless quiet. Errors as the
 /// functions it calls.
 Status runExport(const Options& options, ProgressLine& progress, std::ostream& out);
 
-}  // namespace sdf
+}  // namespace sdf::exporter

@@ -8,7 +8,7 @@
 
 #include "sdf/base/result.h"
 
-namespace sdf {
+namespace sdf::exporter {
 namespace {
 
 /// How long stopped work may take to end: with it the program is gone within a second of the signal.
@@ -57,4 +57,4 @@ void InterruptWatch::watch() {
   ::_exit(static_cast<int>(ErrorKind::Interrupted));
 }
 
-}  // namespace sdf
+}  // namespace sdf::exporter

@@ -8,7 +8,7 @@
 #include "sdf/base/file.h"
 #include "sdf/base/progress.h"
 
-namespace sdf {
+namespace sdf::exporter {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP stop `progress` and abandon the files being written. Work that
 /// does not end by itself soon after is ended with the process (status 130). Make it before any other thread,
@@ -31,4 +31,4 @@ class InterruptWatch {
   std::thread thread_;
 };
 
-}  // namespace sdf
+}  // namespace sdf::exporter

@@ -12,7 +12,7 @@
 #include "options.h"
 #include "progress_line.h"
 
-namespace sdf {
+namespace sdf::exporter {
 namespace {
 
 /// Prints one line, whatever the message holds, and returns the exit status for it.
@@ -47,16 +47,16 @@ int run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace sdf
+}  // namespace sdf::exporter
 
 int main(int argc, char** argv) {
   // Writing beyond the limit on file sizes shall fail as on a full disk, and not end the program half-way.
   std::signal(SIGXFSZ, SIG_IGN);
-  auto parsed = sdf::parseOptions(argc, argv);
-  if (!parsed) return sdf::fail(parsed.error());
+  auto parsed = sdf::exporter::parseOptions(argc, argv);
+  if (!parsed) return sdf::exporter::fail(parsed.error());
   if (const auto* answer = std::get_if<sdf::command_line::Answer>(&*parsed)) {
     std::cout << answer->text;
     return 0;
   }
-  return sdf::run(std::get<sdf::Options>(*parsed));
+  return sdf::exporter::run(std::get<sdf::exporter::Options>(*parsed));
 }

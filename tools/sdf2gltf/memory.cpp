@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace sdf {
+namespace sdf::exporter {
 
 double physicalMemory() {
   return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
@@ -28,4 +28,4 @@ void releaseFreedMemory() {
 #endif
 }
 
-}  // namespace sdf
+}  // namespace sdf::exporter

@@ -1,7 +1,7 @@
 // What the system says of memory.
 #pragma once
 
-namespace sdf {
+namespace sdf::exporter {
 
 /// Bytes of the machine's memory.
 double physicalMemory();
@@ -12,4 +12,4 @@ double peakMemory();
 /// Gives freed memory back to the system, which the allocator keeps where it was freed in small pieces.
 void releaseFreedMemory();
 
-}  // namespace sdf
+}  // namespace sdf::exporter

@@ -9,7 +9,7 @@
 #include "sdf/base/version.h"
 #include "sdf/gltf/export.h"
 
-namespace sdf {
+namespace sdf::exporter {
 
 using namespace command_line;  // NOLINT: this file is about nothing else
 
@@ -120,4 +120,4 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   return Parsed(std::move(*options));
 }
 
-}  // namespace sdf
+}  // namespace sdf::exporter

@@ -10,7 +10,7 @@
 #include "sdf/base/box.h"
 #include "sdf/base/result.h"
 
-namespace sdf {
+namespace sdf::exporter {
 
 struct Options {
   std::filesystem::path scene;
@@ -31,4 +31,4 @@ struct Options {
 /// Errors: Usage.
 Result<std::variant<Options, command_line::Answer>> parseOptions(int argc, const char* const* argv);
 
-}  // namespace sdf
+}  // namespace sdf::exporter

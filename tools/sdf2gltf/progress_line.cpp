@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace sdf {
+namespace sdf::exporter {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenDraws(100);
@@ -60,4 +60,4 @@ void ProgressLine::draw(double fraction) {
   std::fputs(line.c_str(), stderr);
 }
 
-}  // namespace sdf
+}  // namespace sdf::exporter

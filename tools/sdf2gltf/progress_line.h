@@ -7,7 +7,7 @@
 
 #include "sdf/base/progress.h"
 
-namespace sdf {
+namespace sdf::exporter {
 
 /// Shows "part 'body' (2 of 5): sampling 43 %, 12 s left" on stderr, redrawn in place; silent unless `shown`.
 class ProgressLine : public Progress {
@@ -32,4 +32,4 @@ class ProgressLine : public Progress {
   std::atomic<Clock::rep> nextDraw_{0};
 };
 
-}  // namespace sdf
+}  // namespace sdf::exporter

@@ -7,7 +7,7 @@
 
 #include "sdf/base/version.h"
 
-namespace sdf {
+namespace sdf::exporter {
 namespace {
 
 // Keeps the order in which things are said, as people read reports too.
@@ -140,4 +140,4 @@ std::string reportJson(const Options& options, const std::vector<ParameterInfo>&
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace sdf
+}  // namespace sdf::exporter

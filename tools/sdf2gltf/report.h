@@ -10,7 +10,7 @@
 #include "sdf/expr/expr.h"
 #include "sdf/mesh/mesh.h"
 
-namespace sdf {
+namespace sdf::exporter {
 
 /// Names of stages with their seconds, in the order they ran.
 using StageSeconds = std::vector<std::pair<std::string, double>>;
@@ -43,4 +43,4 @@ void printWarnings(std::ostream& out, const FileReport& report);
 std::string reportJson(const Options& options, const std::vector<ParameterInfo>& parameters,
                        const std::vector<FileReport>& files);
 
-}  // namespace sdf
+}  // namespace sdf::exporter
