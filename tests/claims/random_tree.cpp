@@ -89,7 +89,6 @@ class Grower {
     if (!p.required && oneIn(3)) return {};
     switch (p.kind) {
       case ArgumentKind::Number:
-      case ArgumentKind::Field:
         return number(p);
       case ArgumentKind::Integer:
         return whole(1, 9);
@@ -99,8 +98,6 @@ class Grower {
         return oneIn(4) ? glm::dvec3(number(p)) : glm::dvec3(number(p), number(p), number(p));
       case ArgumentKind::Choice:
         return whole(0, static_cast<int>(p.choices.size()) - 1);
-      case ArgumentKind::Flag:
-        return whole(0, 1);
       case ArgumentKind::Points:
         return polygon();
       case ArgumentKind::Shape:

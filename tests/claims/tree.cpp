@@ -20,10 +20,8 @@ std::string written(const Parameter& p, const Term& term) {
     const std::string xy = "{" + written(v->x) + ", " + written(v->y);
     return xy + (p.kind == ArgumentKind::Vector3 ? ", " + written(v->z) : "") + "}";
   }
-  if (const int* whole = std::get_if<int>(&term)) {
-    if (p.kind == ArgumentKind::Choice) return "\"" + p.choices[*whole] + "\"";
-    return p.kind == ArgumentKind::Flag ? (*whole ? "true" : "false") : std::to_string(*whole);
-  }
+  if (const int* whole = std::get_if<int>(&term))
+    return p.kind == ArgumentKind::Choice ? "\"" + p.choices[*whole] + "\"" : std::to_string(*whole);
   std::string list;
   if (const auto* points = std::get_if<std::vector<glm::dvec2>>(&term)) {
     for (const glm::dvec2& q : *points)

@@ -56,7 +56,6 @@ class ShapeReader {
     if (standard) return std::monostate{};
     switch (p.kind) {
       case ArgumentKind::Number:
-      case ArgumentKind::Field:
         return number(p);
       case ArgumentKind::Integer:
         return static_cast<int>(bytes_.below(12));
@@ -68,8 +67,6 @@ class ShapeReader {
         return Vec3E{number(p), number(p), number(p)};
       case ArgumentKind::Choice:
         return bytes_.below(static_cast<int>(p.choices.size()));
-      case ArgumentKind::Flag:
-        return bytes_.below(2);
       case ArgumentKind::Points: {
         std::vector<glm::dvec2> points;
         for (int left = 3 + bytes_.below(6); left > 0; --left)

@@ -312,7 +312,7 @@ TEST(Catalog, RefusesArgumentsWithOneLineThatSaysWhatToChange) {
 TEST(Catalog, ReturnsAFailedShapeAmongTheArgumentsAsItIs) {
   const Shape broken = Shape::failed("sphere: radius must be positive, got -1");
   for (const CatalogEntry& e : catalog()) {
-    const ArgumentKind first = e.parameters.empty() ? ArgumentKind::Flag : e.parameters[0].kind;
+    const ArgumentKind first = e.parameters.empty() ? ArgumentKind::Number : e.parameters[0].kind;
     if (first == ArgumentKind::Shape) {
       EXPECT_EQ(build(e, {broken}).error, broken.error) << e.name;
     } else if (first == ArgumentKind::Shapes) {

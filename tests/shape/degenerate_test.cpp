@@ -30,7 +30,6 @@ Argument ordinary(const Parameter& p) {
   if (!p.fallback.empty()) return {};  // takes it
   switch (p.kind) {
     case ArgumentKind::Number:
-    case ArgumentKind::Field:
       return number(0.5);
     case ArgumentKind::Integer:
       return 3;
@@ -53,7 +52,7 @@ std::vector<double> numbersOf(const Parameter& p) {
 std::vector<Argument> with(const Parameter& p, double bad) {
   const int components = p.kind == ArgumentKind::Vector3 ? 3 : p.kind == ArgumentKind::Vector2 ? 2 : 0;
   std::vector<Argument> all;
-  if (p.kind == ArgumentKind::Number || p.kind == ArgumentKind::Field) all.push_back(number(bad));
+  if (p.kind == ArgumentKind::Number) all.push_back(number(bad));
   if (p.kind == ArgumentKind::Integer && std::abs(bad) <= 1.0) all.emplace_back(static_cast<int>(bad));
   for (int i = 0; i < components; ++i) {
     std::vector<double> v = numbersOf(p);

@@ -115,12 +115,8 @@ class Call {
     switch (p.kind) {
       case ArgumentKind::Number:
         return readNumber(L_, at, what(p), Depends::OnParameters);
-      case ArgumentKind::Field:
-        return readFormula(L_, at, what(p));
       case ArgumentKind::Integer:
         return readInteger(L_, at, what(p));
-      case ArgumentKind::Flag:
-        return readFlag(L_, at, what(p)) ? 1 : 0;
       case ArgumentKind::Choice:
         return readChoice(L_, at, what(p), p.choices);
       case ArgumentKind::Vector2:

@@ -33,13 +33,9 @@ std::string formOf(const Parameter& p) {
     case ArgumentKind::Shape:
       return "shape";
     case ArgumentKind::Shapes:
-      return "shapes";
-    case ArgumentKind::Flag:
-      return "true or false";
-    case ArgumentKind::Field:
-      return "formula";
+      break;
   }
-  return "";
+  return "shapes";
 }
 
 std::string ruleOf(Rule rule) {

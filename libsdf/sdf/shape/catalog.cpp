@@ -42,7 +42,6 @@ Argument fallbackOf(const Parameter& p) {
   const std::vector<double> numbers = numbersIn(p.fallback);
   switch (p.kind) {
     case ArgumentKind::Number:
-    case ArgumentKind::Field:
       return Expr(numbers.at(0));
     case ArgumentKind::Integer:
       return static_cast<int>(numbers.at(0));
@@ -51,8 +50,6 @@ Argument fallbackOf(const Parameter& p) {
       return vectorOf(numbers);
     case ArgumentKind::Choice:
       return static_cast<int>(std::find(p.choices.begin(), p.choices.end(), p.fallback) - p.choices.begin());
-    case ArgumentKind::Flag:
-      return p.fallback == "true" ? 1 : 0;
     case ArgumentKind::Points:
       return pointsOf(numbers);
     case ArgumentKind::Shape:
@@ -65,7 +62,6 @@ Argument fallbackOf(const Parameter& p) {
 const char* kindName(ArgumentKind kind) {
   switch (kind) {
     case ArgumentKind::Number:
-    case ArgumentKind::Field:
       return "a number";
     case ArgumentKind::Integer:
       return "an integer";
@@ -80,24 +76,20 @@ const char* kindName(ArgumentKind kind) {
     case ArgumentKind::Shape:
       return "a shape";
     case ArgumentKind::Shapes:
-      return "a list of shapes";
-    case ArgumentKind::Flag:
       break;
   }
-  return "true or false";
+  return "a list of shapes";
 }
 
 bool holdsKind(const Argument& a, ArgumentKind kind) {
   switch (kind) {
     case ArgumentKind::Number:
-    case ArgumentKind::Field:
       return std::holds_alternative<Expr>(a);
     case ArgumentKind::Vector2:
     case ArgumentKind::Vector3:
       return std::holds_alternative<Vec3E>(a);
     case ArgumentKind::Integer:
     case ArgumentKind::Choice:
-    case ArgumentKind::Flag:
       return std::holds_alternative<int>(a);
     case ArgumentKind::Points:
       return std::holds_alternative<std::vector<glm::dvec2>>(a);

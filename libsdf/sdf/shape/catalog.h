@@ -14,9 +14,8 @@
 
 namespace sdf {
 
-/// Numbers, integers and vectors are the same everywhere in space; a Field is a number that may depend on the
-/// position.
-enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Shape, Shapes, Flag, Field };
+/// Numbers, integers and vectors are the same everywhere in space.
+enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Shape, Shapes };
 
 /// What an argument's numbers must be; checked on their present values before `build` is called.
 enum class Rule { Any, Positive, NotNegative, NotZero };
@@ -26,14 +25,14 @@ struct Parameter {
   ArgumentKind kind = ArgumentKind::Number;
   std::string doc;  ///< unit and meaning, one line
   Rule rule = Rule::Any;
-  std::string
-      fallback;  ///< default as scene text ("1", "{1, 1, 1}", "quadratic"); "" with required == false: absent
+  /// The default as scene text ("1", "{1, 1, 1}", "quadratic"); "" with required == false: absent.
+  std::string fallback;
   bool required = true;
   std::vector<std::string> choices;  ///< for Choice
 };
 
 /// A checked argument. monostate: optional and not given. Vector2 comes as Vec3E with z = 0, Choice as its
-/// index in `choices`, Integer and Flag as int. Angles are in degrees, as in scene files.
+/// index in `choices`, Integer as int. Angles are in degrees, as in scene files.
 using Argument =
     std::variant<std::monostate, Expr, Vec3E, int, std::vector<glm::dvec2>, Shape, std::vector<Shape>>;
 
@@ -56,8 +55,9 @@ class Arguments {
 enum class Group { Solid, Flat, Boolean, Deform, Place, Pattern };
 
 struct CatalogEntry {
-  std::string name;  ///< the scene language's name; operators on a shape are also methods (first parameter
-                     ///< kind Shape)
+  /// The scene language's name. Operators on a shape, whose first parameter is a Shape or Shapes, are methods
+  /// too.
+  std::string name;
   Group group;
   std::string doc;    ///< what it is, its axis and its origin; one or two sentences
   std::string claim;  ///< the claim in words for the reference page, e.g. "exact", "bound, L = 1"

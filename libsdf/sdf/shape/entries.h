@@ -44,9 +44,6 @@ inline Parameter vector3(std::string name, std::string doc, Rule rule, std::stri
 inline Parameter points(std::string name, std::string doc, std::string fallback = "") {
   return of(ArgumentKind::Points, std::move(name), std::move(doc), Rule::Any, std::move(fallback));
 }
-inline Parameter flag(std::string name, std::string doc, std::string fallback = "false") {
-  return of(ArgumentKind::Flag, std::move(name), std::move(doc), Rule::Any, std::move(fallback));
-}
 inline Parameter choice(std::string name, std::string doc, std::vector<std::string> choices) {
   std::string first = choices.front();
   Parameter p = of(ArgumentKind::Choice, std::move(name), std::move(doc), Rule::Any, std::move(first));
@@ -58,10 +55,6 @@ inline Parameter shape(std::string name, std::string doc) {
 }
 inline Parameter shapes(std::string name, std::string doc) {
   return of(ArgumentKind::Shapes, std::move(name), std::move(doc), Rule::Any, "");
-}
-/// A number that may depend on the position.
-inline Parameter field(std::string name, std::string doc, std::string fallback = "") {
-  return of(ArgumentKind::Field, std::move(name), std::move(doc), Rule::Any, std::move(fallback));
 }
 /// The same parameter, absent (monostate) where it is not given.
 inline Parameter optional(Parameter p) {
