@@ -5,6 +5,7 @@
 
 #include "script/run.h"
 #include "sdf/shape/solids.h"
+#include "support/settings.h"
 
 namespace sdf {
 namespace {
@@ -95,6 +96,25 @@ TEST(Settings, WithoutSettingsTheScenesDefaultsStand) {
   EXPECT_EQ(scene.shadow.kind, Shadow::Kind::None);
   EXPECT_FALSE(scene.bounds);
   EXPECT_FALSE(scene.gamma);
+}
+
+// The defaults that the reference gives, written out, change nothing.
+TEST(Settings, DefaultsCanBeWrittenOut) {
+  int count = 0;
+  for (const Setting<Scene>& setting : sceneSettings())
+    for (const SettingField<Scene>& field : setting.fields) {
+      Scene usual;
+      if (setting.begin) setting.begin(usual);
+      const std::string text = written(field, field.get(usual));
+      if (text == field.unset) continue;
+      const Scene scene = withSphere(
+          setting.name + (setting.alone ? "(" + text + ")" : "{" + field.name + " = " + text + "}"));
+      for (const SettingField<Scene>& other : setting.fields)
+        EXPECT_TRUE(same(other.get(scene), other.get(usual)))
+            << setting.name << " " << field.name << " " << other.name;
+      ++count;
+    }
+  EXPECT_GE(count, 20);
 }
 
 TEST(Settings, EveryFieldOfAMaterialReachesTheSurface) {

@@ -28,6 +28,7 @@ struct ScriptContext {
   Scene scene;
   std::map<std::string, int> settingLines;  ///< settings made so far, and where
   std::map<std::string, double> parameterDefaults;
+  int materials = 0;  ///< made so far
 
   NodeLimit nodes;
   std::int64_t nodesAtCollection = 0;

@@ -252,6 +252,7 @@ void openFormulaOperators(lua_State* L) {
   setFormulaOperator(L, "__tostring");
 }
 
+// clang-format off
 const std::vector<FunctionInfo>& formulaLibrary() {
   static const std::vector<FunctionInfo> library{
       {"sin", "sin(a)", "sine; radians", {}, unary<sin, sin>},
@@ -277,34 +278,20 @@ const std::vector<FunctionInfo>& formulaLibrary() {
       {"clamp", "clamp(a, low, high)", "a kept within low … high", {}, clampValue},
       {"mix", "mix(a, b, t)", "a + (b - a) t, for numbers and for colours", {}, mixValues},
       {"step", "step(edge, a)", "1 where a >= edge, 0 elsewhere", {}, binary<stepAt>},
-      {"smoothstep",
-       "smoothstep(low, high, a)",
-       "from 0 at low to 1 at high without corners",
-       {},
-       smoothStep},
+      {"smoothstep", "smoothstep(low, high, a)", "from 0 at low to 1 at high without corners", {}, smoothStep},
       {"less", "less(a, b)", "1 where a < b, 0 elsewhere", {}, binary<less>},
       {"less_equal", "less_equal(a, b)", "1 where a <= b, 0 elsewhere", {}, binary<lessEqual>},
       {"equal", "equal(a, b)", "1 where a == b, 0 elsewhere", {}, binary<equal>},
-      {"select",
-       "select(condition, a, b)",
-       "a where the condition is not 0 (or is true), b elsewhere; numbers or colours",
-       {},
-       selectValue},
-      {"length",
-       "length(a, b, c)",
-       "Euclidean length of one to three numbers, or of a {x, y, z}",
-       {},
-       lengthOf},
+      {"select", "select(condition, a, b)", "a where the condition is not 0 (or is true), b elsewhere; numbers or colours",
+       {}, selectValue},
+      {"length", "length(a, b, c)", "Euclidean length of one to three numbers, or of a {x, y, z}", {}, lengthOf},
       {"dot", "dot(a, b)", "scalar product of two {x, y, z} or two {x, y}", {}, dotProduct},
-      {"value",
-       "value(e)",
-       "the present value of a formula of parameters, as a plain number; what is built from it no longer "
-       "follows the "
-       "parameter",
-       {},
-       presentValue},
+      {"value", "value(e)",
+       "the present value of a formula of parameters, as a plain number; what is built from it no longer follows the parameter",
+       {}, presentValue},
   };
   return library;
 }
+// clang-format on
 
 }  // namespace sdf

@@ -3,25 +3,18 @@
 #include <string>
 #include <vector>
 
+#include "sdf/scene/settings.h"
 #include "sdf/script/values.h"
 #include "sdf/shape/catalog.h"
 
 namespace sdf {
-
-/// A named field of an options table.
-struct FieldInfo {
-  std::string name;
-  std::string form;  ///< what it takes, in words: "number", "{x, y, z}"
-  std::string fallback;
-  std::string doc;
-};
 
 /// A global function or value of the scene language.
 struct FunctionInfo {
   std::string name;
   std::string usage;  ///< as written in a scene
   std::string doc;
-  std::vector<FieldInfo> fields;
+  std::vector<SettingInfo> fields;  ///< of its options table; `unset` is the default
   LibraryFunction call;
 };
 
@@ -48,40 +41,43 @@ void openFormulaOperators(lua_State* L);
 /// Opens everything that a script can name, and nothing else. A lua_CFunction.
 int openLanguage(lua_State* L);
 
-/// A table of named fields: "camera{fov = 40}". Unknown names are refused.
-class FieldReader {
- public:
-  /// The table at `index`, or no fields at all where nothing is there. `context` starts messages ("camera").
-  FieldReader(lua_State* L, int index, const FunctionInfo& function);
+/// A value of the field's kind: a box as two corners, in a table or at this place and the next.
+SettingValue readSetting(lua_State* L, int index, const std::string& what, const SettingInfo& field);
 
-  bool has(const char* field) const;
-  Expr number(const char* field, const Expr& fallback, Rule rule = Rule::Any) const;
-  double plain(const char* field, double fallback, Rule rule = Rule::Any) const;
-  int integer(const char* field, int fallback, int least) const;
-  bool flag(const char* field, bool fallback) const;
-  std::string text(const char* field, const std::string& fallback) const;
-  int choice(const char* field, const std::vector<std::string>& choices, int fallback) const;
-  Vec3E vector(const char* field, const Vec3E& fallback) const;
-  Vec3E color(const char* field, const Vec3E& fallback, Depends depends) const;
-  Expr surfaceNumber(const char* field, const Expr& fallback, Rule rule = Rule::Any) const;
-  /// {{x0, y0, z0}, {x1, y1, z1}}
-  std::optional<Box> box(const char* field) const;
-  /// Whether a field holds nothing but what `test` accepts is for the caller; this gives its place on the
-  /// stack, pushed, or 0.
-  int push(const char* field) const;
-  std::string what(const char* field) const;
+/// The function's fields that are given in the table at `index`, "camera{fov = 40}"; none where nothing is
+/// there. Unknown names are refused, and values that a field cannot take.
+using FieldValues = std::map<std::string, SettingValue>;
+FieldValues readFields(lua_State* L, int index, const FunctionInfo& function);
+template <class T>
+T valueOr(const FieldValues& values, const std::string& field, const T& fallback) {
+  const auto it = values.find(field);
+  return it == values.end() ? fallback : std::get<T>(it->second);
+}
 
- private:
-  void checkRule(const char* field, const Expr& e, Rule rule) const;
+/// The setting as a function of the language, with the defaults that its Owner has after `begin`.
+template <class Owner>
+FunctionInfo functionOf(const Setting<Owner>& setting, LibraryFunction call) {
+  Owner usual;
+  if (setting.begin) setting.begin(usual);
+  FunctionInfo f{setting.name, setting.usage, setting.doc, {}, call};
+  for (const SettingField<Owner>& field : setting.fields) {
+    f.fields.push_back(field);
+    f.fields.back().unset = written(field, field.get(usual));
+  }
+  return f;
+}
 
-  lua_State* L_;
-  int index_;
-  const FunctionInfo& function_;
-};
+/// Fills the owner's members from the call's arguments, the first of which is at `index`.
+template <class Owner>
+void readSettings(lua_State* L, int index, const FunctionInfo& f, const Setting<Owner>& setting,
+                  Owner& owner) {
+  const std::string& first = setting.fields[0].name;
+  const FieldValues values = setting.alone ? FieldValues{{first, readSetting(L, index, f.name, f.fields[0])}}
+                                           : readFields(L, index, f);
+  if (const Status applied = apply(setting, values, owner); !applied) raise(L, applied.error().message);
+}
 
 /// Raises "camera: too many arguments; write camera{from = …}" where more than `most` are given.
 void expectArguments(lua_State* L, int least, int most);
-/// A box from the two corners at these places.
-Box readBox(lua_State* L, int low, int high, const std::string& what);
 
 }  // namespace sdf

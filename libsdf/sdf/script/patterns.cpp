@@ -26,7 +26,7 @@ int makeColor(lua_State* L) {
 int makeCheckerboard(lua_State* L) {
   expectArguments(L, 2, 3);
   const Vec3E a = colorArgument(L, 1), b = colorArgument(L, 2);
-  const Expr scale = FieldReader(L, 3, runningFunction(L)).number("scale", 1.0, Rule::Positive);
+  const Expr scale = valueOr(readFields(L, 3, runningFunction(L)), "scale", Expr(1.0));
   return pushVector(L, checkerboard(a, b, scale)), 1;
 }
 
@@ -40,8 +40,8 @@ int makeGradient(lua_State* L) {
   else
     along = dot(p, readVector(L, 1, axisName, 3, Depends::OnParameters));
   const Vec3E a = colorArgument(L, 2), b = colorArgument(L, 3);
-  const FieldReader options(L, 4, runningFunction(L));
-  const Expr from = options.number("from", 0.0), to = options.number("to", 1.0);
+  const FieldValues ends = readFields(L, 4, runningFunction(L));
+  const Expr from = valueOr(ends, "from", Expr(0.0)), to = valueOr(ends, "to", Expr(1.0));
   if (uniformValue(to - from) == 0.0) raise(L, "gradient: 'from' and 'to' must be different");
   return pushVector(L, gradient(along, a, b, from, to)), 1;
 }
@@ -58,64 +58,41 @@ int makeNoise(lua_State* L) {
   for (int i = 0; i < 3; ++i)
     p[i] = readNumber(L, i + 1, "noise: coordinate " + std::to_string(i + 1), Depends::OnPosition);
   constexpr int kMostOctaves = 8;  // the ninth would be weaker than a step of an 8-bit colour
-  const int octaves = FieldReader(L, 4, runningFunction(L)).integer("octaves", 1, 1);
+  const int octaves = valueOr(readFields(L, 4, runningFunction(L)), "octaves", 1);
   if (octaves > kMostOctaves) raise(L, "noise: 'octaves' must be 8 or less, got " + std::to_string(octaves));
   return pushExpr(L, noise({p[0], p[1], p[2]}, octaves)), 1;
 }
 
 int makeSky(lua_State* L) {
   expectArguments(L, 0, 1);
-  const FieldReader o(L, 1, runningFunction(L));
   Sky sky;
-  sky.horizon = o.color("horizon", sky.horizon, Depends::OnParameters);
-  sky.zenith = o.color("zenith", sky.zenith, Depends::OnParameters);
-  if (o.has("ground")) sky.ground = o.color("ground", {}, Depends::OnParameters);
-  if (o.has("sun")) sky.sun = o.vector("sun", {});
-  if (sky.sun && uniformValue(length(*sky.sun)) == 0.0) raise(L, "sky: 'sun' must not be {0, 0, 0}");
-  sky.sunColor = o.color("sun_color", sky.sunColor, Depends::OnParameters);
-  sky.sunSize = o.number("sun_size", sky.sunSize, Rule::Positive);
+  readSettings(L, 1, runningFunction(L), skySetting(), sky);
   return pushVector(L, skyColor(sky)), 1;
 }
 
 }  // namespace
 
+// clang-format off
 const std::vector<FunctionInfo>& patternLibrary() {
+  using enum SettingKind;
   static const std::vector<FunctionInfo> library{
       {"color", "color(r, g, b)", "any form of a colour as {r, g, b}, linear", {}, makeColor},
-      {"checkerboard",
-       "checkerboard(a, b, {scale = 1})",
-       "squares of two colours in x and z",
-       {{"scale", "number", "1", "length of a square's side"}},
-       makeCheckerboard},
-      {"gradient",
-       "gradient(\"y\", a, b, {from = 0, to = 1})",
+      {"checkerboard", "checkerboard(a, b, {scale = 1})", "squares of two colours in x and z",
+       {{"scale", Number, "length of a square's side", Rule::Positive, {}, "1"}}, makeCheckerboard},
+      {"gradient", "gradient(\"y\", a, b, {from = 0, to = 1})",
        "from colour a to colour b along \"x\", \"y\", \"z\" or a direction {x, y, z}",
-       {{"from", "number", "0", "where it is a"}, {"to", "number", "1", "where it is b"}},
+       {{"from", Number, "where it is a", Rule::Any, {}, "0"}, {"to", Number, "where it is b", Rule::Any, {}, "1"}},
        makeGradient},
-      {"vertical_gradient",
-       "vertical_gradient(bottom, top)",
-       "a background: bottom straight down, top straight up",
-       {},
-       makeVerticalGradient},
-      {"sky",
-       "sky{horizon = c, zenith = c, sun = {1, 1, 0}}",
-       "a background with a horizon and, where its direction is given, a sun",
-       {{"horizon", "colour", "{0.7, 0.8, 0.9}", "at eye level"},
-        {"zenith", "colour", "{0.15, 0.35, 0.7}", "straight up"},
-        {"ground", "colour", "the horizon", "below the horizon"},
-        {"sun", "{x, y, z}", "none", "direction of the sun"},
-        {"sun_color", "colour", "{1, 0.9, 0.7}", "added where the ray meets the sun"},
-        {"sun_size", "number", "256", "exponent of its glow; larger is smaller"}},
-       makeSky},
-      {"noise",
-       "noise(x, y, z, {octaves = 1})",
-       "a smooth irregular number in -1 … 1 that varies over about one unit; a sum of sines, the same in "
-       "float and "
-       "in double",
-       {{"octaves", "1 … 8", "1", "each adds detail half as large and half as strong"}},
+      {"vertical_gradient", "vertical_gradient(bottom, top)", "a background: bottom straight down, top straight up",
+       {}, makeVerticalGradient},
+      functionOf(skySetting(), makeSky),
+      {"noise", "noise(x, y, z, {octaves = 1})",
+       "a smooth irregular number in -1 … 1 that varies over about one unit; a sum of sines, the same in float and in double",
+       {{"octaves", Integer, "up to 8; each adds detail half as large and half as strong", Rule::Positive, {}, "1"}},
        makeNoise},
   };
   return library;
 }
+// clang-format on
 
 }  // namespace sdf

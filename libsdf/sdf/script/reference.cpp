@@ -38,20 +38,6 @@ std::string formOf(const Parameter& p) {
   return "shapes";
 }
 
-std::string ruleOf(Rule rule) {
-  switch (rule) {
-    case Rule::Positive:
-      return ", positive";
-    case Rule::NotNegative:
-      return ", 0 or more";
-    case Rule::NotZero:
-      return ", not 0";
-    case Rule::Any:
-      break;
-  }
-  return "";
-}
-
 std::string callOf(const CatalogEntry& e) {
   std::string text = e.name + "(";
   for (const Parameter& p : e.parameters) text += (&p == &e.parameters.front() ? "" : ", ") + p.name;
@@ -61,7 +47,8 @@ std::string callOf(const CatalogEntry& e) {
 void addEntry(std::string& out, const CatalogEntry& e) {
   out += "\n#### `" + callOf(e) + "`\n\n" + e.doc + "\n\nDistance: " + e.claim + ".\n\n";
   for (const Parameter& p : e.parameters) {
-    out += "- `" + p.name + "`: " + p.doc + " (" + formOf(p) + ruleOf(p.rule);
+    out += "- `" + p.name + "`: " + p.doc + " (" + formOf(p) +
+           (p.rule == Rule::Any ? "" : std::string(", ") + wording(p.rule));
     if (p.kind == ArgumentKind::Choice)
       out += "; default `\"" + p.fallback + "\"`";
     else if (!p.fallback.empty())
@@ -78,11 +65,13 @@ void addGroup(std::string& out, Group group, const std::string& title, const std
     if (e.group == group) addEntry(out, e);
 }
 
+// A field without documentation of its own is all that the function takes.
 void addFunction(std::string& out, const FunctionInfo& f) {
-  out += "- `" + f.usage + "`: " + f.doc + "\n";
-  for (const FieldInfo& field : f.fields)
-    out +=
-        "  - `" + field.name + "`: " + field.doc + " (" + field.form + "; default " + field.fallback + ")\n";
+  out += "- `" + f.usage + "`: " + f.doc;
+  for (const SettingInfo& field : f.fields)
+    out += (field.doc.empty() ? "" : "\n  - `" + field.name + "`: " + field.doc) + " (" + wording(field) +
+           "; default " + field.unset + ")";
+  out += "\n";
 }
 
 void addLibrary(std::string& out, const std::string& title, const std::vector<FunctionInfo>& functions) {

@@ -19,6 +19,11 @@ enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Sha
 
 /// What an argument's numbers must be; checked on their present values before `build` is called.
 enum class Rule { Any, Positive, NotNegative, NotZero };
+bool keeps(Rule rule, double value);
+/// What the rule asks for, in words: "positive"; "a finite number" for Any.
+const char* wording(Rule rule);
+/// A number as messages and the reference show it, six significant digits.
+std::string shown(double value);
 
 struct Parameter {
   std::string name;  ///< snake_case, as in scene files

@@ -7,8 +7,6 @@
 
 namespace sdf {
 
-namespace {
-
 const char* wording(Rule rule) {
   switch (rule) {
     case Rule::Positive:
@@ -23,7 +21,7 @@ const char* wording(Rule rule) {
   return "a finite number";
 }
 
-bool holds(Rule rule, double value) {
+bool keeps(Rule rule, double value) {
   switch (rule) {
     case Rule::Positive:
       return value > 0.0;
@@ -36,6 +34,8 @@ bool holds(Rule rule, double value) {
   }
   return true;
 }
+
+namespace {
 
 std::string quoted(std::string_view name, std::string_view rest) {
   return std::string(name) + std::string(rest);
@@ -62,7 +62,7 @@ Check& Check::number(std::string_view name, const Expr& e, Rule rule) {
   const double value = uniformValue(e);
   if (!std::isfinite(value))
     return fail(quoted(name, " must be ") + wording(Rule::Any) + ", got " + shown(value));
-  if (!holds(rule, value)) return fail(quoted(name, " must be ") + wording(rule) + ", got " + shown(value));
+  if (!keeps(rule, value)) return fail(quoted(name, " must be ") + wording(rule) + ", got " + shown(value));
   return *this;
 }
 

@@ -9,9 +9,6 @@
 
 namespace sdf {
 
-/// A number as messages show it, six significant digits.
-std::string shown(double value);
-
 /// Collects the first thing that is wrong with the arguments of one call:
 ///
 ///   Check check("torus");
