@@ -94,6 +94,21 @@ TEST(ColorMesh, OneMaterialNeedsNoCopies) {
   EXPECT_EQ(m.emission, glm::vec3(2.0f, 0.0f, 1.0f));
 }
 
+TEST(ColorMesh, AMaterialWithoutANameIsNamedAfterItsPlace) {
+  const Shape left = translate(sphere(0.3), {-0.5, 0.0, 0.0}),
+              right = translate(sphere(0.3), {0.5, 0.0, 0.0});
+  for (int i = 0; i < 2; ++i) {  // whatever was made before
+    const Shape three =
+        unite({left.paint(red()), sphere(0.1).paint({.color = {0.0, 1.0, 0.0}}), right.paint(Material{})});
+    const Mesh mesh = meshed(three, 1.0 / 24);
+    ASSERT_EQ(mesh.materials.size(), 3u);
+    EXPECT_EQ(mesh.materials[0].name, "red");
+    EXPECT_EQ(mesh.materials[1].name, "material 2");
+    EXPECT_EQ(mesh.materials[1].color, glm::vec3(0, 1, 0));
+    EXPECT_EQ(mesh.materials[2].name, "material 3");
+  }
+}
+
 TEST(ColorMesh, MaterialsThatAreNowhereSeenAreLeftOut) {
   const Shape hidden = translate(sphere(0.2), {0.1, 0.0, 0.0}).paint(blue());
   const Mesh mesh = meshed(sphere(0.5).paint(red()) | hidden, 1.0 / 16);

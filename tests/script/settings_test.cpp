@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "script/run.h"
+#include "sdf/eval/glsl.h"
+#include "sdf/shape/booleans.h"
+#include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
 #include "support/settings.h"
 
@@ -115,6 +118,42 @@ TEST(Settings, DefaultsCanBeWrittenOut) {
       ++count;
     }
   EXPECT_GE(count, 20);
+}
+
+// The names, the ids and the shader's text for them depend on nothing that was loaded before.
+TEST(Settings, MaterialsAreNumberedWithinTheirScene) {
+  const std::string text =
+      "local m = material{color = 0.5} part('a', sphere(1):paint('#f00') | box(1):paint{name = 'clay'})"
+      "part('b', (plane() | sphere(2):paint(m)) | (box(2):paint(m) | box(3):paint(0.2)))";
+  const auto said = [&] {
+    const Scene scene = sceneOf(text);
+    std::vector<std::string> said;
+    for (const Shape& shape : {scene.parts[0].shape, scene.parts[1].shape, scene.whole()}) {
+      for (const MaterialPtr& m : shape.materials) said.push_back(m->name);
+      GlslWriter writer;
+      writer.add("id", std::vector{shape.surface[static_cast<int>(Attribute::MaterialId)]});
+      said.push_back(writer.source());
+    }
+    return said;
+  };
+  const std::vector<std::string> alone = said();
+  EXPECT_EQ(alone[0], "material 2");
+  EXPECT_EQ(alone[1], "clay");
+  EXPECT_EQ(alone[3], "default");
+  EXPECT_EQ(alone[4], "material 1");
+  EXPECT_EQ(alone[5], "material 4");
+  const Scene between = sceneOf("for i = 1, 9 do part('ball ' .. i, sphere(i):paint(0.5)) end");
+  EXPECT_EQ(between.parts[8].shape.materials[0]->name, "material 9");
+  EXPECT_EQ(said(), alone);
+}
+
+TEST(Settings, MaterialsOfTwoScenesStayApart) {
+  const Scene a = sceneOf("return sphere(1):paint('#f00')"), b = sceneOf("return box(1):paint('#00f')");
+  const Shape both = unite(a.parts[0].shape, translate(b.parts[0].shape, {4.0, 0.0, 0.0}));
+  ASSERT_EQ(both.materials.size(), 2u);
+  const Expr& id = both.surface[static_cast<int>(Attribute::MaterialId)];
+  EXPECT_EQ(both.materials[std::size_t(at(id, 0, 0, 0))], a.parts[0].shape.materials[0]);
+  EXPECT_EQ(both.materials[std::size_t(at(id, 4, 0, 0))], b.parts[0].shape.materials[0]);
 }
 
 TEST(Settings, EveryFieldOfAMaterialReachesTheSurface) {

@@ -1,7 +1,10 @@
 #include "sdf/shape/booleans.h"
 
+#include <set>
+
 #include "claim_checks.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/shape/deform.h"
 #include "sdf/shape/flats.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
@@ -323,8 +326,44 @@ TEST(SmoothUnion, OfThreeExponentialsMixesAllByTheirShares) {
 TEST(SmoothUnion, GivesTheMaterialOfTheShapeThatWeighsMore) {
   const Shape a = red(left()), b = green(below());
   const Shape s = unite(a, b, Blend::quadratic(0.4));
-  EXPECT_EQ(attribute(s, Attribute::MaterialId, {0.1, 0.2, 0.0}), a.materials[0]->id);
-  EXPECT_EQ(attribute(s, Attribute::MaterialId, {0.2, 0.1, 0.0}), b.materials[0]->id);
+  ASSERT_EQ(s.materials, (std::vector{a.materials[0], b.materials[0]}));
+  EXPECT_EQ(attribute(s, Attribute::MaterialId, {0.1, 0.2, 0.0}), 0.0);
+  EXPECT_EQ(attribute(s, Attribute::MaterialId, {0.2, 0.1, 0.0}), 1.0);
+}
+
+// Balls in a row, ball i at x = i in material i, are united in groups that share materials in every order.
+// Each ball's middle must show its own.
+TEST(Union, FindsEachMaterialInTheCommonList) {
+  std::vector<MaterialPtr> materials;
+  for (int i = 0; i < 4; ++i) materials.push_back(makeMaterial({.color = Vec3E(i / 4.0)}));
+  const auto row = [&](int first, const std::vector<int>& order) {
+    std::vector<Shape> balls;
+    for (std::size_t i = 0; i < order.size(); ++i)
+      balls.push_back(ball(first + double(i), 0.0, 0.0, 0.4).paint(materials[order[i]]));
+    return unite(balls);
+  };
+  const std::vector<std::vector<int>> groups{{1, 0}, {1, 0}, {2, 3}, {0, 3, 1, 2},
+                                             {3},    {2, 1}, {0, 2}, {3, 1, 0, 2}};
+  std::vector<int> expected;
+  std::vector<Shape> rows;
+  for (const std::vector<int>& order : groups) {
+    rows.push_back(row(static_cast<int>(expected.size()), order));
+    expected.insert(expected.end(), order.begin(), order.end());
+  }
+  Shape folded = rows[0];
+  for (std::size_t i = 1; i < rows.size(); ++i) folded = rows[i] | folded;
+  for (const Shape& s : {unite(rows), unite(rows, Blend::exponential(0.01)), folded,
+                         morph(sphere(1.0), folded, 1.0), folded ^ ball(-9.0, 0.0, 0.0, 0.1)}) {
+    std::set<MaterialPtr> distinct(s.materials.begin(), s.materials.end());
+    EXPECT_EQ(distinct.size(), s.materials.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const glm::dvec3 middle(double(i), 0.0, 0.0);
+      const auto place = static_cast<std::size_t>(attribute(s, Attribute::MaterialId, middle));
+      ASSERT_LT(place, s.materials.size());
+      EXPECT_EQ(s.materials[place], materials[expected[i]]) << i;
+      EXPECT_NEAR(attribute(s, Attribute::Red, middle), expected[i] / 4.0, kRounding) << i;
+    }
+  }
 }
 
 TEST(Union, OfShapesPaintedAlikeAsksNothingToChoose) {

@@ -226,6 +226,23 @@ TEST_F(Export, FramesAreNumberedFilesAtTheirTimes) {
   }
 }
 
+TEST_F(Export, FramesNameTheirMaterialsAsASingleRunDoes) {
+  const std::string file = scene(
+      "part('a', sphere(1):paint('#f00') | sphere(time):paint{name = 'b'}:translate(0, 1, 0))"
+      "part('c', sphere(1):paint{shininess = 4}:translate(3, 0, 0))");
+  expectSuccess(
+      run({file, "-o", out("f.glb"), "-t", "0.5", "--frames", "2", "--fps", "1", "--voxel-size", "0.2"}));
+  expectSuccess(run({file, "-o", out("s.glb"), "-t", "1.5", "--voxel-size", "0.2"}));
+  for (const char* name : {"f_0001.glb", "f_0002.glb", "s.glb"}) {
+    const Json materials = glbJson(out(name))["materials"];
+    ASSERT_EQ(materials.size(), 3u) << name;
+    EXPECT_EQ(materials[0]["name"], "material 1") << name;
+    EXPECT_EQ(materials[1]["name"], "b") << name;
+    EXPECT_EQ(materials[2]["name"], "material 3") << name;
+  }
+  EXPECT_TRUE(contents(out("f_0002.glb")) == contents(out("s.glb")));
+}
+
 TEST_F(Export, FramesTakeTheirPlaceInAPattern) {
   const std::string file = scene(kSphere);
   expectSuccess(run({file, "-o", out("b_%03d_%x.ply"), "--frames", "2", "--voxel-size", "0.5"}));

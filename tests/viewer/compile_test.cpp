@@ -44,7 +44,6 @@ TEST(Compiling, IsNotRepeatedWhenAParameterMoves) {
     later.time = 3.25;
     auto moved = loadScene(SDF_SOURCE_DIR "/samples/" + std::string(name), later);
     ASSERT_TRUE(moved) << moved.error().message;
-    // Each loading numbers its materials anew, which this view does not show.
     const ShaderOptions options{.view = View::Normals};
     const auto before = assemble(loaded(name), options), after = assemble(*moved, options);
     ASSERT_TRUE(before && after) << name;

@@ -53,11 +53,13 @@ std::vector<int> assignMaterials(const Shape& shape, const std::vector<int>& ids
   std::map<int, std::uint32_t> placeOf;
   std::vector<int> idAt;
   for (const int id : ids) placeOf.emplace(id, 0);
-  for (const MaterialPtr& m : shape.materials)
-    if (const auto it = placeOf.find(m->id); it != placeOf.end()) {
+  for (int id = 0; id < static_cast<int>(shape.materials.size()); ++id)
+    if (const auto it = placeOf.find(id); it != placeOf.end()) {
+      const std::string& name = shape.materials[id]->name;
       it->second = static_cast<std::uint32_t>(mesh.materials.size());
-      mesh.materials.push_back({m->name, {}, {}, {}, {}, {}});
-      idAt.push_back(m->id);
+      mesh.materials.push_back(
+          {name.empty() ? "material " + std::to_string(id + 1) : name, {}, {}, {}, {}, {}});
+      idAt.push_back(id);
     }
   mesh.triangleMaterial.resize(ids.size());
   for (std::size_t t = 0; t < ids.size(); ++t) mesh.triangleMaterial[t] = placeOf[ids[t]];

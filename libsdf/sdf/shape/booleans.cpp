@@ -192,9 +192,10 @@ std::array<Expr, 3> unionJoin(const Blend& given) {
   return {lower(a, b, blend), isHard(blend) ? second : weightOfSecond(a, b, blend), second};
 }
 
-Shape unite(const std::vector<Shape>& shapes, const Blend& given) {
-  if (auto refused = refusal("union", shapes, given)) return *refused;
-  if (shapes.size() == 1) return shapes[0];
+Shape unite(const std::vector<Shape>& operands, const Blend& given) {
+  if (auto refused = refusal("union", operands, given)) return *refused;
+  if (operands.size() == 1) return operands[0];
+  const std::vector<Shape> shapes = numberedAlike(operands);
   const Blend blend = guarded(given);
   const std::vector<Layer> layers = layersOf(shapes);
   Layer joined;
@@ -209,7 +210,6 @@ Shape unite(const std::vector<Shape>& shapes, const Blend& given) {
   Shape result = combined(shapes, blend, ClaimKind::ExactOutside);
   result.distance = joined.distance;
   result.surface = joined.surface;
-  result.materials = mergedMaterials(shapes);
   const double swell = isHard(blend) ? 0.0 : deepestBlend(blend.kind, shapes.size()) * blend.k.range().hi;
   result.bounds = Box{};
   result.claim.growth = 0.0;

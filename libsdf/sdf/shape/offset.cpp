@@ -50,14 +50,14 @@ Shape morph(const Shape& a, const Shape& b, const Expr& t) {
   if (!check.ok()) return check.failure();
   const bool inside = t.range().lo >= 0.0 && t.range().hi <= 1.0;
   const Expr share = inside ? t : clamp(t, 0.0, 1.0);
-  Shape result = a;
+  const std::vector<Shape> both = numberedAlike({a, b});
+  Shape result = both[0];
   result.distance = mix(a.distance, b.distance, share);
   for (int i = 0; i < kAttributeCount; ++i) {
     const bool id = i == static_cast<int>(Attribute::MaterialId);
-    result.surface[i] = id ? select(lessEqual(0.5, share), b.surface[i], a.surface[i])
-                           : mix(a.surface[i], b.surface[i], share);
+    const Expr &from = both[0].surface[i], &to = both[1].surface[i];
+    result.surface[i] = id ? select(lessEqual(0.5, share), to, from) : mix(from, to, share);
   }
-  result.materials = mergedMaterials({a, b});
   // A mean that is at most c has an operand that is at most c.
   result.bounds = unite(a.bounds, b.bounds);
   result.claim.kind = ClaimKind::Field;

@@ -105,14 +105,47 @@ std::shared_ptr<const Union> mappedUnion(const Shape& shape,
   return mapped;
 }
 
-std::vector<MaterialPtr> mergedMaterials(const std::vector<Shape>& shapes) {
-  std::vector<MaterialPtr> merged;
-  for (const Shape& s : shapes)
+namespace {
+
+// The places by the old ones. Most lists are one material, or all new, or begin as the common one does.
+Expr renumbered(const Expr& id, const std::vector<double>& places) {
+  if (id.isConstant()) return places[static_cast<std::size_t>(id.constantValue())];
+  bool inARow = true;
+  for (std::size_t i = 1; i < places.size(); ++i) inARow = inARow && places[i] == places[i - 1] + 1.0;
+  if (inARow) return places[0] == 0.0 ? id : id + places[0];
+  Expr place = places[0];
+  for (std::size_t i = 1; i < places.size(); ++i)
+    place = select(lessEqual(static_cast<double>(i), id), places[i], place);
+  return place;
+}
+
+// Of a union's operands, too.
+void renumber(Shape& s, const std::vector<double>& places) {
+  Expr& id = s.surface[static_cast<int>(Attribute::MaterialId)];
+  const Expr moved = renumbered(id, places);
+  if (moved == id) return;
+  id = moved;
+  s.outer = mappedUnion(s, [&](Shape operand) {
+    renumber(operand, places);
+    return operand;
+  });
+}
+
+}  // namespace
+
+std::vector<Shape> numberedAlike(std::vector<Shape> shapes) {
+  std::vector<MaterialPtr> all;
+  for (Shape& s : shapes) {
+    std::vector<double> places;
     for (const MaterialPtr& m : s.materials) {
-      const auto same = [&](const MaterialPtr& other) { return other->id == m->id; };
-      if (std::none_of(merged.begin(), merged.end(), same)) merged.push_back(m);
+      const auto it = std::find(all.begin(), all.end(), m);
+      places.push_back(static_cast<double>(it - all.begin()));
+      if (it == all.end()) all.push_back(m);
     }
-  return merged;
+    renumber(s, places);
+  }
+  shapes[0].materials = std::move(all);
+  return shapes;
 }
 
 }  // namespace sdf

@@ -60,7 +60,8 @@ bool isEven(const Expr& e, int axis);
 std::shared_ptr<const Union> mappedUnion(const Shape& shape,
                                          const std::function<Shape(const Shape&)>& operation);
 
-/// Every material of the list once, by first appearance.
-std::vector<MaterialPtr> mergedMaterials(const std::vector<Shape>& shapes);
+/// The shapes with their materials numbered alike: each MaterialId is a place in the first shape's list,
+/// which holds the materials of all by first appearance.
+std::vector<Shape> numberedAlike(std::vector<Shape> shapes);
 
 }  // namespace sdf

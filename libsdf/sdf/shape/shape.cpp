@@ -1,18 +1,12 @@
 #include "sdf/shape/shape.h"
 
-#include "sdf/shape/operand.h"
-
-#include <atomic>
 #include <cassert>
+
+#include "sdf/shape/operand.h"
 
 namespace sdf {
 
-MaterialPtr makeMaterial(Material material) {
-  static std::atomic<int> last{0};
-  material.id = ++last;
-  if (material.name.empty()) material.name = "material " + std::to_string(material.id);
-  return std::make_shared<const Material>(std::move(material));
-}
+MaterialPtr makeMaterial(Material material) { return std::make_shared<const Material>(std::move(material)); }
 
 const MaterialPtr& defaultMaterial() {
   static const MaterialPtr grey = [] {
@@ -38,7 +32,7 @@ Attributes attributesOf(const Material& material) {
   set(Attribute::Reflectivity, material.reflectivity);
   set(Attribute::FresnelPower, material.fresnelPower);
   set(Attribute::FresnelBias, material.fresnelBias);
-  set(Attribute::MaterialId, Expr(material.id));
+  set(Attribute::MaterialId, 0.0);
   return a;
 }
 

@@ -48,7 +48,7 @@ enum class Attribute : std::uint8_t {
   Shininess,                                // Phong exponent
   Reflectivity, FresnelPower, FresnelBias,  // mirror weight: reflectivity * (bias + (1 - cos)^power), at most 1
   EmissionRed, EmissionGreen, EmissionBlue,
-  MaterialId,                               // Material::id of the material that dominates here
+  MaterialId,                               // place in Shape::materials of the one that dominates here
   Count
 };
 // clang-format on
@@ -57,7 +57,7 @@ using Attributes = std::array<Expr, kAttributeCount>;
 
 /// How a surface looks (Phong 1975). Each field may be an expression of position() and normal().
 struct Material {
-  std::string name{};  ///< "" takes "material N"
+  std::string name{};  ///< "" becomes "material N" in a mesh, after its place in the shape's list
   Vec3E color{Expr(0.8)};
   std::optional<Vec3E> ambient{};  ///< default: color
   Vec3E specular{Expr(0.0)};
@@ -66,16 +66,15 @@ struct Material {
   Expr fresnelPower = 0.0;
   Expr fresnelBias = 0.0;
   Vec3E emission{Expr(0.0)};
-  int id = 0;  ///< set by makeMaterial; 0 is the default material
 };
 using MaterialPtr = std::shared_ptr<const Material>;
 
-/// Gives the material its identity: triangles of one id form one primitive of an exported mesh. Ids grow with
-/// each call.
+/// Makes a material to paint with: the triangles of one, and of no other that looks the same, form one
+/// primitive of an exported mesh.
 MaterialPtr makeMaterial(Material material);
 /// The grey that shapes have until they are painted.
 const MaterialPtr& defaultMaterial();
-/// The material's fields as attribute expressions.
+/// The material's fields as attribute expressions of a shape that is all in it.
 Attributes attributesOf(const Material& material);
 
 struct Union;
@@ -86,10 +85,8 @@ struct Union;
 struct Shape {
   Expr distance;  ///< negative inside, scene units
   Attributes surface = attributesOf(*defaultMaterial());
-  std::vector<MaterialPtr> materials{
-      defaultMaterial()};  ///< every material that can appear, by first appearance
-  Box bounds =
-      Box::everything();  ///< contains the solid (f <= 0); infinite sides where it is unbounded or unknown
+  std::vector<MaterialPtr> materials{defaultMaterial()};  ///< all that can appear, each once, the first first
+  Box bounds = Box::everything();  ///< contains the solid (f <= 0); infinite where it is unbounded or unknown
   Claim claim;
   /// The operands where the shape is a union, else nothing. Moving, turning, scaling and painting a union
   /// keeps the list; whatever else is done to it makes one shape of it.
@@ -106,7 +103,7 @@ struct Shape {
 };
 
 /// A union as the list of what was united: the least of their distances is the shape's, blended from left to
-/// right. Hard unions within hard unions are one list.
+/// right. Hard unions within hard unions are one list. Materials are numbered as in the whole.
 struct Union {
   Blend blend;
   std::vector<Shape> operands;  ///< at least two
