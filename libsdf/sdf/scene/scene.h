@@ -17,15 +17,14 @@ struct Camera {
   Vec3E to{Expr(0.0)};
   Vec3E up{Expr(0.0), Expr(1.0), Expr(0.0)};
   Expr fov = 45.0;  ///< vertical field of view, degrees
-  bool mirrored =
-      false;  ///< flips left and right, for scenes ported from shaders that build right = up x forward
+  /// Flips left and right, for scenes ported from shaders that build right = up x forward.
+  bool mirrored = false;
 };
 
 struct Light {
   enum class Kind { Directional, Point };
   Kind kind = Kind::Directional;
-  Vec3E vector{Expr(1.0), Expr(1.0),
-               Expr(1.0)};  ///< Directional: towards the light, any length. Point: its position
+  Vec3E vector{Expr(1.0)};  ///< Directional: towards the light, any length. Point: its position
   Vec3E color{Expr(1.0)};   ///< linear RGB
   Expr intensity = 1.0;     ///< no fall-off with distance (the seeds' and Phong's convention)
   bool castsShadow = true;

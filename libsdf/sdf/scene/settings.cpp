@@ -72,11 +72,7 @@ const KindWords& wordsOf(Kind kind) {
 // clang-format on
 
 std::string form(const SettingInfo& f) {
-  if (f.kind != Kind::Choice) return wordsOf(f.kind).form;
-  std::string list;
-  for (std::size_t i = 0; i < f.choices.size(); ++i)
-    list += (i == 0 ? "\"" : i + 1 == f.choices.size() ? " or \"" : ", \"") + f.choices[i] + "\"";
-  return list;
+  return f.kind == Kind::Choice ? shown(f.choices) : wordsOf(f.kind).form;
 }
 
 std::string ruleWords(const SettingInfo& f) {

@@ -10,13 +10,6 @@ namespace sdf {
 
 namespace {
 
-bool hasNamedField(lua_State* L, int index) {
-  bool named = false;
-  for (lua_pushnil(L); !named && lua_next(L, index); lua_pop(L, 1)) named = lua_type(L, -2) == LUA_TSTRING;
-  if (named) lua_pop(L, 1);
-  return named;
-}
-
 // One call of a catalog entry: gives each parameter the arguments that were written for it.
 //
 // Arguments come in the order of the parameters, or by name in a table that stands last. A table that stands
@@ -70,23 +63,14 @@ class Call {
     for (lua_pushnil(L_); lua_next(L_, options_); lua_pop(L_, 1)) {
       if (lua_type(L_, -2) != LUA_TSTRING) continue;
       const std::string name = lua_tostring(L_, -2);
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      const std::string near = suggestion(name, known);
-      raise(L_, entry_.name + ": unknown field '" + name + "'" +
-                    (near.empty() ? "; it takes " + listed(known) : near));
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        unknownField(L_, entry_.name, name, known);
     }
-  }
-
-  std::string usage() const {
-    std::string text = entry_.name + "(";
-    for (const Parameter& p : entry_.parameters)
-      text += (&p == &entry_.parameters.front() ? "" : ", ") + p.name;
-    return text + ")";
   }
 
   [[noreturn]] void tooMany() const {
     raise(L_, entry_.name + ": too many arguments, the first one too many is " + describe(L_, next_) +
-                  "; write " + usage());
+                  "; write " + usageOf(entry_));
   }
 
   std::string what(const Parameter& p) const { return entry_.name + ": '" + p.name + "'"; }
@@ -103,7 +87,7 @@ class Call {
     if (next_ > last_ || lua_isnil(L_, next_)) {
       if (next_ <= last_) ++next_;
       if (!p.required) return std::monostate{};
-      raise(L_, what(p) + " is missing; write " + usage());
+      raise(L_, what(p) + " is missing; write " + usageOf(entry_));
     }
     return readRow(p);
   }
@@ -156,7 +140,7 @@ class Call {
 
   const Shape& shapeAt(const Parameter& p, int at) const {
     if (!testShape(L_, at) && at == 1)
-      raise(L_, what(p) + " must be a shape, got " + describe(L_, at) + "; write " + usage() +
+      raise(L_, what(p) + " must be a shape, got " + describe(L_, at) + "; write " + usageOf(entry_) +
                     " or shape:" + entry_.name + "(…)");
     return readShape(L_, at, what(p));
   }

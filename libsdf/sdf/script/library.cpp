@@ -25,6 +25,19 @@ void expectArguments(lua_State* L, int least, int most) {
   raise(L, f.name + (count < least ? ": too few" : ": too many") + " arguments; write " + f.usage);
 }
 
+std::string usageOf(const CatalogEntry& entry) {
+  std::string text = entry.name + "(";
+  for (const Parameter& p : entry.parameters) text += (&p == &entry.parameters.front() ? "" : ", ") + p.name;
+  return text + ")";
+}
+
+void unknownField(lua_State* L, const std::string& function, const std::string& name,
+                  const std::vector<std::string>& known) {
+  const std::string near = suggestion(name, known);
+  raise(L,
+        function + ": unknown field '" + name + "'" + (near.empty() ? "; it takes " + listed(known) : near));
+}
+
 namespace {
 
 glm::dvec3 readCorner(lua_State* L, int index, const std::string& what) {
@@ -49,10 +62,8 @@ FieldValues readFields(lua_State* L, int index, const FunctionInfo& function) {
     if (lua_type(L, -2) != LUA_TSTRING)
       raise(L, function.name + ": every field needs a name; write " + function.usage);
     const std::string name = lua_tostring(L, -2);
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const std::string near = suggestion(name, known);
-    raise(L, function.name + ": unknown field '" + name + "'" +
-                 (near.empty() ? "; it takes " + listed(known) : near));
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      unknownField(L, function.name, name, known);
   }
   FieldValues values;
   luaL_checkstack(L, 4, nullptr);

@@ -41,6 +41,12 @@ void openFormulaOperators(lua_State* L);
 /// Opens everything that a script can name, and nothing else. A lua_CFunction.
 int openLanguage(lua_State* L);
 
+/// "sphere(radius)".
+std::string usageOf(const CatalogEntry& entry);
+/// Raises that the function has no such field, with the nearest or all that it has.
+[[noreturn]] void unknownField(lua_State* L, const std::string& function, const std::string& name,
+                               const std::vector<std::string>& known);
+
 /// A value of the field's kind: a box as two corners, in a table or at this place and the next.
 SettingValue readSetting(lua_State* L, int index, const std::string& what, const SettingInfo& field);
 

@@ -9,43 +9,15 @@ namespace sdf {
 
 namespace {
 
-std::string quoted(const std::vector<std::string>& choices) {
-  std::string text;
-  for (std::size_t i = 0; i < choices.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + ("`\"" + choices[i] + "\"`");
-  return text;
-}
-
+// What a parameter takes, by ArgumentKind.
 std::string formOf(const Parameter& p) {
-  switch (p.kind) {
-    case ArgumentKind::Number:
-      return "number";
-    case ArgumentKind::Integer:
-      return "whole number";
-    case ArgumentKind::Vector2:
-      return "`{x, y}`";
-    case ArgumentKind::Vector3:
-      return "`{x, y, z}`";
-    case ArgumentKind::Choice:
-      return quoted(p.choices);
-    case ArgumentKind::Points:
-      return "points `{{x, y}, …}`";
-    case ArgumentKind::Shape:
-      return "shape";
-    case ArgumentKind::Shapes:
-      break;
-  }
-  return "shapes";
-}
-
-std::string callOf(const CatalogEntry& e) {
-  std::string text = e.name + "(";
-  for (const Parameter& p : e.parameters) text += (&p == &e.parameters.front() ? "" : ", ") + p.name;
-  return text + ")";
+  static constexpr const char* kForms[] = {"number", "whole number",         "`{x, y}`", "`{x, y, z}`",
+                                           "",       "points `{{x, y}, …}`", "shape",    "shapes"};
+  return p.kind == ArgumentKind::Choice ? shown(p.choices) : kForms[static_cast<int>(p.kind)];
 }
 
 void addEntry(std::string& out, const CatalogEntry& e) {
-  out += "\n#### `" + callOf(e) + "`\n\n" + e.doc + "\n\nDistance: " + e.claim + ".\n\n";
+  out += "\n#### `" + usageOf(e) + "`\n\n" + e.doc + "\n\nDistance: " + e.claim + ".\n\n";
   for (const Parameter& p : e.parameters) {
     out += "- `" + p.name + "`: " + p.doc + " (" + formOf(p) +
            (p.rule == Rule::Any ? "" : std::string(", ") + wording(p.rule));

@@ -64,20 +64,12 @@ int newMaterial(lua_State* L) {
   return pushMaterial(L, materialFrom(L, 1)), 1;
 }
 
-bool hasNames(lua_State* L, int index) {
-  lua_pushnil(L);
-  const bool some = lua_next(L, index);
-  const bool named = some && lua_type(L, -2) == LUA_TSTRING;
-  lua_pop(L, some ? 2 : 0);
-  return named;
-}
-
 // A material, its fields, or only a colour.
 int paint(lua_State* L) {
   expectArguments(L, 2, 2);
   const Shape& shape = readShape(L, 1, "paint: the first argument");
   if (const MaterialPtr* material = testMaterial(L, 2)) return pushShape(L, shape.paint(*material)), 1;
-  if (lua_istable(L, 2) && hasNames(L, 2)) return pushShape(L, shape.paint(materialFrom(L, 2))), 1;
+  if (lua_istable(L, 2) && hasNamedField(L, 2)) return pushShape(L, shape.paint(materialFrom(L, 2))), 1;
   Material m;
   m.color = readColor(L, 2, "paint: the material or its colour", Depends::OnPosition);
   return pushShape(L, shape.paint(numbered(L, std::move(m)))), 1;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sdf/script/context.h"
+#include "sdf/shape/catalog.h"
 
 namespace sdf {
 
@@ -247,6 +248,13 @@ int readInteger(lua_State* L, int index, const std::string& what) {
   return static_cast<int>(v);
 }
 
+bool hasNamedField(lua_State* L, int index) {
+  bool named = false;
+  for (lua_pushnil(L); !named && lua_next(L, index); lua_pop(L, 1)) named = lua_type(L, -2) == LUA_TSTRING;
+  if (named) lua_pop(L, 1);
+  return named;
+}
+
 bool readFlag(lua_State* L, int index, const std::string& what) {
   if (!lua_isboolean(L, index)) wrongType(L, index, what, "true or false");
   return lua_toboolean(L, index);
@@ -262,10 +270,7 @@ int readChoice(lua_State* L, int index, const std::string& what, const std::vect
     const auto it = std::find(choices.begin(), choices.end(), lua_tostring(L, index));
     if (it != choices.end()) return static_cast<int>(it - choices.begin());
   }
-  std::string wanted = "one of";
-  for (std::size_t i = 0; i < choices.size(); ++i)
-    wanted += (i == 0 ? " \"" : i + 1 == choices.size() ? " or \"" : ", \"") + choices[i] + "\"";
-  wrongType(L, index, what, wanted);
+  wrongType(L, index, what, "one of " + shown(choices));
 }
 
 const Shape& readShape(lua_State* L, int index, const std::string& what) {

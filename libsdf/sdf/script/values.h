@@ -47,6 +47,8 @@ bool isFormula(lua_State* L, int index);
 const Shape* testShape(lua_State* L, int index);
 const MaterialPtr* testMaterial(lua_State* L, int index);
 
+/// Has the table at `index` a field with a name?
+bool hasNamedField(lua_State* L, int index);
 /// The number or formula at `index`, which isNumeric.
 Expr exprAt(lua_State* L, int index);
 
@@ -69,8 +71,6 @@ Expr readSurfaceNumber(lua_State* L, int index, const std::string& what);
 Expr readFormula(lua_State* L, int index, const std::string& what);
 
 /// Runs a library function so that limits hold and a C++ exception becomes a script error.
-template <int (*F)(lua_State*)>
-int guarded(lua_State* L);
 using LibraryFunction = int (*)(lua_State*);
 int callGuarded(lua_State* L, LibraryFunction f);
 template <int (*F)(lua_State*)>

@@ -59,47 +59,23 @@ Argument fallbackOf(const Parameter& p) {
   return std::monostate{};
 }
 
-const char* kindName(ArgumentKind kind) {
-  switch (kind) {
-    case ArgumentKind::Number:
-      return "a number";
-    case ArgumentKind::Integer:
-      return "an integer";
-    case ArgumentKind::Vector2:
-      return "a vector of 2 numbers";
-    case ArgumentKind::Vector3:
-      return "a vector of 3 numbers";
-    case ArgumentKind::Choice:
-      return "one of its choices";
-    case ArgumentKind::Points:
-      return "a list of points";
-    case ArgumentKind::Shape:
-      return "a shape";
-    case ArgumentKind::Shapes:
-      break;
-  }
-  return "a list of shapes";
-}
+// What messages call a kind, and which of an Argument's alternatives holds it.
+struct KindInfo {
+  const char* name;
+  std::size_t index;
+};
 
-bool holdsKind(const Argument& a, ArgumentKind kind) {
-  switch (kind) {
-    case ArgumentKind::Number:
-      return std::holds_alternative<Expr>(a);
-    case ArgumentKind::Vector2:
-    case ArgumentKind::Vector3:
-      return std::holds_alternative<Vec3E>(a);
-    case ArgumentKind::Integer:
-    case ArgumentKind::Choice:
-      return std::holds_alternative<int>(a);
-    case ArgumentKind::Points:
-      return std::holds_alternative<std::vector<glm::dvec2>>(a);
-    case ArgumentKind::Shape:
-      return std::holds_alternative<Shape>(a);
-    case ArgumentKind::Shapes:
-      break;
-  }
-  return std::holds_alternative<std::vector<Shape>>(a);
+// clang-format off
+const KindInfo& infoOf(ArgumentKind kind) {
+  static const std::size_t whole = Argument(0).index(), vector = Argument(Vec3E()).index();
+  static const KindInfo kinds[] = {
+      {"a number", Argument(Expr()).index()}, {"an integer", whole},
+      {"a vector of 2 numbers", vector}, {"a vector of 3 numbers", vector}, {"one of its choices", whole},
+      {"a list of points", Argument(std::vector<glm::dvec2>()).index()},
+      {"a shape", Argument(Shape()).index()}, {"a list of shapes", Argument(std::vector<Shape>()).index()}};
+  return kinds[static_cast<int>(kind)];
 }
+// clang-format on
 
 const Shape* firstFailed(const Argument& a) {
   if (const auto* shape = std::get_if<Shape>(&a)) return shape->ok() ? nullptr : shape;
@@ -109,18 +85,12 @@ const Shape* firstFailed(const Argument& a) {
   return nullptr;
 }
 
-std::string choiceList(const std::vector<std::string>& choices) {
-  std::string list;
-  for (const std::string& c : choices) list += (list.empty() ? "" : ", ") + c;
-  return list;
-}
-
 void checkArgument(const Parameter& p, const Argument& a, Check& c) {
   if (a.index() == 0) {
-    c.that(!p.required, p.name + " is missing; it is " + kindName(p.kind));
+    c.that(!p.required, p.name + " is missing; it is " + infoOf(p.kind).name);
     return;
   }
-  c.that(holdsKind(a, p.kind), p.name + " must be " + kindName(p.kind));
+  c.that(a.index() == infoOf(p.kind).index, p.name + " must be " + infoOf(p.kind).name);
   if (!c.ok()) return;
   switch (p.kind) {
     case ArgumentKind::Number:
@@ -138,7 +108,7 @@ void checkArgument(const Parameter& p, const Argument& a, Check& c) {
     case ArgumentKind::Choice: {
       const int i = std::get<int>(a);
       c.that(i >= 0 && i < static_cast<int>(p.choices.size()),
-             p.name + " must be one of " + choiceList(p.choices));
+             p.name + " must be one of " + shown(p.choices));
       break;
     }
     default:

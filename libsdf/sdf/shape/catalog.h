@@ -22,8 +22,9 @@ enum class Rule { Any, Positive, NotNegative, NotZero };
 bool keeps(Rule rule, double value);
 /// What the rule asks for, in words: "positive"; "a finite number" for Any.
 const char* wording(Rule rule);
-/// A number as messages and the reference show it, six significant digits.
+/// A number as messages and the reference show it, six significant digits; and choices: `"a", "b" or "c"`.
 std::string shown(double value);
+std::string shown(const std::vector<std::string>& choices);
 
 struct Parameter {
   std::string name;  ///< snake_case, as in scene files

@@ -49,6 +49,13 @@ std::string shown(double value) {
   return text.data();
 }
 
+std::string shown(const std::vector<std::string>& choices) {
+  std::string text;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    text += (i == 0 ? "\"" : i + 1 == choices.size() ? " or \"" : ", \"") + choices[i] + "\"";
+  return text;
+}
+
 Check& Check::fail(const std::string& fault) {
   if (!message_) message_ = subject_ + ": " + fault;
   return *this;
