@@ -180,18 +180,18 @@ TEST(ForEachRun, FarFromEveryLeafTheFallbackServes) {
   const LocalTapes whole = wholeTapes(tape);
   const NarrowBand band = bandOf(sphere(1.0), region(1.0), 1.0 / 32);
   const std::vector<glm::vec3> points{{0, 0, 0}, {100, 0, 0}, {1, 0, 0}, {-1e12f, 0, 0}, {NAN, 0, 0}};
-  std::vector<const LocalTapes*> used(points.size());
+  std::vector<const Tape*> used(points.size());
   Progress progress;
   forEachRun(
       points.size(), [&](std::size_t i) { return points[i]; }, BandField(band, whole), progress,
       [&](const PointRun& run) {
-        for (std::size_t i = 0; i < run.count; ++i) used[run.first + i] = &run.tapes;
+        for (std::size_t i = 0; i < run.count; ++i) used[run.first + i] = run.tapes.surface.get();
       });
-  EXPECT_EQ(used[0], &whole);
-  EXPECT_EQ(used[1], &whole);
-  EXPECT_NE(used[2], &whole);
-  EXPECT_EQ(used[3], &whole);
-  EXPECT_EQ(used[4], &whole);
+  EXPECT_EQ(used[0], whole.surface.get());
+  EXPECT_EQ(used[1], whole.surface.get());
+  EXPECT_NE(used[2], whole.surface.get());
+  EXPECT_EQ(used[3], whole.surface.get());
+  EXPECT_EQ(used[4], whole.surface.get());
 }
 
 TEST(ForEachRun, DoesNothingOnceStopped) {
