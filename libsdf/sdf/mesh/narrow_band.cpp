@@ -1,14 +1,12 @@
 #include "sdf/mesh/narrow_band.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
-#include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <mutex>
 
@@ -16,6 +14,7 @@
 #include "sdf/eval/promise.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/mesh/band_grid-inl.h"
+#include "sdf/mesh/extract-inl.h"
 
 namespace sdf {
 namespace {
@@ -430,41 +429,9 @@ std::unique_ptr<LocalField::Finder> BandField::finder() const {
   return std::make_unique<InBand>(band_, whole_);
 }
 
-namespace {
-
-// A quad as two triangles, cut along its shorter diagonal.
-void cutQuad(const openvdb::Vec4I& q, const std::vector<glm::vec3>& p, glm::uvec3* triangles) {
-  if (glm::distance(p[q[0]], p[q[2]]) <= glm::distance(p[q[1]], p[q[3]])) {
-    triangles[0] = {q[0], q[1], q[2]};
-    triangles[1] = {q[0], q[2], q[3]};
-  } else {
-    triangles[0] = {q[1], q[2], q[3]};
-    triangles[1] = {q[1], q[3], q[0]};
-  }
-}
-
-}  // namespace
-
 RawSurface NarrowBand::extract() {
-  std::vector<openvdb::Vec3s> points;
-  std::vector<openvdb::Vec3I> triangles;
-  std::vector<openvdb::Vec4I> quads;
-  // The free function is compiled into OpenVDB; the VolumeToMesh class would be compiled here, at great
-  // length.
-  openvdb::tools::volumeToMesh(*grid_->grid, points, triangles, quads, 0.0, 0.0);
+  RawSurface surface = extractSurface(grid_->grid->tree(), grid_->voxelSize);
   grid_->grid.reset();
-  RawSurface surface;
-  surface.points.resize(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    surface.points[i] = {points[i].x(), points[i].y(), points[i].z()};
-  });
-  std::vector<openvdb::Vec3s>().swap(points);
-  surface.triangles.resize(triangles.size() + 2 * quads.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    surface.triangles[i] = {triangles[i][0], triangles[i][1], triangles[i][2]};
-  glm::uvec3* cut = surface.triangles.data() + triangles.size();
-  tbb::parallel_for(std::size_t{0}, quads.size(),
-                    [&](std::size_t i) { cutQuad(quads[i], surface.points, cut + 2 * i); });
   return surface;
 }
 

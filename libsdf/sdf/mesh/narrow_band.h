@@ -65,8 +65,8 @@ class NarrowBand {
   /// or gap, shows up here. Cost: some look-ups for each sample next to the surface.
   std::vector<Suspect> suspects() const;
 
-  /// The zero set as OpenVDB's dual surface extraction gives it (Museth et al., OpenVDB 2013). Call once: the
-  /// samples are released on the way.
+  /// The zero set by dual marching cubes (Nielson 2004), leaf by leaf. Call once: the samples are released on
+  /// the way.
   RawSurface extract();
 
   struct Grid;

@@ -1,0 +1,380 @@
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "sdf/mesh/cell_patches.h"
+#include "sdf/mesh/extract-inl.h"
+
+namespace sdf {
+namespace {
+
+using openvdb::Coord;
+using Leaf = openvdb::FloatTree::LeafNodeType;
+using Accessor = openvdb::FloatGrid::ConstUnsafeAccessor;  // nothing is added to the tree while one lives
+
+constexpr int kSide = Leaf::DIM;
+constexpr int kVoxels = Leaf::SIZE;
+constexpr std::size_t kBlocksATask = 16;
+constexpr float kNotZero =
+    std::numeric_limits<float>::min();  // leaves sums of samples that differ in sign alone
+
+// The samples of a plane of constant x are the bits 8 y + z of a word.
+using Plane = std::uint64_t;
+constexpr Plane kFirstY = 0xffull, kFirstZ = 0x0101010101010101ull, kLastZ = kFirstZ << 7;
+
+/// A leaf's cells: those whose lowest corner is a sample of it.
+struct Block {
+  Leaf* leaf = nullptr;
+  const float* samples = nullptr;
+  Plane inside[kSide] = {};     // which samples are negative
+  std::uint32_t above[8] = {};  // the blocks at the offsets of a cell's corners; [0] is this one
+  std::uint32_t points = 0;     // how many it has, then how many come before
+  std::uint32_t quads = 0;
+};
+
+// Blocks that stand for all tiles outside and inside.
+constexpr std::uint32_t kOutsideTile = 0, kInsideTile = 1, kTiles = 2;
+
+// What a cell leaves behind for its neighbours: its first point's number in the block, and two flags.
+using Place = std::uint16_t;
+constexpr Place kMany = 1;     // it has several points
+constexpr Place kFlipped = 2;  // its patches are those of its signs' complement
+constexpr int kPlaceShift = 2;
+
+Plane planeOf(const float* samples) {
+  static_assert(std::endian::native == std::endian::little);
+  constexpr std::uint64_t kGather =
+      0x0102040810204080ull;  // takes the lowest bit of each byte to the top one
+  Plane bits = 0;
+  for (int y = 0; y < kSide; ++y) {
+    std::array<std::uint8_t, kSide> negative;
+    for (int z = 0; z < kSide; ++z) negative[z] = samples[y * kSide + z] < 0.0f;
+    bits |= (std::bit_cast<std::uint64_t>(negative) * kGather >> 56) << y * kSide;
+  }
+  return bits;
+}
+
+/// Where the surface may be in a block: [x][2 y + z] are the signs of the samples at (x, . + y, . + z).
+struct Signs {
+  Plane at[kSide + 1][4];
+
+  Signs(const std::vector<Block>& blocks, const Block& b) {
+    for (int x = 0; x <= kSide; ++x) {
+      const std::uint32_t* above = b.above + (x == kSide ? 4 : 0);
+      Plane plane[4];
+      for (int i = 0; i < 4; ++i) plane[i] = blocks[above[i]].inside[x % kSide];
+      const auto alongZ = [](Plane p, Plane next) { return (p >> 1 & ~kLastZ) | (next << 7 & kLastZ); };
+      at[x][0] = plane[0];
+      at[x][1] = alongZ(plane[0], plane[1]);
+      at[x][2] = plane[0] >> 8 | plane[2] << 56;
+      at[x][3] = at[x][1] >> 8 | alongZ(plane[2], plane[3]) << 56;
+    }
+  }
+  /// The cells of a plane whose corners differ.
+  Plane mixed(int x) const {
+    const Plane *a = at[x], *b = at[x + 1];
+    const Plane any = a[0] | a[1] | a[2] | a[3] | b[0] | b[1] | b[2] | b[3];
+    return any & ~(a[0] & a[1] & a[2] & a[3] & b[0] & b[1] & b[2] & b[3]);
+  }
+  /// The signs at a cell's corners.
+  unsigned of(int x, int bit) const {
+    unsigned inside = 0;
+    for (int c = 0; c < 8; ++c) inside |= static_cast<unsigned>(at[x + (c >> 2)][c & 3] >> bit & 1) << c;
+    return inside;
+  }
+  /// Calls visit(cell, its corners' signs) for each cell whose corners differ.
+  template <class Visit>
+  void forEachCell(const Visit& visit) const {
+    for (int x = 0; x < kSide; ++x)
+      for (Plane cells = mixed(x); cells != 0; cells &= cells - 1) {
+        const int bit = std::countr_zero(cells);
+        visit(x << 6 | bit, of(x, bit));
+      }
+  }
+};
+
+unsigned signsAt(const openvdb::FloatTree& tree, const Coord& cell) {
+  unsigned inside = 0;
+  for (int c = 0; c < 8; ++c)
+    inside |= (tree.getValue(cell.offsetBy(c >> 2, c >> 1 & 1, c & 1)) < 0.0f ? 1u : 0u) << c;
+  return inside;
+}
+
+/// Do both cells at the face that a cell's patch crosses twice have such a patch?
+bool crossedTwiceFromBothSides(const openvdb::FloatTree& tree, Coord cell, unsigned inside) {
+  const int face = kCellPatches[inside].twiceCrossed - 1;
+  if (face < 0) return false;
+  cell[face / 2] += face % 2 == 0 ? -1 : 1;
+  return kCellPatches[signsAt(tree, cell)].twiceCrossed - 1 == (face ^ 1);
+}
+
+class Extraction {
+ public:
+  Extraction(openvdb::FloatTree& tree, double voxelSize) : tree_(tree), h_(voxelSize) {
+    addTiles();
+    std::vector<Leaf*> leaves;
+    tree.getNodes(leaves);
+    addBlocks(leaves);
+    addBlocks(addMissingLeaves());
+  }
+
+  RawSurface run() {
+    places_ = std::make_unique_for_overwrite<Place[]>((blocks_.size() - kTiles) * kVoxels);
+    forEachBlock([&](Block& b) { count(b); });
+    std::uint32_t points = 0, quads = 0;
+    for (Block& b : blocks_) {
+      points += std::exchange(b.points, points);
+      quads += std::exchange(b.quads, quads);
+    }
+    surface_.points.resize(points);
+    surface_.triangles.resize(2 * static_cast<std::size_t>(quads));
+    forEachBlock([&](const Block& b) { placePoints(b); });
+    forEachBlock([&](const Block& b) { placeQuads(b); });
+    return std::move(surface_);
+  }
+
+ private:
+  template <class Work>
+  void forEachBlock(const Work& work, std::size_t first = kTiles) {
+    tbb::parallel_for(tbb::blocked_range(first, blocks_.size(), kBlocksATask), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) work(blocks_[i]);
+    });
+  }
+
+  void addTiles() {
+    const float far = std::abs(tree_.background());
+    for (const float value : {far, -far}) {
+      std::vector<float>& samples = tiles_.emplace_back(kVoxels, value);
+      Block& tile = blocks_.emplace_back();
+      tile.samples = samples.data();
+      std::fill_n(tile.inside, kSide, value < 0.0f ? ~Plane{0} : Plane{0});
+    }
+  }
+
+  void addBlocks(const std::vector<Leaf*>& leaves) {
+    const std::size_t first = blocks_.size();
+    for (Leaf* leaf : leaves) {
+      leaf->setTransientData(static_cast<openvdb::Index32>(blocks_.size()));
+      blocks_.emplace_back().leaf = leaf;
+    }
+    forEachBlock(
+        [&](Block& b) {
+          b.samples = b.leaf->buffer().data();
+          for (int x = 0; x < kSide; ++x) b.inside[x] = planeOf(b.samples + x * kSide * kSide);
+        },
+        first);
+    forEachBlock([&](Block& b) {
+      Accessor accessor(tree_);
+      for (int i = 0; i < 8; ++i) b.above[i] = blockAt(accessor, offset(b, i, kSide));
+    });
+  }
+
+  // The block of a leaf's origin moved as a cell's corner is.
+  static Coord offset(const Block& b, int corner, int by) {
+    return b.leaf->origin().offsetBy((corner >> 2) * by, (corner >> 1 & 1) * by, (corner & 1) * by);
+  }
+
+  static std::uint32_t blockAt(const Accessor& accessor, const Coord& origin) {
+    if (const Leaf* leaf = accessor.probeConstLeaf(origin)) return leaf->transientData();
+    return accessor.getValue(origin) < 0.0f ? kInsideTile : kOutsideTile;
+  }
+
+  // The cells around an edge that a sample of a leaf belongs to may have their lowest corner in no leaf: such
+  // leaves are added, with the tile's value.
+  std::vector<Leaf*> addMissingLeaves() {
+    tbb::enumerable_thread_specific<std::vector<Coord>> missing;
+    forEachBlock([&](Block& b) {
+      const unsigned below = neededBelow(b);
+      Accessor accessor(tree_);
+      for (int i = 1; i < 8; ++i) {
+        const Coord origin = offset(b, i, -kSide);
+        if ((below >> i & 1u) && !accessor.probeConstLeaf(origin)) missing.local().push_back(origin);
+      }
+    });
+    std::vector<Coord> all;
+    for (const auto& some : missing) all.insert(all.end(), some.begin(), some.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::vector<Leaf*> added;
+    for (const Coord& origin : all) {
+      added.push_back(new Leaf(origin, tree_.getValue(origin), true));
+      tree_.addLeaf(added.back());
+    }
+    return added;
+  }
+
+  // Bits of the offsets below a block at which there are cells around its crossed edges.
+  unsigned neededBelow(const Block& b) const {
+    constexpr int kX = 4, kY = 2, kZ = 1;
+    const Signs s(blocks_, b);
+    Accessor accessor(tree_);
+    unsigned need = 0;
+    const auto ask = [&](Plane crossed, int below) { need |= (crossed != 0 ? 1u : 0u) << below; };
+    for (int x = 0; x < kSide; ++x) {
+      const Plane first = x == 0 ? ~Plane{0} : 0;
+      const Plane alongX = s.at[x][0] ^ s.at[x + 1][0], alongY = s.at[x][0] ^ s.at[x][2],
+                  alongZ = s.at[x][0] ^ s.at[x][1];
+      ask((alongX | alongZ) & kFirstY, kY), ask((alongX | alongY) & kFirstZ, kZ);
+      ask((alongY | alongZ) & first, kX), ask(alongX & kFirstY & kFirstZ, kY | kZ);
+      ask(alongY & first & kFirstZ, kX | kZ), ask(alongZ & first & kFirstY, kX | kY);
+    }
+    // Where the sign changes towards a tile below, there may be any.
+    for (const int below : {kX, kY, kZ}) {
+      const std::uint32_t block = blockAt(accessor, offset(b, below, -kSide));
+      if (block >= kTiles) continue;
+      for (int x = 0; x < (below == kX ? 1 : kSide); ++x) {
+        const Plane face = below == kX ? ~Plane{0} : below == kY ? kFirstY : kFirstZ;
+        if ((b.inside[x] ^ blocks_[block].inside[x]) & face) return 0xff;
+      }
+    }
+    return need;
+  }
+
+  std::size_t indexOf(const Block& b) const { return static_cast<std::size_t>(&b - blocks_.data()); }
+  Place* placesOf(std::size_t block) const { return places_.get() + (block - kTiles) * kVoxels; }
+
+  void count(Block& b) {
+    Place* places = placesOf(indexOf(b));
+    Signs(blocks_, b).forEachCell([&](int cell, unsigned inside) {
+      const bool flip =
+          crossedTwiceFromBothSides(tree_, b.leaf->origin() + Leaf::offsetToLocalCoord(cell), inside);
+      const unsigned count = kCellPatches[flip ? inside ^ 0xffu : inside].count;
+      places[cell] = static_cast<Place>(b.points << kPlaceShift | (flip ? kFlipped : 0) | (count > 1));
+      b.points += count;
+      forEachQuad(b, cell, inside, [&](int) { ++b.quads; });
+    });
+  }
+
+  // Calls visit(axis) for each crossed edge that ends in a cell's highest corner: the cell is the lowest of
+  // the four around it. The others may be missing only where two tiles differ.
+  template <class Visit>
+  void forEachQuad(const Block& b, int cell, unsigned inside, const Visit& visit) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((inside >> 7 ^ inside >> (7u ^ cornerBit(axis))) & 1u) == 0) continue;
+      const unsigned u = cornerBit(axis + 1), v = cornerBit(axis + 2);
+      if (blockOf(b, cell, u) >= kTiles && blockOf(b, cell, v) >= kTiles && blockOf(b, cell, u | v) >= kTiles)
+        visit(axis);
+    }
+  }
+
+  // The block in which the cell lies that is moved as a corner is from a cell of b, ...
+  static std::uint32_t blockOf(const Block& b, int cell, unsigned corner) {
+    return b.above[leaving(cell) & corner];
+  }
+  // ... and its number there.
+  static int moved(int cell, unsigned corner) {
+    return cell + step(corner) - kSide * step(leaving(cell) & corner);
+  }
+  static int step(unsigned corner) { return (corner >> 2) << 6 | (corner >> 1 & 1) << 3 | (corner & 1); }
+  // The axes along which the next cell is in another block.
+  static unsigned leaving(int cell) {
+    return (cell >> 6 == 7 ? 4u : 0u) | ((cell >> 3 & 7) == 7 ? 2u : 0u) | ((cell & 7) == 7 ? 1u : 0u);
+  }
+
+  void placePoints(const Block& b) {
+    constexpr int kWide = kSide + 1;
+    float samples[kWide * kWide * kWide];
+    copySamples(b, samples);
+    const Place* places = placesOf(indexOf(b));
+    glm::vec3* point = surface_.points.data() + b.points;
+    Signs(blocks_, b).forEachCell([&](int cell, unsigned inside) {
+      const Coord local = Leaf::offsetToLocalCoord(cell), at = b.leaf->origin() + local;
+      const float* lowest = samples + (local.x() * kWide + local.y()) * kWide + local.z();
+      float corner[8], crossing[kCellEdges];
+      for (int c = 0; c < 8; ++c)
+        corner[c] = std::abs(lowest[((c >> 2) * kWide + (c >> 1 & 1)) * kWide + (c & 1)]);
+      for (int e = 0; e < kCellEdges; ++e) {
+        const float from = corner[lowerCorner(e)], to = corner[lowerCorner(e) | cornerBit(e / 4)];
+        crossing[e] = from / (from + to + kNotZero);
+      }
+      if (places[cell] & kFlipped) inside ^= 0xffu;
+      for (int patch = 0; patch < kCellPatches[inside].count; ++patch) {
+        const PatchMean& mean = kPatchMeans[inside][patch];
+        for (int axis = 0; axis < 3; ++axis) {
+          float sum = mean.base[axis];
+          for (int e = 4 * axis; e < 4 * axis + 4; ++e) sum += mean.weight[e] * crossing[e];
+          (*point)[axis] = static_cast<float>((at[axis] + static_cast<double>(sum)) * h_);
+        }
+        ++point;
+      }
+    });
+  }
+
+  // A block's samples and the first ones above it, 9 along each axis.
+  void copySamples(const Block& b, float* out) const {
+    for (int x = 0; x <= kSide; ++x)
+      for (int y = 0; y <= kSide; ++y) {
+        const std::uint32_t* above = b.above + (x / kSide * 4 + y / kSide * 2);
+        const int row = (x % kSide) << 6 | (y % kSide) << 3;
+        out = std::copy_n(blocks_[above[0]].samples + row, kSide, out);
+        *out++ = blocks_[above[1]].samples[row];
+      }
+  }
+
+  void placeQuads(const Block& b) {
+    glm::uvec3* triangles = surface_.triangles.data() + 2 * static_cast<std::size_t>(b.quads);
+    Signs(blocks_, b).forEachCell([&](int cell, unsigned inside) {
+      forEachQuad(b, cell, inside, [&](int axis) {
+        const unsigned u = cornerBit(axis + 1), v = cornerBit(axis + 2);
+        // Counter-clockwise, seen against the axis.
+        std::uint32_t quad[4] = {
+            pointOf(b, cell, u | v, cellEdge(axis, 0, 0)), pointOf(b, cell, v, cellEdge(axis, 1, 0)),
+            pointOf(b, cell, 0, cellEdge(axis, 1, 1)), pointOf(b, cell, u, cellEdge(axis, 0, 1))};
+        if (inside >> 7 & 1u) std::swap(quad[1], quad[3]);
+        cut(quad, triangles);
+        triangles += 2;
+      });
+    });
+  }
+
+  // The point of the patch that crosses an edge of the cell that is moved as a corner is from a cell of b.
+  std::uint32_t pointOf(const Block& b, int cell, unsigned corner, int edge) const {
+    const std::uint32_t index = blockOf(b, cell, corner);
+    const int at = moved(cell, corner);
+    const Place place = placesOf(index)[at];
+    std::uint32_t point = blocks_[index].points + (place >> kPlaceShift);
+    if (place & kMany) {
+      const unsigned inside = Signs(blocks_, blocks_[index]).of(at >> 6, at & 63);
+      point += kCellPatches[place & kFlipped ? inside ^ 0xffu : inside].of[edge];
+    }
+    return point;
+  }
+
+  // A quad as two triangles, cut along its shorter diagonal.
+  void cut(const std::uint32_t* q, glm::uvec3* triangles) const {
+    const auto squared = [&](int i, int k) {
+      const glm::vec3 d = surface_.points[q[i]] - surface_.points[q[k]];
+      return glm::dot(d, d);
+    };
+    if (squared(0, 2) <= squared(1, 3)) {
+      triangles[0] = {q[0], q[1], q[2]};
+      triangles[1] = {q[0], q[2], q[3]};
+    } else {
+      triangles[0] = {q[1], q[2], q[3]};
+      triangles[1] = {q[1], q[3], q[0]};
+    }
+  }
+
+  openvdb::FloatTree& tree_;
+  double h_;
+  std::vector<std::vector<float>> tiles_;
+  std::vector<Block> blocks_;
+  std::unique_ptr<Place[]> places_;
+  RawSurface surface_;
+};
+
+}  // namespace
+
+RawSurface extractSurface(openvdb::FloatTree& tree, double voxelSize) {
+  return Extraction(tree, voxelSize).run();
+}
+
+}  // namespace sdf
