@@ -17,9 +17,11 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
+// Triangles kept beside the mesh: fetching their corners from it took up to half of a query.
+using Primitive =
+    CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh, CGAL::Default, CGAL::Tag_true, CGAL::Tag_true>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-using Side = CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel>;
+using Side = CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel, CGAL::Default, Tree>;
 
 Kernel::Point_3 point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
