@@ -68,6 +68,32 @@ TEST(Remap, ClaimsOnlyLower) {
   EXPECT_EQ(f.claimLipschitz(2.0).lipschitz(), 2.0);
 }
 
+TEST(Claim, DoesNotReachOthersWhoUseTheFormula) {
+  // As two scenes in one process have it, in either order.
+  for (const bool claimedFirst : {true, false}) {
+    const double scale = claimedFirst ? 3.0 : 3.5;
+    Expr claimed = claimedFirst ? sin(kX * scale).claimLipschitz(0.5) : Expr(0.0);
+    const Expr plain = sin(kX * scale);
+    if (!claimedFirst) claimed = sin(kX * scale).claimLipschitz(0.5);
+    EXPECT_EQ(claimed.lipschitz(), 0.5);
+    EXPECT_GE(plain.lipschitz(), scale);
+    EXPECT_GE((plain + 1.0).lipschitz(), scale);
+    EXPECT_EQ((claimed + 1.0).lipschitz(), 0.5);
+    EXPECT_NE(claimed, plain);
+    EXPECT_EQ(claimed.unclaimed(), plain);
+    EXPECT_EQ(plain.claimLipschitz(0.25), claimed.claimLipschitz(0.25)) << "of two claims the lower counts";
+  }
+}
+
+TEST(Rewrite, KeepsNodesThatDoNotChangeAndDropsClaimsOfThoseThatDo) {
+  const Expr f = sin(kX).claimLipschitz(0.5) + cos(kY).claimLipschitz(0.25);
+  const auto xToZ = [](const Expr& e, std::span<const Expr>) {
+    return e == kX ? std::optional(kZ) : std::nullopt;
+  };
+  EXPECT_EQ(rewrite(f, xToZ), sin(kZ) + cos(kY).claimLipschitz(0.25));
+  EXPECT_EQ(withoutClaims({&f, 1}).front(), sin(kX) + cos(kY));
+}
+
 TEST(Remap, NodesBuiltOnAClaimInheritIt) {
   const Expr f = claimedLength();
   EXPECT_LE((f * 3.0).lipschitz(), 3.0 + 8.0 * kEpsilon);

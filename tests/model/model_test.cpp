@@ -1,0 +1,170 @@
+// A model's tapes: what is linked for a region says there what the whole says.
+#include "sdf/model/model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/shape/operators.h"
+#include "sdf/shape/solids.h"
+
+namespace sdf {
+namespace {
+
+double uniform(std::mt19937& random, double lo, double hi) {
+  return std::uniform_real_distribution<double>(lo, hi)(random);
+}
+
+Vec3E place(std::mt19937& random, double reach) {
+  return {uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach)};
+}
+
+// Balls, tubes and stretched boxes, which have claims and growths of their own, each in its own colour.
+std::vector<Shape> strewn(std::mt19937& random, int count) {
+  std::vector<Shape> all;
+  for (int i = 0; i < count; ++i) {
+    const double size = uniform(random, 0.05, 0.3);
+    const Shape kinds[] = {sphere(size), torus(size, 0.3 * size),
+                           scale(box(Vec3E(Expr(size))), Vec3E(1.0, 2.0, 0.5)),
+                           intersect(sphere(size), box(Vec3E(Expr(0.8 * size))))};
+    Material m;
+    m.color = {Expr(i / double(count)), Expr(0.5), Expr(1.0 - i / double(count))};
+    all.push_back(translate(rotate(kinds[i % 4], place(random, 3.0)), place(random, 2.0)).paint(m));
+  }
+  return all;
+}
+
+struct Seen {
+  std::size_t near = 0;     // points at which the model's distance was small
+  std::size_t linked = 0;   // operands, summed over regions
+  std::size_t regions = 0;
+};
+
+// Regions of all sizes: where the whole's distance is at most `most`, what is linked says the same to the last bit, and
+// elsewhere no less than `most`.
+Seen expectSame(const Shape& shape, const Values& values, std::mt19937& random) {
+  const ModelTapes model = Model(shape).at(values);
+  Seen seen;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double half = std::exp(uniform(random, std::log(0.02), std::log(1.0)));
+    const glm::dvec3 centre(uniform(random, -2.3, 2.3), uniform(random, -2.3, 2.3), uniform(random, -2.3, 2.3));
+    const double most = uniform(random, 0.0, 0.1);
+    const Box region{centre - half, centre + half};
+    const auto near = model.near(region, most, model.all());
+    EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+    const TapePtr tape = near.empty() ? nullptr : model.link(near);
+    seen.linked += near.size();
+    ++seen.regions;
+    for (int i = 0; i < 40; ++i) {
+      const glm::dvec3 p = centre + half * glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+      const std::vector<double> whole = evaluateAll(*model.whole(), p);
+      if (whole[0] > most) {
+        EXPECT_TRUE(!tape || evaluate(*tape, p) > most) << "trial " << trial;
+        continue;
+      }
+      ++seen.near;
+      EXPECT_TRUE(tape) << "trial " << trial;
+      if (tape) {
+        EXPECT_EQ(evaluateAll(*tape, p), whole) << "trial " << trial;
+      }
+    }
+  }
+  return seen;
+}
+
+TEST(Model, LinksOfAHardUnionSayWhatTheWholeSaysNearTheSurface) {
+  std::mt19937 random(1);
+  const Shape shape = unite(strewn(random, 60));
+  const Seen seen = expectSame(shape, {}, random);
+  EXPECT_GT(seen.near, 200u);
+  EXPECT_LT(seen.linked, seen.regions * 60 / 3) << "most operands are far from most regions";
+}
+
+TEST(Model, LinksOfABlendSayWhatTheWholeSaysNearTheSurface) {
+  for (const Blend& blend : {Blend::quadratic(0.05), Blend::cubic(0.05), Blend::chamfer(0.04)}) {
+    std::mt19937 random(2);
+    const Seen seen = expectSame(unite(strewn(random, 40), blend), {}, random);
+    EXPECT_GT(seen.near, 200u);
+    EXPECT_LT(seen.linked, seen.regions * 40) << "some operands are far from some regions";
+  }
+}
+
+TEST(Model, ABlendsWidthMayBeAnInput) {
+  std::mt19937 random(3);
+  const Expr k = Expr::parameter({"k", 0.02, 0.01, 0.2});
+  const Shape shape = unite(strewn(random, 30), Blend::quadratic(k));
+  for (const double now : {0.01, 0.1, 0.2}) {
+    const Shape fixed = [&] {
+      std::mt19937 again(3);
+      return unite(strewn(again, 30), Blend::quadratic(now));
+    }();
+    EXPECT_GT(expectSame(shape, {{"k", now}}, random).near, 100u);
+    for (int i = 0; i < 100; ++i) {
+      const glm::dvec3 p(uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, -2, 2));
+      EXPECT_NEAR(evaluate(*Model(shape).at({{"k", now}}).whole(), p), evaluate(Tape(fixed.distance), p), 1e-12);
+    }
+  }
+}
+
+TEST(Model, TheWholeIsTheShape) {
+  std::mt19937 random(4);
+  for (const Shape& shape :
+       {unite(strewn(random, 20)), unite(strewn(random, 9), Blend::cubic(0.2)), strewn(random, 4)[3],
+        unite(strewn(random, 5), Blend::exponential(0.1)), translate(unite(strewn(random, 12)), Vec3E(0.5)),
+        scale(rotate(unite(strewn(random, 12)), Vec3E(0.3)), 1.5)}) {
+    const ModelTapes model = Model(shape).at();
+    const Tape tape(shape.distance);
+    for (int i = 0; i < 200; ++i) {
+      const glm::dvec3 p(uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3));
+      EXPECT_NEAR(evaluate(*model.whole(), p), evaluate(tape, p), 1e-14);
+    }
+  }
+}
+
+TEST(Model, ALaterOperandShowsOnATie) {
+  Material red, blue;
+  red.color = {Expr(1.0), Expr(0.0), Expr(0.0)};
+  blue.color = {Expr(0.0), Expr(0.0), Expr(1.0)};
+  const Shape far = translate(sphere(0.1), Vec3E(9.0, 0.0, 0.0));
+  const Shape shape = unite({sphere(1.0).paint(red), far, sphere(1.0).paint(blue)});
+  const ModelTapes model = Model(shape).at();
+  const std::uint32_t both[] = {0, 2};
+  for (const TapePtr& tape : {model.whole(), model.link(both)})
+    EXPECT_EQ(evaluateAll(*tape, {1.0, 0.0, 0.0})[static_cast<int>(SurfaceOutput::Blue)], 1.0);
+}
+
+TEST(Model, AFieldsSlopeHoldsInItsTapesOnlyWhereItIsClaimed) {
+  // One formula with two claims in one union: neither lends its slope to the other.
+  const Expr formula = sin(position().x * 3.0) + position().y;
+  const Shape wrong = field(formula, Box::centred(glm::dvec3(1.0)), 0.5);
+  const Shape right = field(formula, Box::centred(glm::dvec3(1.0)));
+  EXPECT_EQ(wrong.claim.lipschitz, 0.5);
+  EXPECT_GE(right.claim.lipschitz, 3.0);
+  EXPECT_GE(slopeOf(unite(wrong, right)), 3.0);
+  EXPECT_GE(Tape(unite(wrong, right).distance).lipschitz(), 3.0f);
+}
+
+TEST(Marchable, AFieldOfUnknownSlopeIsTheWayToItsBoundsFarAway) {
+  const Vec3E p = position();
+  const Shape wild = field(p.x * p.x * p.x - p.y, Box::centred(glm::dvec3(1.0)));
+  const Marchable m = marchable(wild);
+  ASSERT_TRUE(std::isfinite(m.slope));
+  const Tape tape(m.distance);
+  EXPECT_EQ(evaluate(tape, {0.5, 0.25, 0.0}), 0.125 - 0.25);
+  EXPECT_EQ(evaluate(tape, {0.0, 0.0, 11.0}) / m.slope, 10.0);
+  EXPECT_EQ(marchable(field(p.x * p.x)).slope, kInfinity) << "nothing is known of it";
+  EXPECT_GT(marchable(field(Expr(1.0))).slope, 0.0);
+}
+
+TEST(SlopeIn, IsTheClaimsOrTheFormulas) {
+  const Vec3E p = position();
+  const Box box = Box::centred(glm::dvec3(2.0));
+  EXPECT_EQ(slopeIn(sphere(1.0), box), 1.0);
+  EXPECT_NEAR(slopeIn(field(p.x * p.x), box), 4.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace sdf
