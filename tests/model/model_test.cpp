@@ -38,19 +38,20 @@ std::vector<Shape> strewn(std::mt19937& random, int count) {
 }
 
 struct Seen {
-  std::size_t near = 0;     // points at which the model's distance was small
-  std::size_t linked = 0;   // operands, summed over regions
+  std::size_t near = 0;    // points at which the model's distance was small
+  std::size_t linked = 0;  // operands, summed over regions
   std::size_t regions = 0;
 };
 
-// Regions of all sizes: where the whole's distance is at most `most`, what is linked says the same to the last bit, and
-// elsewhere no less than `most`.
+// Regions of all sizes: where the whole's distance is at most `most`, what is linked says the same to the
+// last bit, and elsewhere no less than `most`.
 Seen expectSame(const Shape& shape, const Values& values, std::mt19937& random) {
   const ModelTapes model = Model(shape).at(values);
   Seen seen;
   for (int trial = 0; trial < 300; ++trial) {
     const double half = std::exp(uniform(random, std::log(0.02), std::log(1.0)));
-    const glm::dvec3 centre(uniform(random, -2.3, 2.3), uniform(random, -2.3, 2.3), uniform(random, -2.3, 2.3));
+    const glm::dvec3 centre(uniform(random, -2.3, 2.3), uniform(random, -2.3, 2.3),
+                            uniform(random, -2.3, 2.3));
     const double most = uniform(random, 0.0, 0.1);
     const Box region{centre - half, centre + half};
     const auto near = model.near(region, most, model.all());
@@ -59,7 +60,8 @@ Seen expectSame(const Shape& shape, const Values& values, std::mt19937& random) 
     seen.linked += near.size();
     ++seen.regions;
     for (int i = 0; i < 40; ++i) {
-      const glm::dvec3 p = centre + half * glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+      const glm::dvec3 p =
+          centre + half * glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
       const std::vector<double> whole = evaluateAll(*model.whole(), p);
       if (whole[0] > most) {
         EXPECT_TRUE(!tape || evaluate(*tape, p) > most) << "trial " << trial;
@@ -104,7 +106,8 @@ TEST(Model, ABlendsWidthMayBeAnInput) {
     EXPECT_GT(expectSame(shape, {{"k", now}}, random).near, 100u);
     for (int i = 0; i < 100; ++i) {
       const glm::dvec3 p(uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, -2, 2));
-      EXPECT_NEAR(evaluate(*Model(shape).at({{"k", now}}).whole(), p), evaluate(Tape(fixed.distance), p), 1e-12);
+      EXPECT_NEAR(evaluate(*Model(shape).at({{"k", now}}).whole(), p), evaluate(Tape(fixed.distance), p),
+                  1e-12);
     }
   }
 }

@@ -129,7 +129,8 @@ std::vector<BorderPoint> splitBorders(Mesh& mesh) {
 }
 
 // Colours the vertices of borders, each where its own material is seen.
-void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt, const LocalField& field, Progress& progress, Mesh& mesh) {
+void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt, const LocalField& field,
+                  Progress& progress, Mesh& mesh) {
   for (const float shift : kBorderShifts) {
     const SurfaceSamples s = sampleSurface(
         points.size(),
@@ -194,9 +195,10 @@ void colorMesh(const Shape& shape, const Values& values, const LocalField& field
     idAt = assignMaterials(shape, atCentroids.ids, mesh);
     orderByMaterial(mesh);
   }
-  mesh.colors = sampleSurface(
-                    mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, field, progress)
-                    .colors;
+  mesh.colors =
+      sampleSurface(
+          mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, field, progress)
+          .colors;
   if (mesh.materials.size() > 1) {
     std::vector<BorderPoint> border = splitBorders(mesh);
     mesh.colors.resize(mesh.positions.size());

@@ -1,4 +1,5 @@
-// What all that follows the sampling knows of a model: the tapes that hold at a point, and the resolution there.
+// What all that follows the sampling knows of a model: the tapes that hold at a point, and the resolution
+// there.
 #pragma once
 #include <glm/vec3.hpp>
 #include <memory>

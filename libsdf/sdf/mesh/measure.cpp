@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "sdf/eval/scalar_reading.h"
+#include "sdf/base/box.h"
 
 namespace sdf {
 namespace {
@@ -16,8 +16,10 @@ constexpr int kInside = 4;  // sample points inside a triangle
 // side.
 constexpr double kDoubtful = 0.5;
 constexpr double kSearchVoxels = 2.0;
-constexpr int kSearchSteps = 16;
-constexpr int kBisections = 20;
+constexpr std::size_t kSearchSteps = 16;
+// Where the sign changes is then looked for in so many pieces of the step, and of the piece.
+constexpr int kRefinements = 3;
+constexpr std::size_t kPieces = 32;
 
 // Where a triangle's samples exceed this share of a voxel and half of the largest one, the surface has an
 // edge or a corner under it, and the largest distance lies somewhere between them: kFine points are looked at
@@ -46,19 +48,28 @@ float slopeOf(const LocalTapes& tapes) {
 
 // Distance from p to where f changes sign along a unit direction, at most `reach` away to either side;
 // infinite where it does not. Any point of the surface bounds the distance from above.
-double distanceAlong(const Tape& tape, const glm::dvec3& p, const glm::dvec3& direction, double reach) {
-  const bool inside = evaluate(tape, p) < 0.0;
-  for (int i = 1; i <= kSearchSteps; ++i)
-    for (const double side : {reach, -reach}) {
-      double near = side * (i - 1) / kSearchSteps, far = side * i / kSearchSteps;
-      if ((evaluate(tape, p + far * direction) < 0.0) == inside) continue;
-      for (int k = 0; k < kBisections; ++k) {
-        const double middle = (near + far) / 2.0;
-        ((evaluate(tape, p + middle * direction) < 0.0) == inside ? near : far) = middle;
-      }
-      return std::abs(far);
-    }
-  return kInfinity;
+double distanceAlong(const PointRun& run, const glm::dvec3& p, bool inside, const glm::dvec3& direction,
+                     double reach) {
+  PointRows at;
+  float f[kBatchPoints];
+  // The first of so many ways along which the sign is another, or their number.
+  const auto firstAcross = [&](std::size_t count, const auto& way) {
+    for (std::size_t i = 0; i < count; ++i) at.set(i, glm::vec3(p + way(i) * direction));
+    run.batch.evaluate(*run.tapes.distance, at.rows(), count, f);
+    return static_cast<std::size_t>(
+        std::find_if(f, f + count, [&](float v) { return (v < 0.0f) != inside; }) - f);
+  };
+  const double step = reach / kSearchSteps;
+  const std::size_t found = firstAcross(
+      2 * kSearchSteps, [&](std::size_t i) { return (i / 2 + 1.0) * (i % 2 == 0 ? step : -step); });
+  if (found == 2 * kSearchSteps) return kInfinity;
+  double width = found % 2 == 0 ? step : -step, near = width * static_cast<double>(found / 2);
+  for (int k = 0; k < kRefinements; ++k) {
+    width /= kPieces;
+    near += width * static_cast<double>(
+                        firstAcross(kPieces - 1, [&](std::size_t i) { return near + width * (i + 1.0); }));
+  }
+  return std::abs(near + width);
 }
 
 // |distance| of point i of a run.
@@ -70,13 +81,15 @@ float distanceOf(const PointRun& run, const RunGradients& g, std::size_t i, cons
   const double length = glm::length(gradient);
   if (!(length > 0.0)) return first;
   const double found =
-      distanceAlong(*run.tapes.distance, glm::dvec3(p), gradient / length, kSearchVoxels * voxel);
+      distanceAlong(run, glm::dvec3(p), g.value[i] < 0.0f, gradient / length, kSearchVoxels * voxel);
   return std::min(first, static_cast<float>(found));
 }
 
-// Calls take(i, |distance|, voxel) for each of `count` points; points of one chunk in order, chunks in parallel.
+// Calls take(i, |distance|, voxel) for each of `count` points; points of one chunk in order, chunks in
+// parallel.
 template <class Point, class Take>
-void forEachDistance(std::size_t count, const Point& point, const LocalField& field, Progress& progress, const Take& take) {
+void forEachDistance(std::size_t count, const Point& point, const LocalField& field, Progress& progress,
+                     const Take& take) {
   forEachRun(count, point, field, progress, [&](const PointRun& run) {
     PointRows points;
     for (std::size_t i = 0; i < run.count; ++i) points.set(i, point(run.first + i));
@@ -109,8 +122,7 @@ double largestOver(const std::vector<std::uint32_t>& list, const std::vector<glm
 }  // namespace
 
 void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                     const LocalField& field, Progress& progress,
-                     MeshStats& stats) {
+                     const LocalField& field, Progress& progress, MeshStats& stats) {
   std::vector<float> atVertices(positions.size());
   forEachDistance(
       positions.size(), [&](std::size_t i) { return positions[i]; }, field, progress,

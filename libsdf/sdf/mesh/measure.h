@@ -11,8 +11,7 @@ namespace sdf {
 /// looked for along the gradient instead. Triangles with more than a tenth of a voxel, under
 /// which the surface has an edge, are looked at in 36 points for the maximum.
 void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                     const LocalField& field, Progress& progress,
-                     MeshStats& stats);
+                     const LocalField& field, Progress& progress, MeshStats& stats);
 
 /// Watertight, manifold, components (by shared vertices) and Euler characteristic of an indexed mesh. Cost: n
 /// log n.

@@ -415,7 +415,8 @@ const LocalTapes* NarrowBand::Finder::at(const glm::vec3& p) {
 std::unique_ptr<LocalField::Finder> BandField::finder() const {
   class InBand : public Finder {
    public:
-    InBand(const NarrowBand& band, const LocalTapes& whole) : leaves_(band), whole_(whole), h_(band.voxelSize()) {}
+    InBand(const NarrowBand& band, const LocalTapes& whole)
+        : leaves_(band), whole_(whole), h_(band.voxelSize()) {}
     Local at(const glm::vec3& p) override {
       const LocalTapes* tapes = leaves_.at(p);
       return {tapes ? *tapes : whole_, h_};

@@ -41,8 +41,8 @@ class NarrowBand {
   class Finder {
    public:
     explicit Finder(const NarrowBand& band) : band_(band) {}
-    /// Tapes of the leaf of 8³ voxels at or next to a point, which hold two voxels around it, too; nullptr far
-    /// from the surface.
+    /// Tapes of the leaf of 8³ voxels at or next to a point, which hold two voxels around it, too; nullptr
+    /// far from the surface.
     const LocalTapes* at(const glm::vec3& p);
 
    private:
@@ -77,8 +77,8 @@ class NarrowBand {
   std::unique_ptr<Grid> grid_;
 };
 
-/// A band's tapes, at one resolution; those of the whole model serve points far from every leaf. The band must
-/// outlive it; its samples may be gone.
+/// A band's tapes, at one resolution; those of the whole model serve points far from every leaf. The band
+/// must outlive it; its samples may be gone.
 class BandField : public LocalField {
  public:
   BandField(const NarrowBand& band, LocalTapes whole) : band_(band), whole_(std::move(whole)) {}

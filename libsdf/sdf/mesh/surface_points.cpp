@@ -17,7 +17,8 @@ constexpr float kVanishing = 1e-3f;
 
 }  // namespace
 
-void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const LocalField& field, Progress& progress,
+void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point,
+                const LocalField& field, Progress& progress,
                 const std::function<void(const PointRun&)>& work) {
   tbb::enumerable_thread_specific<BatchEvaluator> evaluators;
   const std::size_t chunks = (count + kRunChunk - 1) / kRunChunk;

@@ -25,7 +25,8 @@ inline constexpr std::size_t kRunChunk = 4096;
 /// Calls work(run) for all points, chunks of kRunChunk in parallel and each chunk in order. `point(i)` yields
 /// the i-th position; points that follow one another should lie near one another. Returns early once progress
 /// is stopped.
-void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point, const LocalField& field, Progress& progress,
+void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point,
+                const LocalField& field, Progress& progress,
                 const std::function<void(const PointRun&)>& work);
 
 /// First-order distances and gradients of one run: |f| / |grad f| is the distance to the zero set up to

@@ -71,8 +71,7 @@ void confirm(const PointRun& run, const NarrowBand::Suspect* suspects, float vox
 
 }  // namespace
 
-void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& progress,
-                    MeshStats& stats) {
+void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& progress, MeshStats& stats) {
   const std::vector<NarrowBand::Suspect> suspects = band.suspects();
   const float voxel = static_cast<float>(band.voxelSize());
   std::vector<char> confirmed(suspects.size(), 0);
