@@ -22,7 +22,8 @@ using Accessor = openvdb::FloatGrid::ConstUnsafeAccessor;  // nothing is added t
 
 constexpr int kSide = Leaf::DIM;
 constexpr int kVoxels = Leaf::SIZE;
-constexpr std::size_t kBlocksATask = 16;
+constexpr int kWide = kSide + 1;  // with the first samples above
+constexpr std::size_t kBlocksATask = 32;
 constexpr float kNotZero =
     std::numeric_limits<float>::min();  // leaves sums of samples that differ in sign alone
 
@@ -49,16 +50,26 @@ constexpr Place kMany = 1;     // it has several points
 constexpr Place kFlipped = 2;  // its patches are those of its signs' complement
 constexpr int kPlaceShift = 2;
 
+// A crossed edge as a number: that of the lowest of the cells around it, the edge's axis, and whether its
+// upper end is inside.
+using Crossing = std::uint16_t;
+constexpr int kAxisShift = 9, kUpperShift = 11;
+
+/// What one task finds.
+struct Piece {
+  std::vector<glm::vec3> points;
+  std::vector<Crossing> quads;
+};
+
 Plane planeOf(const float* samples) {
   static_assert(std::endian::native == std::endian::little);
   constexpr std::uint64_t kGather =
       0x0102040810204080ull;  // takes the lowest bit of each byte to the top one
+  std::array<std::array<std::uint8_t, kSide>, kSide> negative;
+  for (int i = 0; i < kSide * kSide; ++i) negative[i / kSide][i % kSide] = samples[i] < 0.0f;
   Plane bits = 0;
-  for (int y = 0; y < kSide; ++y) {
-    std::array<std::uint8_t, kSide> negative;
-    for (int z = 0; z < kSide; ++z) negative[z] = samples[y * kSide + z] < 0.0f;
-    bits |= (std::bit_cast<std::uint64_t>(negative) * kGather >> 56) << y * kSide;
-  }
+  for (int y = 0; y < kSide; ++y)
+    bits |= (std::bit_cast<std::uint64_t>(negative[y]) * kGather >> 56) << y * kSide;
   return bits;
 }
 
@@ -123,12 +134,16 @@ class Extraction {
     std::vector<Leaf*> leaves;
     tree.getNodes(leaves);
     addBlocks(leaves);
-    addBlocks(addMissingLeaves());
+    addBlocks(addMissingLeaves());  // which may be above those that there were
   }
 
   RawSurface run() {
-    places_ = std::make_unique_for_overwrite<Place[]>((blocks_.size() - kTiles) * kVoxels);
-    forEachBlock([&](Block& b) { count(b); });
+    const std::size_t own = blocks_.size() - kTiles;
+    places_ = std::make_unique_for_overwrite<Place[]>(own * kVoxels);
+    pieces_.resize((own + kBlocksATask - 1) / kBlocksATask);
+    forEachPiece([&](Piece& piece, std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) mesh(blocks_[i], piece);
+    });
     std::uint32_t points = 0, quads = 0;
     for (Block& b : blocks_) {
       points += std::exchange(b.points, points);
@@ -136,12 +151,24 @@ class Extraction {
     }
     surface_.points.resize(points);
     surface_.triangles.resize(2 * static_cast<std::size_t>(quads));
-    forEachBlock([&](const Block& b) { placePoints(b); });
-    forEachBlock([&](const Block& b) { placeQuads(b); });
+    forEachPiece([&](Piece& piece, std::size_t first, std::size_t) {
+      std::copy(piece.points.begin(), piece.points.end(), surface_.points.begin() + blocks_[first].points);
+      std::vector<glm::vec3>().swap(piece.points);
+    });
+    forEachPiece([&](Piece& piece, std::size_t first, std::size_t end) { placeQuads(piece, first, end); });
     return std::move(surface_);
   }
 
  private:
+  // Runs work(piece, its first block, the one after its last) over all pieces in parallel.
+  template <class Work>
+  void forEachPiece(const Work& work) {
+    tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t i) {
+      const std::size_t first = kTiles + i * kBlocksATask;
+      work(pieces_[i], first, std::min(first + kBlocksATask, blocks_.size()));
+    });
+  }
+
   template <class Work>
   void forEachBlock(const Work& work, std::size_t first = kTiles) {
     tbb::parallel_for(tbb::blocked_range(first, blocks_.size(), kBlocksATask), [&](const auto& range) {
@@ -173,7 +200,8 @@ class Extraction {
         first);
     forEachBlock([&](Block& b) {
       Accessor accessor(tree_);
-      for (int i = 0; i < 8; ++i) b.above[i] = blockAt(accessor, offset(b, i, kSide));
+      for (int i = 0; i < 8; ++i)
+        if (b.above[i] < kTiles) b.above[i] = blockAt(accessor, offset(b, i, kSide));
     });
   }
 
@@ -241,71 +269,60 @@ class Extraction {
   std::size_t indexOf(const Block& b) const { return static_cast<std::size_t>(&b - blocks_.data()); }
   Place* placesOf(std::size_t block) const { return places_.get() + (block - kTiles) * kVoxels; }
 
-  void count(Block& b) {
+  void mesh(Block& b, Piece& piece) {
+    float samples[kWide * kWide * kWide];
+    copySamples(b, samples);
+    glm::vec3 points[kMostPatches * kVoxels];
+    Crossing quads[3 * kVoxels];
     Place* places = placesOf(indexOf(b));
     Signs(blocks_, b).forEachCell([&](int cell, unsigned inside) {
-      const bool flip =
-          crossedTwiceFromBothSides(tree_, b.leaf->origin() + Leaf::offsetToLocalCoord(cell), inside);
-      const unsigned count = kCellPatches[flip ? inside ^ 0xffu : inside].count;
+      const Coord local = Leaf::offsetToLocalCoord(cell), at = b.leaf->origin() + local;
+      addQuads(b, cell, inside, quads);
+      const bool flip = crossedTwiceFromBothSides(tree_, at, inside);
+      if (flip) inside ^= 0xffu;
+      const unsigned count = kCellPatches[inside].count;
       places[cell] = static_cast<Place>(b.points << kPlaceShift | (flip ? kFlipped : 0) | (count > 1));
+      const float* lowest = samples + (local.x() * kWide + local.y()) * kWide + local.z();
+      placePoints(at, lowest, kPatchMeans[inside].data(), count, points + b.points);
       b.points += count;
-      forEachQuad(b, cell, inside, [&](int) { ++b.quads; });
     });
+    piece.points.insert(piece.points.end(), points, points + b.points);
+    piece.quads.insert(piece.quads.end(), quads, quads + b.quads);
   }
 
-  // Calls visit(axis) for each crossed edge that ends in a cell's highest corner: the cell is the lowest of
-  // the four around it. The others may be missing only where two tiles differ.
-  template <class Visit>
-  void forEachQuad(const Block& b, int cell, unsigned inside, const Visit& visit) const {
+  // Adds the crossed edges that end in a cell's highest corner: the cell is the lowest of the four around
+  // them. The others may be missing only where two tiles differ.
+  void addQuads(Block& b, int cell, unsigned inside, Crossing* quads) const {
+    const unsigned upper = inside >> 7 & 1u, leaves = leaving(cell);
     for (int axis = 0; axis < 3; ++axis) {
-      if (((inside >> 7 ^ inside >> (7u ^ cornerBit(axis))) & 1u) == 0) continue;
-      const unsigned u = cornerBit(axis + 1), v = cornerBit(axis + 2);
-      if (blockOf(b, cell, u) >= kTiles && blockOf(b, cell, v) >= kTiles && blockOf(b, cell, u | v) >= kTiles)
-        visit(axis);
+      if (upper == (inside >> (7u ^ cornerBit(axis)) & 1u)) continue;
+      const unsigned u = leaves & cornerBit(axis + 1), v = leaves & cornerBit(axis + 2);
+      if (b.above[u] >= kTiles && b.above[v] >= kTiles && b.above[u | v] >= kTiles)
+        quads[b.quads++] = static_cast<Crossing>(cell | axis << kAxisShift | upper << kUpperShift);
     }
   }
 
-  // The block in which the cell lies that is moved as a corner is from a cell of b, ...
-  static std::uint32_t blockOf(const Block& b, int cell, unsigned corner) {
-    return b.above[leaving(cell) & corner];
+  void placePoints(const Coord& cell, const float* lowest, const PatchMean* means, unsigned count,
+                   glm::vec3* points) const {
+    float corner[8], crossing[kCellEdges];
+    for (int c = 0; c < 8; ++c)
+      corner[c] = std::abs(lowest[((c >> 2) * kWide + (c >> 1 & 1)) * kWide + (c & 1)]);
+    for (int e = 0; e < kCellEdges; ++e) {
+      const float from = corner[lowerCorner(e)], to = corner[lowerCorner(e) | cornerBit(e / 4)];
+      crossing[e] = from / (from + to + kNotZero);
+    }
+    for (unsigned patch = 0; patch < count; ++patch)
+      for (int axis = 0; axis < 3; ++axis) {
+        float sum = means[patch].base[axis];
+        for (int e = 4 * axis; e < 4 * axis + 4; ++e) sum += means[patch].weight[e] * crossing[e];
+        points[patch][axis] = static_cast<float>((cell[axis] + static_cast<double>(sum)) * h_);
+      }
   }
-  // ... and its number there.
-  static int moved(int cell, unsigned corner) {
-    return cell + step(corner) - kSide * step(leaving(cell) & corner);
-  }
+
   static int step(unsigned corner) { return (corner >> 2) << 6 | (corner >> 1 & 1) << 3 | (corner & 1); }
   // The axes along which the next cell is in another block.
   static unsigned leaving(int cell) {
     return (cell >> 6 == 7 ? 4u : 0u) | ((cell >> 3 & 7) == 7 ? 2u : 0u) | ((cell & 7) == 7 ? 1u : 0u);
-  }
-
-  void placePoints(const Block& b) {
-    constexpr int kWide = kSide + 1;
-    float samples[kWide * kWide * kWide];
-    copySamples(b, samples);
-    const Place* places = placesOf(indexOf(b));
-    glm::vec3* point = surface_.points.data() + b.points;
-    Signs(blocks_, b).forEachCell([&](int cell, unsigned inside) {
-      const Coord local = Leaf::offsetToLocalCoord(cell), at = b.leaf->origin() + local;
-      const float* lowest = samples + (local.x() * kWide + local.y()) * kWide + local.z();
-      float corner[8], crossing[kCellEdges];
-      for (int c = 0; c < 8; ++c)
-        corner[c] = std::abs(lowest[((c >> 2) * kWide + (c >> 1 & 1)) * kWide + (c & 1)]);
-      for (int e = 0; e < kCellEdges; ++e) {
-        const float from = corner[lowerCorner(e)], to = corner[lowerCorner(e) | cornerBit(e / 4)];
-        crossing[e] = from / (from + to + kNotZero);
-      }
-      if (places[cell] & kFlipped) inside ^= 0xffu;
-      for (int patch = 0; patch < kCellPatches[inside].count; ++patch) {
-        const PatchMean& mean = kPatchMeans[inside][patch];
-        for (int axis = 0; axis < 3; ++axis) {
-          float sum = mean.base[axis];
-          for (int e = 4 * axis; e < 4 * axis + 4; ++e) sum += mean.weight[e] * crossing[e];
-          (*point)[axis] = static_cast<float>((at[axis] + static_cast<double>(sum)) * h_);
-        }
-        ++point;
-      }
-    });
   }
 
   // A block's samples and the first ones above it, 9 along each axis.
@@ -319,30 +336,32 @@ class Extraction {
       }
   }
 
-  void placeQuads(const Block& b) {
-    glm::uvec3* triangles = surface_.triangles.data() + 2 * static_cast<std::size_t>(b.quads);
-    Signs(blocks_, b).forEachCell([&](int cell, unsigned inside) {
-      forEachQuad(b, cell, inside, [&](int axis) {
-        const unsigned u = cornerBit(axis + 1), v = cornerBit(axis + 2);
-        // Counter-clockwise, seen against the axis.
-        std::uint32_t quad[4] = {
-            pointOf(b, cell, u | v, cellEdge(axis, 0, 0)), pointOf(b, cell, v, cellEdge(axis, 1, 0)),
-            pointOf(b, cell, 0, cellEdge(axis, 1, 1)), pointOf(b, cell, u, cellEdge(axis, 0, 1))};
-        if (inside >> 7 & 1u) std::swap(quad[1], quad[3]);
-        cut(quad, triangles);
-        triangles += 2;
-      });
-    });
+  void placeQuads(const Piece& piece, std::size_t first, std::size_t end) {
+    glm::uvec3* triangles = surface_.triangles.data() + 2 * static_cast<std::size_t>(blocks_[first].quads);
+    std::size_t block = first, before = blocks_[first].quads;
+    for (std::size_t i = 0; i < piece.quads.size(); ++i) {
+      while (block + 1 < end && blocks_[block + 1].quads <= before + i) ++block;
+      const Block& b = blocks_[block];
+      const int cell = piece.quads[i] & (kVoxels - 1), axis = piece.quads[i] >> kAxisShift & 3;
+      const unsigned u = cornerBit(axis + 1), v = cornerBit(axis + 2);
+      // Counter-clockwise, seen against the axis.
+      std::uint32_t quad[4] = {
+          pointOf(b, cell, u | v, cellEdge(axis, 0, 0)), pointOf(b, cell, v, cellEdge(axis, 1, 0)),
+          pointOf(b, cell, 0, cellEdge(axis, 1, 1)), pointOf(b, cell, u, cellEdge(axis, 0, 1))};
+      if (piece.quads[i] >> kUpperShift) std::swap(quad[1], quad[3]);
+      cut(quad, triangles + 2 * i);
+    }
   }
 
   // The point of the patch that crosses an edge of the cell that is moved as a corner is from a cell of b.
   std::uint32_t pointOf(const Block& b, int cell, unsigned corner, int edge) const {
-    const std::uint32_t index = blockOf(b, cell, corner);
-    const int at = moved(cell, corner);
-    const Place place = placesOf(index)[at];
-    std::uint32_t point = blocks_[index].points + (place >> kPlaceShift);
+    const unsigned leaves = leaving(cell) & corner;
+    const std::uint32_t block = b.above[leaves];
+    const int at = cell + step(corner) - kSide * step(leaves);
+    const Place place = placesOf(block)[at];
+    std::uint32_t point = blocks_[block].points + (place >> kPlaceShift);
     if (place & kMany) {
-      const unsigned inside = Signs(blocks_, blocks_[index]).of(at >> 6, at & 63);
+      const unsigned inside = Signs(blocks_, blocks_[block]).of(at >> 6, at & 63);
       point += kCellPatches[place & kFlipped ? inside ^ 0xffu : inside].of[edge];
     }
     return point;
@@ -367,6 +386,7 @@ class Extraction {
   double h_;
   std::vector<std::vector<float>> tiles_;
   std::vector<Block> blocks_;
+  std::vector<Piece> pieces_;
   std::unique_ptr<Place[]> places_;
   RawSurface surface_;
 };

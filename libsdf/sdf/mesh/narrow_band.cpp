@@ -25,6 +25,10 @@ constexpr int kLeaf = 8;    // voxels along a leaf
 constexpr int kBranch = 4;  // a cell has kBranch³ children: one pass of the batch reading
 constexpr int kChildren = kBranch * kBranch * kBranch;
 constexpr int kLeafVoxels = kLeaf * kLeaf * kLeaf;
+constexpr int kBlock = 4;  // voxels along an eighth of a leaf
+constexpr int kBlockVoxels = kBlock * kBlock * kBlock;
+constexpr int kBlocks = kLeafVoxels / kBlockVoxels;
+constexpr double kExact = 2.0;  // within so many voxels' slope of zero samples are looked at for their values
 constexpr int kMargin = 2;  // voxels around a cell over which its tape holds: a vertex may leave its leaf by
                             // one, and move by another as it is refined
 constexpr double kSqrt3 = 1.7320508075688772;
@@ -51,12 +55,18 @@ struct BandLeaf {
   LocalTapes tapes;
 };
 
+struct LinkedTape {
+  Places operands;
+  TapePtr tape;
+};
+
 struct Workspace {
   BatchEvaluator batch;
   ScalarReading<Interval> intervals;
   std::vector<Decision> decisions;
   std::vector<Decision> decisionsOfOne;
-  LocalTapes last;  // neighbouring leaves often share their tape
+  std::vector<LinkedTape> linked;  // of the present cell's children, which often share theirs
+  std::vector<LocalTapes> local;
 };
 
 // Independent minima, which the compiler turns into vector code. A NaN is passed over.
@@ -183,6 +193,8 @@ class BandSampler {
     if (count == 0) return;
     const Tape& tape = *cell.tape;
     const double margin = slack(centre(cell.origin, size_));
+    w.linked.clear();
+    w.local.clear();
     w.batch.evaluateBalls(tape, {.x = x, .y = y, .z = z}, count,
                           static_cast<float>(kSqrt3 * reach(size, kMargin)), static_cast<float>(margin),
                           value, w.decisions);
@@ -196,10 +208,10 @@ class BandSampler {
       const Places near = operandsNear(cell, origin[k], size);
       if (near->empty()) continue;
       if (near->size() < cell.operands->size()) {
-        TapePtr linked = model_.link(*near);
+        const TapePtr linked = linkedTape(near, w);
         // A leaf's tape is not looked at again: one that is long is better specialised.
         if (size > kLeaf || linked->instructions().size() <= kShortTape) {
-          visit(Cell{origin[k], std::move(linked), near, slope});
+          visit(Cell{origin[k], linked, near, slope});
           continue;
         }
       }
@@ -211,16 +223,33 @@ class BandSampler {
     }
   }
 
-  // Those of the cell's operands that can matter in a child where samples are looked at: within a voxel and a
-  // half's slope of zero, and a little more.
+  // Those of the cell's operands that can matter in a child where samples are looked at.
   Places operandsNear(const Cell& cell, const openvdb::Coord& origin, int size) const {
-    constexpr double kVoxels = 2.0;
     if (cell.operands->size() == 1 || model_.slope() == kInfinity) return cell.operands;
     const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
     std::vector<std::uint32_t> near =
-        model_.near({c - half, c + half}, kVoxels * h_ * model_.slope() + slack(c), *cell.operands);
+        model_.near({c - half, c + half}, kExact * h_ * model_.slope() + slack(c), *cell.operands);
     if (near.size() == cell.operands->size()) return cell.operands;
     return std::make_shared<const std::vector<std::uint32_t>>(std::move(near));
+  }
+
+  const TapePtr& linkedTape(const Places& operands, Workspace& w) const {
+    for (const LinkedTape& l : w.linked)
+      if (*l.operands == *operands) return l.tape;
+    return w.linked.emplace_back(operands, model_.link(*operands)).tape;
+  }
+
+  static const LocalTapes& localTapes(const TapePtr& tape, Workspace& w) {
+    for (const LocalTapes& l : w.local)
+      if (l.surface == tape) return l;
+    const auto isConstant = [](Operand o) { return o.isConstant(); };
+    TapePtr distance = tape;
+    if (!std::all_of(tape->outputs().begin() + 1, tape->outputs().end(), isConstant)) {
+      distance = tape->firstOutputOnly();
+      if (distance->instructions().size() == tape->instructions().size())
+        distance = tape;  // no need to keep both
+    }
+    return w.local.emplace_back(tape, std::move(distance));
   }
 
   // Can the zero set meet the cell (and a voxel around it)? First by the slope bound; then, where that is
@@ -280,7 +309,6 @@ class BandSampler {
       forSurvivingChildren(cells_[i], w, [&](const Cell& cell) {
         BandLeaf leaf = sampleLeaf(cell, w);
         if (leaf.leaf) leaves[i].push_back(std::move(leaf));
-        samples_ += kLeafVoxels;
       });
       cells_[i].tape.reset();
       samples_ += kChildren;
@@ -293,32 +321,67 @@ class BandSampler {
   // The samples of a leaf; empty where no edge of the lattice that starts or ends in it can cross the
   // surface.
   BandLeaf sampleLeaf(const Cell& cell, Workspace& w) {
-    const openvdb::Coord& origin = cell.origin;
-    float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels];
-    float along[3][kLeaf];
-    for (int k = 0; k < kLeaf; ++k)
-      for (int axis = 0; axis < 3; ++axis) along[axis][k] = static_cast<float>((origin[axis] + k) * h_);
-    for (int row = 0; row < kLeaf * kLeaf; ++row) {  // OpenVDB's order: z runs fastest
-      std::fill_n(x + row * kLeaf, kLeaf, along[0][row / kLeaf]);
-      std::fill_n(y + row * kLeaf, kLeaf, along[1][row % kLeaf]);
-      std::copy_n(along[2], kLeaf, z + row * kLeaf);
-    }
-    if (w.last.surface != cell.tape) {
-      TapePtr distance = cell.tape->firstOutputOnly();
-      if (distance->instructions().size() == cell.tape->instructions().size())
-        distance = cell.tape;  // no need to keep both
-      w.last = {cell.tape, std::move(distance)};
-    }
-    const Tape& distance = *w.last.distance;
+    const LocalTapes& tapes = localTapes(cell.tape, w);
+    const double slope = std::min<double>(tapes.distance->lipschitz(), cell.slope);
     float values[kLeafVoxels];
-    w.batch.evaluate(distance, {.x = x, .y = y, .z = z}, kLeafVoxels, values);
-    if (!allFinite(values)) makeFinite(origin, values);
+    if (!sampleBlocks(cell.origin, *tapes.distance, slope, values, w.batch)) return {};
+    if (!allFinite(values)) makeFinite(cell.origin, values);
     // An edge of the lattice that crosses the surface has both ends within a voxel's slope of zero.
-    const double slope = std::min<double>(distance.lipschitz(), cell.slope);
-    if (smallestMagnitude(values) > slope * h_ + slack(centre(origin, kLeaf))) return {};
-    auto leaf = std::make_unique<Leaf>(origin, 0.0f, true);
+    if (smallestMagnitude(values) > slope * h_ + slack(centre(cell.origin, kLeaf))) return {};
+    auto leaf = std::make_unique<Leaf>(cell.origin, 0.0f, true);
     std::copy_n(values, kLeafVoxels, leaf->buffer().data());
-    return {std::move(leaf), w.last};
+    return {std::move(leaf), tapes};
+  }
+
+  // Samples those blocks of a leaf that may hold values to be looked at. The others get their centre's value
+  // all over, which has their sign. False if there are none of the first.
+  bool sampleBlocks(const openvdb::Coord& origin, const Tape& distance, double slope, float* values,
+                    BatchEvaluator& batch) {
+    float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels], sampled[kLeafVoxels], middle[kBlocks];
+    openvdb::Coord start[kBlocks];
+    for (int b = 0; b < kBlocks; ++b) {
+      start[b] = origin.offsetBy((b >> 2) * kBlock, (b >> 1 & 1) * kBlock, (b & 1) * kBlock);
+      const glm::dvec3 c = centre(start[b], kBlock);
+      x[b] = static_cast<float>(c.x), y[b] = static_cast<float>(c.y), z[b] = static_cast<float>(c.z);
+    }
+    batch.evaluate(distance, {.x = x, .y = y, .z = z}, kBlocks, middle);
+    const double far = slope * (kSqrt3 * reach(kBlock, 0) + kExact * h_) + slack(centre(origin, kLeaf));
+    int count = 0;
+    for (int b = 0; b < kBlocks; ++b) {
+      if (std::abs(middle[b]) > far) continue;
+      placeBlock(start[b], x + count, y + count, z + count);
+      count += kBlockVoxels;
+    }
+    samples_ += static_cast<std::uint64_t>(kBlocks + count);
+    if (count == 0) return false;
+    batch.evaluate(distance, {.x = x, .y = y, .z = z}, count, sampled);
+    const float* next = sampled;
+    for (int b = 0; b < kBlocks; ++b) {
+      const openvdb::Coord at = start[b] - origin;
+      float* to = values + Leaf::coordToOffset(at);
+      const bool isFar = std::abs(middle[b]) > far;
+      for (int row = 0; row < kBlock * kBlock; ++row) {
+        float* out = to + row / kBlock * kLeaf * kLeaf + row % kBlock * kLeaf;
+        if (isFar)
+          std::fill_n(out, kBlock, middle[b]);
+        else
+          std::copy_n(next + row * kBlock, kBlock, out);
+      }
+      if (!isFar) next += kBlockVoxels;
+    }
+    return true;
+  }
+
+  // The places of a block's voxels, z running fastest.
+  void placeBlock(const openvdb::Coord& start, float* x, float* y, float* z) const {
+    float along[3][kBlock];
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < kBlock; ++k) along[axis][k] = static_cast<float>((start[axis] + k) * h_);
+    for (int row = 0; row < kBlock * kBlock; ++row) {
+      std::fill_n(x + row * kBlock, kBlock, along[0][row / kBlock]);
+      std::fill_n(y + row * kBlock, kBlock, along[1][row % kBlock]);
+      std::copy_n(along[2], kBlock, z + row * kBlock);
+    }
   }
 
   // The extraction takes no others. What is not a number counts as outside; the first one is the least in
@@ -352,7 +415,9 @@ class BandSampler {
       band.grid_->tapes.emplace(l.leaf->origin(), std::move(l.tapes));
       tree.addLeaf(l.leaf.release());
     }
-    openvdb::tools::signedFloodFillWithValues(tree, static_cast<float>(3 * h_), static_cast<float>(-3 * h_));
+    constexpr openvdb::Index kAboveLeaves = 1;  // these have no values to be filled
+    openvdb::tools::signedFloodFillWithValues(tree, static_cast<float>(3 * h_), static_cast<float>(-3 * h_),
+                                              true, 1, kAboveLeaves);
     band.settleZeros();
     return band;
   }
