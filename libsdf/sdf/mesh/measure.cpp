@@ -18,7 +18,7 @@ constexpr double kDoubtful = 0.5;
 constexpr double kSearchVoxels = 2.0;
 constexpr std::size_t kSearchSteps = 16;
 // Where the sign changes is then looked for in so many pieces of the step, and of the piece.
-constexpr int kRefinements = 3;
+constexpr int kRefinements = 4;
 constexpr std::size_t kPieces = 32;
 
 // Where a triangle's samples exceed this share of a voxel and half of the largest one, the surface has an
