@@ -12,8 +12,6 @@ namespace {
 using Leaf = openvdb::FloatTree::LeafNodeType;
 using openvdb::Coord;
 
-// Of a voxel's slope: a sample this near to zero may be the rounding of a film of no thickness.
-constexpr float kFilm = 1e-4f;
 // Of a voxel's slope: what the distance rises by, at least, on both sides of a film; more than on a curved
 // surface.
 constexpr float kSteep = 0.3f;
@@ -196,12 +194,9 @@ void NarrowBand::settleZeros() {
   };
   auto& tree = grid_->grid->tree();
   const auto changes = overLeaves<Change>(tree, [&](const Leaf& leaf, auto& accessor, auto& found) {
+    if (!leaf.transientData()) return;
     const float slope = static_cast<float>(grid_->slopeAt(leaf.origin()) * grid_->voxelSize);
     const float film = kFilm * slope;
-    const float* values = leaf.buffer().data();
-    char any = 0;
-    for (int i = 0; i < static_cast<int>(Leaf::SIZE); ++i) any |= std::abs(values[i]) <= film;
-    if (!any) return;
     const Samples samples(leaf, accessor);
     const auto near = [&](int x, int y, int z) { return std::abs(samples.at(x, y, z)) <= film; };
     forEach(near, [&](int x, int y, int z) {

@@ -22,7 +22,6 @@ using Accessor = openvdb::FloatGrid::ConstUnsafeAccessor;  // nothing is added t
 
 constexpr int kSide = Leaf::DIM;
 constexpr int kVoxels = Leaf::SIZE;
-constexpr int kWide = kSide + 1;  // with the first samples above
 constexpr std::size_t kBlocksATask = 32;
 constexpr float kNotZero =
     std::numeric_limits<float>::min();  // leaves sums of samples that differ in sign alone
@@ -31,10 +30,17 @@ constexpr float kNotZero =
 using Plane = std::uint64_t;
 constexpr Plane kFirstY = 0xffull, kFirstZ = 0x0101010101010101ull, kLastZ = kFirstZ << 7;
 
+// What a cell leaves behind for its neighbours: its first point's number in the block, and two flags.
+using Place = std::uint16_t;
+constexpr Place kMany = 1;     // it has several points
+constexpr Place kFlipped = 2;  // its patches are those of its signs' complement
+constexpr int kPlaceShift = 2;
+
 /// A leaf's cells: those whose lowest corner is a sample of it.
 struct Block {
   Leaf* leaf = nullptr;
   const float* samples = nullptr;
+  Place* places = nullptr;      // of its cells
   Plane inside[kSide] = {};     // which samples are negative
   std::uint32_t above[8] = {};  // the blocks at the offsets of a cell's corners; [0] is this one
   std::uint32_t points = 0;     // how many it has, then how many come before
@@ -43,12 +49,6 @@ struct Block {
 
 // Blocks that stand for all tiles outside and inside.
 constexpr std::uint32_t kOutsideTile = 0, kInsideTile = 1, kTiles = 2;
-
-// What a cell leaves behind for its neighbours: its first point's number in the block, and two flags.
-using Place = std::uint16_t;
-constexpr Place kMany = 1;     // it has several points
-constexpr Place kFlipped = 2;  // its patches are those of its signs' complement
-constexpr int kPlaceShift = 2;
 
 // A crossed edge as a number: that of the lowest of the cells around it, the edge's axis, and whether its
 // upper end is inside.
@@ -61,15 +61,15 @@ struct Piece {
   std::vector<Crossing> quads;
 };
 
+// Bits of four rows at once for each z, which the compiler turns into vector code.
 Plane planeOf(const float* samples) {
-  static_assert(std::endian::native == std::endian::little);
-  constexpr std::uint64_t kGather =
-      0x0102040810204080ull;  // takes the lowest bit of each byte to the top one
-  std::array<std::array<std::uint8_t, kSide>, kSide> negative;
-  for (int i = 0; i < kSide * kSide; ++i) negative[i / kSide][i % kSide] = samples[i] < 0.0f;
+  std::uint32_t rows[2][kSide] = {};
+  for (int half = 0; half < 2; ++half)
+    for (int y = 0; y < 4; ++y)
+      for (int z = 0; z < kSide; ++z)
+        rows[half][z] |= samples[(half * 4 + y) * kSide + z] < 0.0f ? 1u << kSide * y : 0u;
   Plane bits = 0;
-  for (int y = 0; y < kSide; ++y)
-    bits |= (std::bit_cast<std::uint64_t>(negative[y]) * kGather >> 56) << y * kSide;
+  for (int z = 0; z < kSide; ++z) bits |= (Plane{rows[1][z]} << 32 | rows[0][z]) << z;
   return bits;
 }
 
@@ -140,6 +140,7 @@ class Extraction {
   RawSurface run() {
     const std::size_t own = blocks_.size() - kTiles;
     places_ = std::make_unique_for_overwrite<Place[]>(own * kVoxels);
+    for (std::size_t i = 0; i < own; ++i) blocks_[kTiles + i].places = places_.get() + i * kVoxels;
     pieces_.resize((own + kBlocksATask - 1) / kBlocksATask);
     forEachPiece([&](Piece& piece, std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) mesh(blocks_[i], piece);
@@ -266,24 +267,17 @@ class Extraction {
     return need;
   }
 
-  std::size_t indexOf(const Block& b) const { return static_cast<std::size_t>(&b - blocks_.data()); }
-  Place* placesOf(std::size_t block) const { return places_.get() + (block - kTiles) * kVoxels; }
-
   void mesh(Block& b, Piece& piece) {
-    float samples[kWide * kWide * kWide];
-    copySamples(b, samples);
     glm::vec3 points[kMostPatches * kVoxels];
     Crossing quads[3 * kVoxels];
-    Place* places = placesOf(indexOf(b));
     Signs(blocks_, b).forEachCell([&](int cell, unsigned inside) {
-      const Coord local = Leaf::offsetToLocalCoord(cell), at = b.leaf->origin() + local;
+      const Coord at = b.leaf->origin() + Leaf::offsetToLocalCoord(cell);
       addQuads(b, cell, inside, quads);
       const bool flip = crossedTwiceFromBothSides(tree_, at, inside);
       if (flip) inside ^= 0xffu;
       const unsigned count = kCellPatches[inside].count;
-      places[cell] = static_cast<Place>(b.points << kPlaceShift | (flip ? kFlipped : 0) | (count > 1));
-      const float* lowest = samples + (local.x() * kWide + local.y()) * kWide + local.z();
-      placePoints(at, lowest, kPatchMeans[inside].data(), count, points + b.points);
+      b.places[cell] = static_cast<Place>(b.points << kPlaceShift | (flip ? kFlipped : 0) | (count > 1));
+      placePoints(b, cell, at, kPatchMeans[inside].data(), count, points + b.points);
       b.points += count;
     });
     piece.points.insert(piece.points.end(), points, points + b.points);
@@ -302,11 +296,17 @@ class Extraction {
     }
   }
 
-  void placePoints(const Coord& cell, const float* lowest, const PatchMean* means, unsigned count,
+  void placePoints(const Block& b, int cell, const Coord& at, const PatchMean* means, unsigned count,
                    glm::vec3* points) const {
     float corner[8], crossing[kCellEdges];
-    for (int c = 0; c < 8; ++c)
-      corner[c] = std::abs(lowest[((c >> 2) * kWide + (c >> 1 & 1)) * kWide + (c & 1)]);
+    if (leaving(cell) == 0) {
+      for (unsigned c = 0; c < 8; ++c) corner[c] = std::abs(b.samples[cell + step(c)]);
+    } else {
+      for (unsigned c = 0; c < 8; ++c) {
+        const auto [block, place] = moved(b, cell, c);
+        corner[c] = std::abs(block.samples[place]);
+      }
+    }
     for (int e = 0; e < kCellEdges; ++e) {
       const float from = corner[lowerCorner(e)], to = corner[lowerCorner(e) | cornerBit(e / 4)];
       crossing[e] = from / (from + to + kNotZero);
@@ -315,26 +315,24 @@ class Extraction {
       for (int axis = 0; axis < 3; ++axis) {
         float sum = means[patch].base[axis];
         for (int e = 4 * axis; e < 4 * axis + 4; ++e) sum += means[patch].weight[e] * crossing[e];
-        points[patch][axis] = static_cast<float>((cell[axis] + static_cast<double>(sum)) * h_);
+        points[patch][axis] = static_cast<float>((at[axis] + static_cast<double>(sum)) * h_);
       }
   }
 
+  // The block and the number of the cell (or sample) that is moved as a corner is from a cell of b.
+  std::pair<const Block&, int> moved(const Block& b, int cell, unsigned corner) const {
+    const unsigned leaves = leaving(cell) & corner;
+    if (leaves == 0) return {b, cell + step(corner)};
+    return {blocks_[b.above[leaves]], cell + step(corner) - kSide * step(leaves)};
+  }
   static int step(unsigned corner) { return (corner >> 2) << 6 | (corner >> 1 & 1) << 3 | (corner & 1); }
   // The axes along which the next cell is in another block.
   static unsigned leaving(int cell) {
     return (cell >> 6 == 7 ? 4u : 0u) | ((cell >> 3 & 7) == 7 ? 2u : 0u) | ((cell & 7) == 7 ? 1u : 0u);
   }
 
-  // A block's samples and the first ones above it, 9 along each axis.
-  void copySamples(const Block& b, float* out) const {
-    for (int x = 0; x <= kSide; ++x)
-      for (int y = 0; y <= kSide; ++y) {
-        const std::uint32_t* above = b.above + (x / kSide * 4 + y / kSide * 2);
-        const int row = (x % kSide) << 6 | (y % kSide) << 3;
-        out = std::copy_n(blocks_[above[0]].samples + row, kSide, out);
-        *out++ = blocks_[above[1]].samples[row];
-      }
-  }
+  // Where an edge lies in the four cells around it, in that order: cellEdge's u and v.
+  static constexpr int kEdgeOf[4] = {0, 2, 3, 1};
 
   void placeQuads(const Piece& piece, std::size_t first, std::size_t end) {
     glm::uvec3* triangles = surface_.triangles.data() + 2 * static_cast<std::size_t>(blocks_[first].quads);
@@ -345,9 +343,19 @@ class Extraction {
       const int cell = piece.quads[i] & (kVoxels - 1), axis = piece.quads[i] >> kAxisShift & 3;
       const unsigned u = cornerBit(axis + 1), v = cornerBit(axis + 2);
       // Counter-clockwise, seen against the axis.
-      std::uint32_t quad[4] = {
-          pointOf(b, cell, u | v, cellEdge(axis, 0, 0)), pointOf(b, cell, v, cellEdge(axis, 1, 0)),
-          pointOf(b, cell, 0, cellEdge(axis, 1, 1)), pointOf(b, cell, u, cellEdge(axis, 0, 1))};
+      const unsigned corner[4] = {u | v, v, 0, u};
+      std::uint32_t quad[4];
+      Place flags = 0;
+      if ((leaving(cell) & (u | v)) == 0)
+        for (int k = 0; k < 4; ++k) {
+          const Place place = b.places[cell + step(corner[k])];
+          flags |= place;
+          quad[k] = b.points + (place >> kPlaceShift);
+        }
+      else
+        flags = kMany;
+      if (flags & kMany)
+        for (int k = 0; k < 4; ++k) quad[k] = pointOf(b, cell, corner[k], 4 * axis + kEdgeOf[k]);
       if (piece.quads[i] >> kUpperShift) std::swap(quad[1], quad[3]);
       cut(quad, triangles + 2 * i);
     }
@@ -355,13 +363,11 @@ class Extraction {
 
   // The point of the patch that crosses an edge of the cell that is moved as a corner is from a cell of b.
   std::uint32_t pointOf(const Block& b, int cell, unsigned corner, int edge) const {
-    const unsigned leaves = leaving(cell) & corner;
-    const std::uint32_t block = b.above[leaves];
-    const int at = cell + step(corner) - kSide * step(leaves);
-    const Place place = placesOf(block)[at];
-    std::uint32_t point = blocks_[block].points + (place >> kPlaceShift);
+    const auto [block, at] = moved(b, cell, corner);
+    const Place place = block.places[at];
+    std::uint32_t point = block.points + (place >> kPlaceShift);
     if (place & kMany) {
-      const unsigned inside = Signs(blocks_, blocks_[block]).of(at >> 6, at & 63);
+      const unsigned inside = Signs(blocks_, block).of(at >> 6, at & 63);
       point += kCellPatches[place & kFlipped ? inside ^ 0xffu : inside].of[edge];
     }
     return point;

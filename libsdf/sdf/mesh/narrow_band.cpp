@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "sdf/eval/batch.h"
 #include "sdf/eval/promise.h"
@@ -69,12 +70,13 @@ struct Workspace {
   std::vector<LocalTapes> local;
 };
 
-// Independent minima, which the compiler turns into vector code. A NaN is passed over.
-float smallestMagnitude(const float* values) {
+// Independent minima, which the compiler turns into vector code. A NaN is passed over. `count` is a multiple
+// of 16.
+float smallestMagnitude(const float* values, int count) {
   constexpr int kLanes = 16;
   float least[kLanes];
   std::fill_n(least, kLanes, std::numeric_limits<float>::infinity());
-  for (int i = 0; i < kLeafVoxels; i += kLanes)
+  for (int i = 0; i < count; i += kLanes)
     for (int k = 0; k < kLanes; ++k) {
       const float v = std::abs(values[i + k]);
       least[k] = v < least[k] ? v : least[k];
@@ -82,10 +84,9 @@ float smallestMagnitude(const float* values) {
   return *std::min_element(least, least + kLanes);
 }
 
-bool allFinite(const float* values) {
+bool allFinite(const float* values, int count) {
   int infinite = 0;
-  for (int i = 0; i < kLeafVoxels; ++i)
-    infinite += !(std::abs(values[i]) <= std::numeric_limits<float>::max());
+  for (int i = 0; i < count; ++i) infinite += !(std::abs(values[i]) <= std::numeric_limits<float>::max());
   return infinite == 0;
 }
 
@@ -323,53 +324,70 @@ class BandSampler {
   BandLeaf sampleLeaf(const Cell& cell, Workspace& w) {
     const LocalTapes& tapes = localTapes(cell.tape, w);
     const double slope = std::min<double>(tapes.distance->lipschitz(), cell.slope);
-    float values[kLeafVoxels];
-    if (!sampleBlocks(cell.origin, *tapes.distance, slope, values, w.batch)) return {};
-    if (!allFinite(values)) makeFinite(cell.origin, values);
+    Blocks blocks;
+    float sampled[kLeafVoxels];
+    const int count = sampleBlocks(cell.origin, *tapes.distance, slope, blocks, sampled, w.batch);
     // An edge of the lattice that crosses the surface has both ends within a voxel's slope of zero.
-    if (smallestMagnitude(values) > slope * h_ + slack(centre(cell.origin, kLeaf))) return {};
+    const double near = slope * h_ + slack(centre(cell.origin, kLeaf));
+    const bool finite = allFinite(sampled, count);
+    const float smallest = smallestMagnitude(sampled, count);
+    if (finite && smallest > near) return {};
     auto leaf = std::make_unique<Leaf>(cell.origin, 0.0f, true);
-    std::copy_n(values, kLeafVoxels, leaf->buffer().data());
+    float* values = leaf->buffer().data();
+    fill(blocks, sampled, values);
+    if (!finite) {
+      makeFinite(cell.origin, values);
+      if (smallestMagnitude(values, kLeafVoxels) > near) return {};
+    }
+    const double film = kFilm * h_ * NarrowBand::Grid::slopeOf(*tapes.distance, model_.slope());
+    leaf->setTransientData(smallest <= film * (1.0 + kRoundingSlack));
     return {std::move(leaf), tapes};
   }
 
-  // Samples those blocks of a leaf that may hold values to be looked at. The others get their centre's value
-  // all over, which has their sign. False if there are none of the first.
-  bool sampleBlocks(const openvdb::Coord& origin, const Tape& distance, double slope, float* values,
-                    BatchEvaluator& batch) {
-    float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels], sampled[kLeafVoxels], middle[kBlocks];
-    openvdb::Coord start[kBlocks];
+  // The eighths of a leaf.
+  struct Blocks {
+    float middle[kBlocks];  // the value at their centres
+    bool far[kBlocks];      // no value in it is looked at for more than its sign
+  };
+
+  static openvdb::Coord blockStart(int block) {
+    return {(block >> 2) * kBlock, (block >> 1 & 1) * kBlock, (block & 1) * kBlock};
+  }
+
+  // Samples those blocks of a leaf that are not far, one after the other; the number of samples.
+  int sampleBlocks(const openvdb::Coord& origin, const Tape& distance, double slope, Blocks& blocks,
+                   float* sampled, BatchEvaluator& batch) {
+    float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels];
     for (int b = 0; b < kBlocks; ++b) {
-      start[b] = origin.offsetBy((b >> 2) * kBlock, (b >> 1 & 1) * kBlock, (b & 1) * kBlock);
-      const glm::dvec3 c = centre(start[b], kBlock);
+      const glm::dvec3 c = centre(origin + blockStart(b), kBlock);
       x[b] = static_cast<float>(c.x), y[b] = static_cast<float>(c.y), z[b] = static_cast<float>(c.z);
     }
-    batch.evaluate(distance, {.x = x, .y = y, .z = z}, kBlocks, middle);
+    batch.evaluate(distance, {.x = x, .y = y, .z = z}, kBlocks, blocks.middle);
     const double far = slope * (kSqrt3 * reach(kBlock, 0) + kExact * h_) + slack(centre(origin, kLeaf));
     int count = 0;
     for (int b = 0; b < kBlocks; ++b) {
-      if (std::abs(middle[b]) > far) continue;
-      placeBlock(start[b], x + count, y + count, z + count);
+      blocks.far[b] = std::abs(blocks.middle[b]) > far && std::isfinite(blocks.middle[b]);
+      if (blocks.far[b]) continue;
+      placeBlock(origin + blockStart(b), x + count, y + count, z + count);
       count += kBlockVoxels;
     }
     samples_ += static_cast<std::uint64_t>(kBlocks + count);
-    if (count == 0) return false;
-    batch.evaluate(distance, {.x = x, .y = y, .z = z}, count, sampled);
-    const float* next = sampled;
+    if (count > 0) batch.evaluate(distance, {.x = x, .y = y, .z = z}, count, sampled);
+    return count;
+  }
+
+  // Spreads a leaf's samples, and over far blocks their centre's value, which has their sign.
+  static void fill(const Blocks& blocks, const float* sampled, float* values) {
     for (int b = 0; b < kBlocks; ++b) {
-      const openvdb::Coord at = start[b] - origin;
-      float* to = values + Leaf::coordToOffset(at);
-      const bool isFar = std::abs(middle[b]) > far;
+      float* to = values + Leaf::coordToOffset(blockStart(b));
       for (int row = 0; row < kBlock * kBlock; ++row) {
         float* out = to + row / kBlock * kLeaf * kLeaf + row % kBlock * kLeaf;
-        if (isFar)
-          std::fill_n(out, kBlock, middle[b]);
+        if (blocks.far[b])
+          std::fill_n(out, kBlock, blocks.middle[b]);
         else
-          std::copy_n(next + row * kBlock, kBlock, out);
+          std::copy_n(std::exchange(sampled, sampled + kBlock), kBlock, out);
       }
-      if (!isFar) next += kBlockVoxels;
     }
-    return true;
   }
 
   // The places of a block's voxels, z running fastest.
