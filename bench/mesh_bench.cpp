@@ -87,10 +87,10 @@ void registerMeshing() {
 }
 
 void addMeshingFigures(const Medians& medians, std::vector<Figure>& figures) {
-  constexpr double kGrowth = 4.6, kManyBalls = 4.0;
+  constexpr double kGrowth = 4.6, kManyBalls = 1.6, kSparse = 60.0;
   for (int i = 0; i < kCompared; ++i)
     figures.push_back(
-        {"meshing " + shapeName(i) + ", N = 512: speed, dense baseline = 1", true, i == 4 ? 10.0 : 1.0,
+        {"meshing " + shapeName(i) + ", N = 512: speed, dense baseline = 1", true, i == 4 ? kSparse : 1.0,
          medians.seconds(denseName(i, kResolution)) / medians.seconds(sparseName(i, kResolution))});
   for (const int i : {0, 1, 4})
     for (const int n : {kResolution / 2, kResolution})

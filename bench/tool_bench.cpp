@@ -21,6 +21,10 @@ namespace {
 
 const char* const kMetals = "sdf2gltf metals.lua";
 
+// A union of so many balls in a script; together they have one area, and the smallest are two voxels wide.
+constexpr int kBalls[] = {2000, 20000};
+std::string ballsName(int count) { return "sdf2gltf " + std::to_string(count) + " balls"; }
+
 // A folder that goes with this object.
 class WorkFolder {
  public:
@@ -75,20 +79,27 @@ std::string sceneOf(int i) {
   return sample("bench/" + start);
 }
 
-}  // namespace
-
-void registerTool() {
-  benchmark::RegisterBenchmark(kMetals,
-                               [](benchmark::State& state) {
+void add(const std::string& name, const std::vector<std::string>& words) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [words](benchmark::State& state) {
                                  const WorkFolder folder;
+                                 std::vector<std::string> all = words;
+                                 all.insert(all.end(), {"-o", folder / "out.glb", "--quiet"});
                                  for (auto _ : state)
-                                   if (!run({sample("metals.lua"), "-o", folder / "metals.glb", "--quiet"}))
-                                     state.SkipWithError("the export failed");
+                                   if (!run(all)) state.SkipWithError("the export failed");
                                })
       ->UseRealTime()
       ->Unit(benchmark::kMillisecond)
       ->Repetitions(7)
       ->ReportAggregatesOnly();
+}
+
+}  // namespace
+
+void registerTool() {
+  add(kMetals, {sample("metals.lua")});
+  for (const int count : kBalls)
+    add(ballsName(count), {sample("bench/many_balls.lua"), "-D", "count=" + std::to_string(count)});
 }
 
 void addToolFigures(const Medians& medians, std::vector<Figure>& figures) {
@@ -97,6 +108,10 @@ void addToolFigures(const Medians& medians, std::vector<Figure>& figures) {
     figures.push_back({"peak memory of sdf2gltf, " + shapeName(i) + ", N = 512: MB", false, kMegabytes,
                        peakMegabytes(sceneOf(i))});
   figures.push_back({"sdf2gltf metals.lua: seconds", false, kSeconds, medians.seconds(kMetals)});
+  const double few = medians.seconds(ballsName(kBalls[0])), many = medians.seconds(ballsName(kBalls[1]));
+  std::printf("sdf2gltf of 2,000 balls: %.2f s; of 20,000: %.2f s\n", few, many);
+  figures.push_back(
+      {"sdf2gltf, 2,000 to 20,000 balls of one total area: times the cost", false, 4.0, many / few});
 }
 
 }  // namespace sdf::bench

@@ -340,7 +340,7 @@ class BandSampler {
       if (smallestMagnitude(values, kLeafVoxels) > near) return {};
     }
     const double film = kFilm * h_ * NarrowBand::Grid::slopeOf(*tapes.distance, model_.slope());
-    leaf->setTransientData(smallest <= film * (1.0 + kRoundingSlack));
+    leaf->setTransientData(smallest <= film + slack(centre(cell.origin, kLeaf)));
     return {std::move(leaf), tapes};
   }
 
