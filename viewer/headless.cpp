@@ -92,7 +92,7 @@ class Headless {
     const auto shaders = assemble(scene_, whole);
     if (!shaders) return shaders.error();
     return writeFile(*options_.glsl, [&](std::ostream& out) {
-      out << shaders->picture;
+      out << shaders->picture.text;
       return okStatus();
     });
   }

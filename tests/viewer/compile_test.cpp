@@ -47,9 +47,12 @@ TEST(Compiling, IsNotRepeatedWhenAParameterMoves) {
     const ShaderOptions options{.view = View::Normals};
     const auto before = assemble(loaded(name), options), after = assemble(*moved, options);
     ASSERT_TRUE(before && after) << name;
-    EXPECT_EQ(before->picture, after->picture) << name;
-    EXPECT_EQ(before->cones, after->cones) << name;
-    EXPECT_EQ(before->values.uniformValues({{"time", 3.25}}), after->values.uniformValues({})) << name;
+    EXPECT_EQ(before->picture.text, after->picture.text) << name;
+    ASSERT_EQ(before->hits.size(), after->hits.size()) << name;
+    for (std::size_t i = 0; i < before->hits.size(); ++i)
+      EXPECT_EQ(before->hits[i].cones, after->hits[i].cones) << name;
+    EXPECT_EQ(before->picture.values.uniformValues({{"time", 3.25}}), after->picture.values.uniformValues({}))
+        << name;
   }
 }
 
@@ -59,12 +62,13 @@ TEST(Compiling, NamesThePartBehindEachLine) {
   scene.add("a \\\nmean name", box(Vec3E(Expr(1.0), Expr(2.0), Expr(3.0))));
   const auto shaders = assemble(scene, {});
   ASSERT_TRUE(shaders.ok());
-  EXPECT_NE(shaders->picture.find(" - 1.0;  // part 'ball'\n"), std::string::npos) << shaders->picture;
-  EXPECT_NE(shaders->picture.find("  // part 'a ??mean name'\n"), std::string::npos);
+  EXPECT_NE(shaders->picture.text.find(" - 1.0;  // part 'ball'\n"), std::string::npos)
+      << shaders->picture.text;
+  EXPECT_NE(shaders->picture.text.find("  // part 'a ??mean name'\n"), std::string::npos);
   const auto context = Context::headless();
   ASSERT_TRUE(context.ok());
-  EXPECT_TRUE(Program::overScreen(shaders->picture).ok());
-  std::string broken = shaders->picture;
+  EXPECT_TRUE(Program::overScreen(shaders->picture.text).ok());
+  std::string broken = shaders->picture.text;
   const std::size_t line = broken.find(" - 1.0;  // part 'ball'");
   broken.replace(line, 6, " - no;");
   const auto rejected = Program::overScreen(broken);

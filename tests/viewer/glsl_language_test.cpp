@@ -40,10 +40,10 @@ std::set<std::string> shadersOf(const Scene& scene) {
               scene, {.view = static_cast<View>(view), .method = method, .countReadings = counts, .es = es});
           EXPECT_TRUE(made) << made.error().message;
           if (!made) continue;
-          all.insert(made->picture);
-          if (!made->cones.empty()) all.insert(made->cones);
-          all.insert(made->resolve);
-          for (const viewer::GroupShaders& group : made->groups) all.insert({group.cones, group.hits});
+          all.insert({made->picture.text, made->resolve});
+          if (made->background) all.insert(made->background->text);
+          for (const viewer::HitShaders& pass : made->hits) all.insert({pass.cones, pass.hits});
+          all.erase("");
         }
   return all;
 }

@@ -176,7 +176,7 @@ struct Both {
 
 Both drawn(const Scene& scene, GpuRenderOptions options) {
   const auto shaders = viewer::assemble(scene, options.shader);
-  EXPECT_TRUE(shaders && !shaders->groups.empty());
+  EXPECT_TRUE(shaders && !shaders->plan.groups.empty());
   Both both;
   both.grouped = renderOnGpu(scene, options);
   options.shader.grouped = false;
@@ -237,7 +237,7 @@ TEST(GroupedPicture, IsOneShadersOfManyPlanes) {
   Scene scene;
   for (int i = 0; i < 50; ++i)
     scene.add("", plane(Vec3E(Expr(0.1 * i), Expr(1.0), Expr(0.3)), -1.0 - 0.01 * i));
-  EXPECT_TRUE(viewer::assemble(scene, {})->groups.empty());
+  EXPECT_TRUE(viewer::assemble(scene, {})->plan.groups.empty());
   EXPECT_EQ(renderOnGpu(scene, {}).size(), 160u * 90u);
 }
 

@@ -16,8 +16,8 @@ GLint internalFormat(PixelFormat format) {
   switch (format) {
     case PixelFormat::Rgba8:
       return GL_RGBA8;
-    case PixelFormat::Rgba16f:
-      return GL_RGBA16F;
+    case PixelFormat::Rg32f:
+      return GL_RG32F;
     case PixelFormat::Rgba32f:
       break;
   }

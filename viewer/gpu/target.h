@@ -12,7 +12,7 @@ namespace sdf::viewer {
 
 /// Of one pixel: four channels. Rgba8 holds 0 to 1 in steps of 1/255 and clamps; the others hold what floats
 /// of 16 and of 32 bits do.
-enum class PixelFormat { Rgba8, Rgba16f, Rgba32f };
+enum class PixelFormat { Rgba8, Rg32f, Rgba32f };
 
 /// A framebuffer of one or more textures, its layers, which the outputs of a fragment shader fill by their
 /// locations. New ones hold anything.

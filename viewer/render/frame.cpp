@@ -53,6 +53,10 @@ Shot::Shot(const Frame& frame, int width, int height, const Extent& extent)
   ahead_ = aheadOf(forward_, eye, extent_.bounds);
 }
 
+double Shot::pixelRadius() const { return std::tan(0.5 * glm::radians(frame_.look.eye.fov)) / height_; }
+
+double Shot::footprint() const { return frame_.filter ? 2.0 * pixelRadius() / frame_.samples : 0.0; }
+
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
   const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
   const Eye& eye = frame_.look.eye;
@@ -63,9 +67,7 @@ void Shot::set(const Program& program, const std::vector<glm::vec4>& values) con
   program.set("forward", glm::vec3(forward_));
   real("ahead", ahead_);
   real("maxDistance", extent_.maxDistance);
-  const double pixelRadius = std::tan(0.5 * glm::radians(eye.fov)) / height_;
-  real("pixelRadius", pixelRadius);
-  real("footprint", frame_.filter ? 2.0 * pixelRadius / frame_.samples : 0.0);
+  real("pixelRadius", pixelRadius());
   real("epsilon", frame_.epsilon);
   real("threshold", extent_.loose ? 0.5 * frame_.threshold : frame_.threshold);
   program.set("maxSteps", frame_.maxSteps);

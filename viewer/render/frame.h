@@ -48,13 +48,17 @@ class Shot {
   int samples() const { return frame_.samples * frame_.samples; }
   /// A sample's share of its pixel.
   double weight() const { return 1.0 / samples(); }
-  /// Whose rays are drawn, from 0 on.
+  /// The width of a sample's cone at distance 1 over which patterns are averaged; 0 leaves them sharp.
+  double footprint() const;
+  /// Draws the rays of the i-th sample from now on.
   void chooseSample(int i) { sample_ = i; }
 
   /// Sets parts::kCamera's uniforms, and sdfValues.
   void set(const Program& program, const std::vector<glm::vec4>& values) const;
 
  private:
+  double pixelRadius() const;  // of a pixel's cone at distance 1
+
   const Frame& frame_;
   int width_, height_, sample_ = 0;
   Extent extent_;

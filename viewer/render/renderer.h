@@ -5,7 +5,7 @@
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
 #include "viewer/render/frame.h"
-#include "viewer/render/groups.h"
+#include "viewer/render/primary_hits.h"
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::viewer {
@@ -16,7 +16,7 @@ struct Readings {
   double shadow = 0.0, occlusion = 0.0, reflection = 0.0;
 };
 
-/// Those of a picture that a Renderer drew whose primary rays ran out of steps.
+/// The number of pixels, of a picture that a Renderer drew, whose rays ran out of steps.
 std::size_t pixelsOutOfSteps(const Picture& picture);
 
 class Renderer {
@@ -38,23 +38,19 @@ class Renderer {
  private:
   Renderer(const Scene& scene, SceneShaders shaders);
   Status compile();
-  void setLook(const Program& program, const Frame& frame) const;
-  Status drawCones(const Shot& shot);
-  void drawScene(const Frame& frame, const Shot& shot) const;
-  void drawBackground(const Frame& frame, const Shot& shot) const;
+  void setLook(const Program& program, const Frame& frame, const Shot& shot) const;
+  void drawPicture(const Frame& frame, const Shot& shot) const;
+  void drawBackground(const Shot& shot) const;
   Status drawSample(const Frame& frame, const Shot& shot, const Target& target);
   Status drawSamples(const Frame& frame, Shot& shot, const Target& target);
-  Result<double> coneReadings() const;
 
   SceneShaders shaders_;
-  std::optional<Program> scene_, background_;  // all of the picture; or those of its tiles that show more
-  std::optional<Program> cones_;
-  std::optional<Groups> groups_;  // instead of them
+  std::optional<PrimaryHits> hits_;
+  std::optional<Program> picture_, background_;  // the latter of tiles that show nothing else
   std::optional<Program> resolve_;
-  std::optional<Target> coarse_, fine_;  // starts of the cones' levels
-  std::optional<Target> sums_;           // of several samples
-  int samples_ = 1;                      // of the frame drawn last
-  std::vector<glm::vec4> values_;        // of the frame that is being drawn, for the shaders' sdfValues
+  std::optional<Target> sums_;                        // of several samples
+  int samples_ = 1;                                   // of the frame drawn last
+  std::vector<glm::vec4> values_, backgroundValues_;  // of sdfValues, in the frame that is being drawn
   Extent extent_;
   Shadow shadow_;
   double tapSpacing_;

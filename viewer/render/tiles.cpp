@@ -1,6 +1,11 @@
 #include "viewer/render/tiles.h"
 
 namespace sdf::viewer {
+namespace {
+
+constexpr int kStartsUnit = 7;  // beyond those of what the programs themselves read
+
+}  // namespace
 
 Status ensure(std::optional<Target>& target, int width, int height, const std::vector<PixelFormat>& layers,
               bool depth) {
@@ -12,8 +17,8 @@ Status ensure(std::optional<Target>& target, int width, int height, const std::v
 }
 
 void drawTiles(const Program& program, const Shot& shot, const Cells& cells) {
-  cells.starts.bindTexture(1);
-  program.set("tiles", 1);
+  cells.starts.bindTexture(kStartsUnit);
+  program.set("tiles", kStartsUnit);
   program.set("tileLimit", static_cast<float>(shot.maxDistance()));
   program.set("firstCell", cells.first);
   program.set("lastCell", cells.last);

@@ -23,7 +23,7 @@ struct Cells {
 };
 
 /// Draws the tiles of side kTile whose starts, in one of these cells, say that there is something to see. The
-/// program is one that Program::overTiles made; it finds the starts in texture unit 1.
+/// program is one that Program::overTiles made; texture unit 7 is taken for the starts.
 void drawTiles(const Program& program, const Shot& shot, const Cells& cells);
 
 }  // namespace sdf::viewer

@@ -10,9 +10,7 @@
 namespace sdf::viewer {
 namespace {
 
-// A parameter that the writer knows to be GLSL's.
-Expr pixelTerm(const std::string& term, GlslWriter& writer) {
-  writer.substitute(hidden(term), term);
+Expr pixelTerm(const std::string& term) {
   return Expr::parameter({hidden(term), 0.0, -kInfinity, kInfinity});
 }
 
@@ -22,11 +20,6 @@ Expr sum(const Expr& a, const Expr& b) { return a.isConstant(0.0) ? b : b.isCons
 
 class Filter {
  public:
-  explicit Filter(GlslWriter& writer)
-      : way_(pixelTerm("pixelWay.x", writer), pixelTerm("pixelWay.y", writer),
-             pixelTerm("pixelWay.z", writer)),
-        size_(pixelTerm("pixelSize", writer)) {}
-
   Filtered run(std::span<const Expr> outputs) {
     Filtered result;
     for (const Expr& e : topologicalOrder(outputs)) {
@@ -75,13 +68,13 @@ class Filter {
     return select(lessEqual(w, 1.0), near, (integral(u + 0.5 * w) - integral(u - 0.5 * w)) * once);
   }
 
-  Vec3E way_;  // d / (d.n)
-  Expr size_;
+  const Vec3E way_{pixelTerm("pixelWay.x"), pixelTerm("pixelWay.y"), pixelTerm("pixelWay.z")};  // d / (d.n)
+  const Expr size_ = pixelTerm("pixelSize");
   std::unordered_map<Expr, Expr> made_;
 };
 
 }  // namespace
 
-Filtered filtered(std::span<const Expr> outputs, GlslWriter& writer) { return Filter(writer).run(outputs); }
+Filtered filtered(std::span<const Expr> outputs) { return Filter().run(outputs); }
 
 }  // namespace sdf::viewer

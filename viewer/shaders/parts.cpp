@@ -1,4 +1,4 @@
-#include "parts.h"
+#include "viewer/shaders/parts.h"
 
 namespace sdf::viewer::parts {
 
@@ -20,7 +20,8 @@ uniform float weight;         // its share of the pixel: less than 1 if linear c
 struct Ray {
   vec3 origin, direction;
   float before;               // distance from the eye to t = 0
-  float end;                  // t beyond which it meets only planes
+  float start, end;           // t between which alone it may meet more than planes
+  float reach;                // t up to which it is followed
 };
 
 const int MISS = 0, HIT = 1, BUDGET = 2;  // what becomes of a ray
@@ -29,7 +30,7 @@ Ray rayThrough(vec2 pixel) {
   vec2 uv = (pixel - 0.5 * size) / size.y;
   vec3 across = uv.x * right + uv.y * up, way = across + forward;
   float far = length(way);
-  return Ray(from + ahead * across, way / far, ahead * far, 1e30);
+  return Ray(from + ahead * across, way / far, ahead * far, 0.0, 1e30, maxDistance - ahead * far);
 }
 
 // How near a surface counts as hit at t.
@@ -96,11 +97,22 @@ const char* const kNoPlanesLight = R"(
 float leastOfPlanes(vec3 p, vec3 l, float reach) { return 1.0; }
 )";
 
+const char* const kHit = R"(
+// What a ray meets. Marching and the layers that hit passes write both fill it.
+struct Hit {
+  int status;     // MISS, HIT or BUDGET
+  float t;
+  vec3 normal;
+  float operand;  // number of the union's operand that is met
+  int readings;   // of the distance, by the march
+};
+)";
+
 const char* const kMarch = R"(
-float march(Ray ray, float t, float tMax, out int status, out int readings) {
-  float r = 0.0, z = 0.0, slope = -1.0, plane = planesFrom(ray);
-  bool ends = plane < tMax;  // in a plane
-  tMax = min(plane, tMax);
+float march(Ray ray, out int status, out int readings) {
+  float r = 0.0, z = 0.0, slope = -1.0, t = ray.start, plane = planesFrom(ray);
+  bool ends = plane < ray.reach;  // in a plane
+  float tMax = min(plane, ray.reach);
   status = BUDGET;
   readings = 0;
   if (t >= tMax) {  // the cone pass saw nothing
@@ -128,13 +140,20 @@ float march(Ray ray, float t, float tMax, out int status, out int readings) {
       status = ends ? HIT : MISS;
       return tMax;
     }
-#ifdef METHOD_PLAIN
-    z = r;
-#else
-    z = min(max(2.0 * r / (1.0 - slope), r), tMax - t);
-#endif
+    z = STEP;
   }
   return t;
+}
+)";
+
+const char* const kMeet = R"(
+Hit meet(Ray ray) {
+  Hit hit;
+  hit.t = march(ray, hit.status, hit.readings);
+  vec3 p = ray.origin + hit.t * ray.direction;
+  hit.normal = normalAt(p, ray.direction);
+  hit.operand = OPERAND;
+  return hit;
 }
 )";
 
@@ -256,6 +275,10 @@ float occlusion(vec3 p, vec3 n) {
 }
 )";
 
+const char* const kOcclusionSteps = R"(
+uniform float tapStrength;
+)";
+
 const char* const kLightSettings = R"(
 uniform vec4 lightVector[LIGHTS];  // xyz: towards the light, of length 1, if w is 0; its position if w is 1
 uniform vec4 lightColor[LIGHTS];   // times its intensity; w: 1 if it casts shadows
@@ -280,32 +303,14 @@ vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
 }
 )";
 
-// Within a quarter of how far off a ray may be when it hits.
-const char* const kFavoured = R"(
-float favoured(Ray ray, float t, float number) {
-  return t - 0.25 * hitDistance(ray, t) * (number + 1.0) / OPERANDS;
-}
-)";
+const char* const kHitFromLayers = R"(
+uniform sampler2D hitSurface, hitIdentity;
 
-const char* const kTakenHits = R"(
-uniform sampler2D hits;
-bool onPlane = false;
-
-// The first of what the groups' passes and the planes say of this pixel's ray. Sets `winner`, too.
-float takenHit(Ray ray, float tMax, out int status, out int readings) {
-  vec4 hit = texelFetch(hits, ivec2(gl_FragCoord.xy), 0);
-  float t = min(hit.w < 0.0 ? -1.0 - hit.w : hit.w, tMax), plane = planesFrom(ray);
-  vec3 p = ray.origin + plane * ray.direction;
-  float number = floor(length(hit.xyz) - 0.5), planes = PLANE_WINNER;
-  onPlane = plane < tMax && favoured(ray, plane, planes) < favoured(ray, t, number);
-  winner = onPlane ? planes : number;
-  readings = 0;
-  status = onPlane ? HIT : hit.w < 0.0 ? BUDGET : t < tMax ? HIT : MISS;
-  return onPlane ? plane : t;
-}
-
-vec3 takenNormal(vec3 p) {
-  return onPlane ? PLANE_NORMAL : normalize(texelFetch(hits, ivec2(gl_FragCoord.xy), 0).xyz);
+Hit primaryHit() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 surface = texelFetch(hitSurface, pixel, 0);
+  vec2 identity = texelFetch(hitIdentity, pixel, 0).xy;
+  return Hit(int(identity.y), surface.w, surface.xyz, identity.x, 0);
 }
 )";
 
@@ -314,24 +319,24 @@ uniform vec3 ambient;
 uniform vec3 fogColor;
 uniform float fogDensity;
 
-vec3 radiance(Ray ray, float t, out bool budget) {
+vec3 colorOf(Ray ray, out bool spent) {
   vec3 total = vec3(0.0), through = vec3(1.0);
-  float tMax = maxDistance - ray.before;
-  budget = false;
+  spent = false;
   for (int bounce = 0; bounce <= BOUNCES; ++bounce) {
-    int status, readings;
-    t = FIRST(takenHit(ray, tMax, status, readings), march(ray, t, tMax, status, readings));
+    Hit hit;
+    FIND_HIT
     COUNT_MARCH
-    if (status == MISS) {
+    if (hit.status == MISS) {
       total += through * sdfBackground(ray.direction, vec3(0.0));
       break;
     }
-    if (status == BUDGET) budget = true;
-    vec3 p = ray.origin + t * ray.direction, d = ray.direction;
-    vec3 n = FIRST(takenNormal(p), normalAt(p, d));
+    if (hit.status == BUDGET) spent = true;
+    float t = hit.t;
+    vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = hit.normal;
     float s[ATTRIBUTES];
     FOOTPRINT
-    SURFACE
+    TAKE_OPERAND
+    sdfSurface(p, n, s);
     vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;
@@ -347,9 +352,7 @@ vec3 radiance(Ray ray, float t, out bool budget) {
     through *= clear * mirror;
     if (max(through.r, max(through.g, through.b)) < 1.0 / 1024.0) break;
     float off = 2.0 * hitDistance(ray, t);
-    ray = Ray(p + off * n, reflect(d, n), ray.before + t, 1e30);
-    t = 0.0;
-    tMax = maxDistance;
+    ray = Ray(p + off * n, reflect(d, n), ray.before + t, 0.0, 1e30, maxDistance);
   }
   return total;
 }
@@ -363,15 +366,14 @@ vec3 encode(vec3 c) {
 )";
 
 const char* const kPicture = R"(
-layout(location = 0) out vec4 color;  // alpha is 0 where a primary ray ran out of steps
+layout(location = 0) out vec4 color;  // alpha is 0 where a ray ran out of steps
 
 void main() {
   sdfTakeValues();
-  vec2 span = SPAN;
   Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
-  ray.end = span.y;
-  bool spent = false;
-  vec3 c = colorOf(ray, span.x, spent);
+  START_RAY
+  bool spent;
+  vec3 c = colorOf(ray, spent);
   color = vec4(weight < 1.0 ? weight * c : ENCODE(c), spent ? 0.0 : weight);
   STORE_COUNTS
 }
@@ -388,15 +390,11 @@ void main() {
 }
 )";
 
-const char* const kColor = R"(
-#ifdef BACKGROUND_ONLY
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  budget = false;
+const char* const kBackground = R"(
+vec3 colorOf(Ray ray, out bool spent) {
+  spent = false;
   return sdfBackground(ray.direction, vec3(0.0));
 }
-#else
-vec3 colorOf(Ray ray, float t, out bool budget) { return radiance(ray, t, budget); }
-#endif
 )";
 
 // Two rays through one tile are no farther apart at equal t than their pixels' distance times
@@ -438,26 +436,58 @@ void main() {
 }
 )";
 
-const char* const kHits = R"(
+const char* const kStarts = R"(
 uniform sampler2D starts;
-uniform vec2 corner;                // of this group's starts, in their texture
-uniform float tile;                 // that has one start, pixels
-// The normal, longer by the winner's number than 1; and t, or -1 - t where steps ran out.
-layout(location = 0) out vec4 hit;
+uniform vec2 corner;  // of this pass's starts, in their texture
+uniform float tile;   // that has one start, pixels
+
+void startRay(inout Ray ray) {
+  vec2 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0).rb;
+  ray.start = span.x;
+  ray.end = span.y;
+}
+)";
+
+const char* const kHitCounts = R"(
+layout(location = 2) out vec4 counts;
+)";
+
+const char* const kPictureCounts = R"(
+layout(location = 1) out vec4 counts;
+vec4 counted = vec4(0.0);
+)";
+
+const char* const kHits = R"(
+layout(location = 0) out vec4 hitSurface;   // the normal, and t
+layout(location = 1) out vec2 hitIdentity;  // the operand, and the status
+
+// Of two operands that are hit at once the later shows: t less a hair that grows with the operand's number, within a
+// quarter of how far off a ray may be when it hits.
+float favoured(Ray ray, Hit hit) { return hit.t - 0.25 * hitDistance(ray, hit.t) * (hit.operand + 1.0) / OPERANDS; }
 
 void main() {
   sdfTakeValues();
   Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
-  int status, readings;
-  vec2 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0).rb;
-  ray.end = span.y;
-  float t = march(ray, span.x, maxDistance - ray.before, status, readings);
-  vec3 p = ray.origin + t * ray.direction;
-  float number = WINNER;
-  hit = vec4((1.0 + number) * normalAt(p, ray.direction), status == BUDGET ? -1.0 - t : t);
-  gl_FragDepth = status == MISS ? 1.0 : favoured(ray, t, number) / maxDistance;
+  START_RAY
+  Hit hit = meet(ray);
+  hitSurface = vec4(hit.normal, hit.t);
+  hitIdentity = vec2(hit.operand, float(hit.status));
+  gl_FragDepth = hit.status == MISS ? 1.0 : favoured(ray, hit) / maxDistance;
   STORE_COUNTS
 }
 )";
+
+std::span<const char* const> all() {
+  // clang-format off
+  static const char* const kAll[] = {
+      kCamera, kHit, kField, kRest, kPlanes, kNoPlanes, kMarch, kGradient, kGradientByTaps, kNormal, kMeet,
+      kStarts, kHitCounts, kPictureCounts, kCones, kHits, kHitFromLayers, kFootprint, kShadowSpan,
+      kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kHardShadow, kSoftShadow,
+      kImprovedShadow, kSignedShadow, kOcclusionTaps, kOcclusionSteps, kLightSettings, kLights, kRadiance,
+      kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
+      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kPicture, kResolve};
+  // clang-format on
+  return kAll;
+}
 
 }  // namespace sdf::viewer::parts

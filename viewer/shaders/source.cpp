@@ -1,12 +1,56 @@
 #include "viewer/shaders/source.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cctype>
 #include <cstdio>
-#include <glm/geometric.hpp>
 
-#include "sdf/expr/gradient.h"
 #include "viewer/shaders/parts.h"
 
 namespace sdf::viewer {
+namespace {
+
+std::string nameOf(const std::string& macro) { return macro.substr(0, macro.find('(')); }
+
+bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+bool isCapitals(std::string_view word) {
+  return word.size() > 1 && std::isupper(static_cast<unsigned char>(word.front())) != 0 &&
+         std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) != 0; });
+}
+
+std::string withoutComments(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t comment = std::min(text.find("//"), text.size());
+    result += text.substr(0, comment);
+    text.remove_prefix(std::min(text.find('\n', comment), text.size()));
+  }
+  return result;
+}
+
+/// The words of a text in order, operators and blanks left out.
+std::vector<std::string_view> wordsOf(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (end < text.size() && isWord(text[end])) ++end;
+    if (end > i) words.push_back(text.substr(i, end - i));
+    i = std::max(end, i + 1);
+  }
+  return words;
+}
+
+/// The constants that the text declares: the capitals between a `const` and the end of its statement.
+std::set<std::string> constantsOf(const std::string& text) {
+  std::set<std::string> result;
+  for (std::size_t i = text.find("const "); i < text.size(); i = text.find("const ", i + 1))
+    for (const auto word : wordsOf(std::string_view(text).substr(i, text.find(';', i) - i)))
+      if (isCapitals(word)) result.emplace(word);
+  return result;
+}
+
+}  // namespace
 
 std::string header(bool es) {
   return es ? "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
@@ -23,27 +67,79 @@ std::string vector(const glm::dvec3& v) {
   return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
 }
 
-std::string define(const std::string& name, const std::string& value) {
-  return "#define " + name + " " + value + "\n";
+std::set<std::string> usedMacros(std::string_view source) {
+  const std::string text = withoutComments(source);
+  const std::set<std::string> constants = constantsOf(text);
+  std::set<std::string> result;
+  for (const auto word : wordsOf(text))
+    if (isCapitals(word) && !constants.contains(std::string(word))) result.emplace(word);
+  return result;
 }
 
-std::string farEnd(const Box& bounds) {
-  const std::string head = "float farEnd(Ray ray, float spread, float widening) {\n";
-  constexpr double kBeyondFloats = 1e15;  // whose squares would be
-  if (!bounds.finite() || bounds.longestSide() > kBeyondFloats) return head + "  return maxDistance;\n}\n";
-  return head + "  float along = dot(" + vector(bounds.centre()) +
-         " - ray.origin, ray.direction);\n  float reach = along + " +
-         number(0.5 * glm::length(bounds.size())) + " + spread * ahead;\n" +
-         "  return widening < 0.5 ? clamp(reach / (1.0 - widening), 0.0, maxDistance) : maxDistance;\n}\n";
+std::vector<std::string> deadMacros(const Macros& macros) {
+  std::set<std::string> used;
+  for (const char* const part : parts::all()) used.merge(usedMacros(part));
+  for (const auto& [macro, value] : macros) used.merge(usedMacros(value));
+  std::vector<std::string> dead;
+  for (const auto& [macro, value] : macros)
+    if (!used.contains(nameOf(macro))) dead.push_back(nameOf(macro));
+  return dead;
 }
 
-std::string normals(GlslWriter& writer, const Expr& distance) {
-  const Vec3E g = gradientOf(distance);
-  const Expr all[] = {g.x, g.y, g.z};
-  if (topologicalOrder(all).size() > kLongProgram)
-    return std::string(parts::kGradientByTaps) + parts::kNormal;
-  writer.add("sdfGradient", all);
-  return std::string(parts::kGradient) + parts::kNormal;
+std::vector<std::string> macroFaults(std::string_view shader) {
+  const std::string text = withoutComments(shader);
+  std::string rest;  // without the names that are being defined
+  std::set<std::string> defined;
+  for (std::size_t i = 0; i < text.size();) {
+    constexpr std::string_view kDefine = "#define ";
+    const std::size_t end = std::min(text.find('\n', i), text.size() - 1) + 1;
+    if (text.compare(i, kDefine.size(), kDefine) == 0) {
+      i += kDefine.size();
+      const std::size_t start = i;
+      while (isWord(text[i])) ++i;
+      defined.insert(text.substr(start, i - start));
+    }
+    rest += text.substr(i, end - i);
+    i = end;
+  }
+  const std::set<std::string> used = usedMacros(rest);
+  std::vector<std::string> faults;
+  for (const std::string& name : used)
+    if (!defined.contains(name)) faults.push_back(name + " is used but not defined");
+  for (const std::string& name : defined)
+    if (!used.contains(name)) faults.push_back(name + " is defined but not used");
+  return faults;
+}
+
+Composer::Composer(bool es, Macros macros, Functions functions, GlslWriter writer, std::string globals)
+    : start_(header(es) + globals),
+      macros_(std::move(macros)),
+      functions_(std::move(functions)),
+      writer_(std::move(writer)) {
+  assert(deadMacros(macros_).empty());
+}
+
+std::string Composer::compose(const std::string& body) {
+  std::string definitions, open = body, all = body;
+  std::set<std::string> defined;
+  while (!open.empty()) {
+    const std::set<std::string> used = usedMacros(open);
+    open.clear();
+    for (const auto& [macro, value] : macros_)
+      if (used.contains(nameOf(macro)) && defined.insert(macro).second) {
+        definitions += "#define " + macro + " " + value + "\n";
+        open += value + "\n";
+      }
+    all += open;
+  }
+  const std::string code = withoutComments(all);
+  for (const auto word : wordsOf(code))
+    if (const auto function = functions_.find(std::string(word));
+        function != functions_.end() && written_.insert(function->first).second)
+      writer_.add(function->first, function->second());
+  std::string shader = start_ + definitions + writer_.source() + body;
+  assert(macroFaults(shader).empty());
+  return shader;
 }
 
 }  // namespace sdf::viewer

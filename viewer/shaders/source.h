@@ -1,37 +1,66 @@
-// What every shader's source is put together from. Private to viewer/shaders.
+// Shader sources: literals, and the composition of fixed parts with the macros and functions that they use.
+// Private to viewer/shaders.
 #pragma once
+#include <functional>
 #include <glm/vec3.hpp>
+#include <map>
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "sdf/base/box.h"
 #include "sdf/eval/glsl.h"
 
 namespace sdf::viewer {
 
-// Drivers inline and unroll, and take seconds over long programs: a gradient of more operations than this is
-// taken by differences, and a distance of more has no tiles drawn apart, which would take another program.
-inline constexpr std::size_t kLongProgram = 6000;
-
 /// The line with the version, and the precision where it must be stated.
 std::string header(bool es);
 
-/// A number as GLSL has it.
+/// The number as a GLSL term.
 std::string number(double v);
 
-/// A vec3.
+/// The vector as a GLSL term.
 std::string vector(const glm::dvec3& v);
-
-/// `#define name value`.
-std::string define(const std::string& name, const std::string& value);
-
-/// farEnd(ray, spread, widening): t where all rays of a cone leave a ball around the bounds, or the end of
-/// sight where these are not finite.
-std::string farEnd(const Box& bounds);
 
 /// The name of a parameter that no scene has.
 inline std::string hidden(const std::string& name) { return '\x01' + name; }
 
-/// Gives the writer what the distance's gradient needs, and returns the parts that define normalAt.
-std::string normals(GlslWriter& writer, const Expr& distance);
+/// The definitions of macros by their names, parameters included, as in "ENCODE(c)".
+using Macros = std::map<std::string, std::string>;
+
+/// The outputs of the scene's functions by their names, which begin with "sdf". Each is made when it is used.
+using Functions = std::map<std::string, std::function<std::vector<Expr>()>>;
+
+/// Writes shaders that share the values of one set of uniforms.
+class Composer {
+ public:
+  /// The writer may know labels and terms, which are variables that `globals` declares.
+  Composer(bool es, Macros macros, Functions functions, GlslWriter writer, std::string globals = {});
+
+  /// The source of a shader of this body: before it stand those of the macros and functions that it uses, and
+  /// no others.
+  std::string compose(const std::string& body);
+
+  /// The writer of all functions so far, which knows the values of their uniforms.
+  const GlslWriter& values() const { return writer_; }
+
+ private:
+  std::string start_;  // header and globals
+  Macros macros_;
+  Functions functions_;
+  GlslWriter writer_;
+  std::set<std::string> written_;  // functions
+};
+
+/// The names of the macros that a source uses, by the convention that these, like constants, are in capitals.
+/// Constants that it declares, and what comments say, do not count.
+std::set<std::string> usedMacros(std::string_view source);
+
+/// The names of those macros that neither a fixed part nor another of them uses, so that no shader can.
+std::vector<std::string> deadMacros(const Macros& macros);
+
+/// What is wrong with the macros of a whole shader: one line for each that it uses without a definition or
+/// defines without a use.
+std::vector<std::string> macroFaults(std::string_view shader);
 
 }  // namespace sdf::viewer

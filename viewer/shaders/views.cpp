@@ -3,32 +3,32 @@
 
 namespace sdf::viewer::parts {
 
-const char* const kHit = R"(
-// The primary ray of a debug view.
-bool hit(Ray ray, inout float t, out bool budget, out int readings) {
-  int status;
-  t = march(ray, t, maxDistance - ray.before, status, readings);
-  budget = status == BUDGET;
-  COUNT_PRIMARY
-  return status != MISS;
-}
+const char* const kNothing = R"(
 const vec3 NOTHING = vec3(0.1);
 )";
 
+const char* const kHitColor = R"(
+vec3 colorOf(Ray ray, out bool spent) {
+  const int bounce = 0;
+  Hit hit;
+  FIND_HIT
+  COUNT_MARCH
+  spent = hit.status == BUDGET;
+  return shown(ray, hit);
+}
+)";
+
 const char* const kNormalsView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  return 0.5 + 0.5 * normalAt(ray.origin + t * ray.direction, ray.direction);
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == MISS) return NOTHING;
+  return 0.5 + 0.5 * hit.normal;
 }
 )";
 
 const char* const kStepsView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  hit(ray, t, budget, readings);
-  if (budget) return vec3(1.0, 0.0, 1.0);
-  float share = log2(1.0 + float(readings)) / log2(1.0 + float(maxSteps));
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == BUDGET) return vec3(1.0, 0.0, 1.0);
+  float share = log2(1.0 + float(hit.readings)) / log2(1.0 + float(maxSteps));
   return clamp(1.5 - abs(4.0 * share - vec3(3.0, 2.0, 1.0)), 0.0, 1.0);
 }
 )";
@@ -37,9 +37,9 @@ const char* const kSliceView = R"(
 uniform vec3 slicePoint, sliceNormal;
 uniform float isolines;  // their spacing
 
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  budget = false;
-  t = dot(slicePoint - ray.origin, sliceNormal) / dot(ray.direction, sliceNormal);
+vec3 colorOf(Ray ray, out bool spent) {
+  spent = false;
+  float t = dot(slicePoint - ray.origin, sliceNormal) / dot(ray.direction, sliceNormal);
   if (!(ray.before + t > 0.0)) return NOTHING;
   float f = sdfDistance(ray.origin + t * ray.direction, vec3(0.0));
   float pixel = 1.5 * pixelRadius * (ray.before + t);
@@ -51,40 +51,38 @@ vec3 colorOf(Ray ray, float t, out bool budget) {
 )";
 
 const char* const kGradientView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  float off = clamp(length(gradientAt(ray.origin + t * ray.direction)) - 1.0, -1.0, 1.0);
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == MISS) return NOTHING;
+  float off = clamp(length(gradientAt(ray.origin + hit.t * ray.direction)) - 1.0, -1.0, 1.0);
   return vec3(max(off, 0.0), 1.0 - abs(off), max(-off, 0.0));
 }
 )";
 
 const char* const kMaterialView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = normalAt(p, d);
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == MISS) return NOTHING;
+  float t = hit.t;
+  vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = hit.normal;
   float s[ATTRIBUTES];
   FOOTPRINT
+  TAKE_OPERAND
   sdfSurface(p, n, s);
   return vec3(s[RED], s[GREEN], s[BLUE]);
 }
 )";
 
 const char* const kOcclusionView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  vec3 p = ray.origin + t * ray.direction, n = normalAt(p, ray.direction);
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == MISS) return NOTHING;
+  vec3 p = ray.origin + hit.t * ray.direction, n = hit.normal;
   return vec3(OCCLUSION * STEP_OCCLUSION);
 }
 )";
 
 const char* const kShadowView = R"(
-vec3 colorOf(Ray ray, float t, out bool budget) {
-  int readings;
-  if (!hit(ray, t, budget, readings)) return NOTHING;
-  vec3 p = ray.origin + t * ray.direction;
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == MISS) return NOTHING;
+  vec3 p = ray.origin + hit.t * ray.direction;
   float arrives = 0.0, asked = 0.0;
   for (int i = 0; i < LIGHTS; ++i) {
     vec3 way = lightVector[i].xyz - lightVector[i].w * p;
@@ -96,6 +94,10 @@ vec3 colorOf(Ray ray, float t, out bool budget) {
   }
   return vec3(asked > 0.0 ? arrives / asked : 1.0);
 }
+)";
+
+const char* const kHitsView = R"(
+vec3 shown(Ray ray, Hit hit) { return hit.status == MISS ? NOTHING : vec3(1.0); }
 )";
 
 }  // namespace sdf::viewer::parts

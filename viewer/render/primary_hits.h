@@ -1,0 +1,69 @@
+// Where the primary rays of a frame start and, of a wide union, what they hit, drawn by one pass for each
+// group.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "viewer/gpu/program.h"
+#include "viewer/gpu/target.h"
+#include "viewer/render/frame.h"
+#include "viewer/render/hits_target.h"
+#include "viewer/render/tiles.h"
+#include "viewer/shaders/assemble.h"
+
+namespace sdf::viewer {
+
+class PrimaryHits {
+ public:
+  /// Compiles the passes. Errors: Graphics with the driver's log.
+  static Result<PrimaryHits> make(const std::vector<HitShaders>& shaders, bool counted);
+
+  /// Makes the targets of this size, and draws where the rays of each tile start. Errors: Limits, Graphics.
+  Status begin(const Frame& frame, const Shot& shot);
+  /// Draws the hits of the shot's sample, if the passes do. Errors: Graphics.
+  Status drawSample(const Shot& shot);
+
+  /// Lets the picture's program read the hits of the sample drawn last or else the starts.
+  void giveTo(const Program& picture, const Shot& shot) const;
+  /// The starts of all tiles, the passes' cells beside one another.
+  Cells starts() const { return {*coarse_, 0, cells_ - 1}; }
+
+  /// The readings that the primary rays took since begin, and those of the cones, sums over all pixels. Both
+  /// need `counted`. Errors: as Target::pixels.
+  double readings() const { return readings_; }
+  Result<double> coneReadings() const;
+
+ private:
+  struct Pass {
+    std::optional<Program> cones, hits;
+  };
+  /// A pass, drawn with these values of its uniforms.
+  struct Draw {
+    std::size_t pass;
+    GlslWriter uniforms;
+    std::vector<glm::vec4> values;  // in the frame that is being drawn
+    int cell = -1;                  // of the starts; none if all rays start at the eye
+  };
+  PrimaryHits(std::vector<Pass> passes, std::vector<Draw> draws, int cells, bool counted);
+  Status makeTargets(const Shot& shot);
+  void drawStarts(const Shot& shot) const;
+  void drawFineStarts(const Shot& shot) const;
+  void drawHits(const Shot& shot) const;
+  /// The corner of a cell.
+  glm::ivec2 cornerOf(int cell, const Shot& shot) const;
+  /// A cell that is alone has smaller tiles, too.
+  bool isFine() const { return cells_ == 1; }
+  bool hasHits() const { return passes_.front().hits.has_value(); }
+  /// Lets a program read where the rays of a cell start.
+  void giveStarts(const Program& program, int cell, const Shot& shot) const;
+
+  std::vector<Pass> passes_;
+  std::vector<Draw> draws_;
+  int cells_, columns_;  // of the starts
+  bool counted_;
+  double readings_ = 0.0;
+  std::optional<Target> coarse_, fine_;  // starts
+  HitsTarget target_;
+};
+
+}  // namespace sdf::viewer

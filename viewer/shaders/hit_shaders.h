@@ -1,0 +1,42 @@
+// The shaders that find what rays meet. Private to viewer/shaders.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/shaders/assemble.h"
+#include "viewer/shaders/source.h"
+
+namespace sdf::viewer {
+
+/// What the rays of one pass may meet.
+struct Obstacles {
+  Marched whole;                  ///< its gradient gives the normals
+  std::optional<Marched> rest;    ///< what is marched, if anything
+  std::vector<HalfSpace> planes;  ///< what else there is
+  std::optional<Expr> operand;    ///< the number of the operand that is nearest; none: 0
+};
+
+/// All that there is to be met of a scene.
+Obstacles obstaclesOf(const Plan& plan);
+
+/// The parts that define meet(ray).
+std::string meeting(const Obstacles& obstacles);
+
+/// The parts that define gradientAt(p).
+std::string gradients(const Expr& distance);
+
+/// The macros that these parts use, and parts::kField and parts::kRest.
+Macros meetingMacros(const Obstacles& obstacles, const Plan& plan);
+
+/// The functions of the scene that these parts use.
+Functions meetingFunctions(const Obstacles& obstacles);
+
+/// The pass that looks where the rays of the whole start.
+HitShaders startShaders(const Plan& plan);
+
+/// The passes that draw the plan's groups, and the half spaces beside them. None if a group has more numbers
+/// than every driver has room for.
+std::vector<HitShaders> groupShaders(const Plan& plan);
+
+}  // namespace sdf::viewer

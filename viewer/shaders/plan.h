@@ -1,0 +1,76 @@
+// What a scene's picture needs, found out before any shader is written.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sdf/scene/scene.h"
+#include "viewer/shaders/groups.h"
+
+namespace sdf::viewer {
+
+/// What a pixel shows.
+enum class View {
+  Picture,    ///< the scene under its lights
+  Normals,    ///< (n + 1) / 2
+  Steps,      ///< readings of the primary ray as heat, from blue for none to red for the step budget; magenta
+              ///< where it ran out
+  Slice,      ///< the distance on a plane through what the camera looks at, with isolines
+  Gradient,   ///< length of the distance's gradient at the hit: green 1, blue below, red above
+  Material,   ///< diffuse colour, unlit
+  Occlusion,  ///< ambient occlusion alone
+  Shadow,     ///< share of the lights that arrives, the mean over those that cast shadows
+  Count
+};
+
+enum class Method { AutoRelaxed, Plain };
+
+struct ShaderOptions {
+  View view = View::Picture;
+  Method method = Method::AutoRelaxed;
+  bool countReadings = false;  ///< a second output: readings by primary rays, shadows, occlusion, reflections
+  bool es = false;             ///< GLSL ES 3.00 instead of 3.30 core
+  bool grouped = true;         ///< may draw a wide union's picture in groups; else one shader draws all of it
+};
+
+/// A distance that rays march along, divided by its slope.
+struct Marched {
+  Expr distance;         ///< hoisted
+  Expr written;          ///< as the scene has it
+  double inverse = 1.0;  ///< of the slope
+  Box bounds = Box::everything();
+};
+
+/// A half space, which rays meet by division.
+struct HalfSpace {
+  Numbered operand;  ///< its distance as the scene has it, and its number among the union's operands
+  Expr height;       ///< the distance divided by its slope
+  Expr climb;        ///< how the height changes along the direction in normal()
+};
+
+/// All that decides which shaders are written, and which uniforms they take.
+struct Plan {
+  ShaderOptions options;
+  Marched whole;
+  std::optional<Marched>
+      rest;  ///< what is marched: the whole without its half spaces, if there is more than these
+  std::vector<HalfSpace> planes;  ///< none: the rest is the whole
+  std::vector<Numbered>
+      operands;  ///< of the whole, if a hit's surface follows from the number of its operand
+  std::vector<Group>
+      groups;  ///< of the rest, each of which is drawn by itself; none: the rest is drawn as one
+  std::vector<Expr> surface;  ///< the attributes of a hit, if they are shown
+  bool plain = false;         ///< rays take plain steps
+  bool cones = false;         ///< rays start where the cone pass says
+  bool tiled = false;         ///< where the cones saw nothing there is only background
+  bool lights = false;        ///< light is shown, and there is some
+  Shadow::Kind shadow = Shadow::Kind::None;
+  AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;
+  int bounces = 0;       ///< reflections that are followed
+  bool filters = false;  ///< the surface has patterns that are averaged over what a pixel covers
+};
+
+/// The plan of a sound scene. Errors (Scene): a shape whose distance has no known slope.
+Result<Plan> planOf(const Scene& scene, const ShaderOptions& options);
+
+}  // namespace sdf::viewer
