@@ -4,9 +4,11 @@
 
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
+#include <stdexcept>
 
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/shader_log.h"
+#include "viewer/gpu/uniforms.h"
 
 namespace sdf::viewer {
 namespace {
@@ -64,6 +66,14 @@ Error rejected(const std::string& what, const std::string& log, const std::strin
           "the driver rejects the " + what + ": " + (words.empty() ? "it does not say why" : words)};
 }
 
+std::string sourceOf(GLuint shader) {
+  GLint length = 0;
+  glGetShaderiv(shader, GL_SHADER_SOURCE_LENGTH, &length);
+  std::string source(std::size_t(length), '\0');
+  glGetShaderSource(shader, length, nullptr, source.data());
+  return source;
+}
+
 Result<Handle> compile(GLenum kind, const char* name, const std::string& source) {
   Handle shader(glCreateShader(kind), [](unsigned id) { glDeleteShader(id); });
   const char* const text = source.c_str();
@@ -76,6 +86,12 @@ Result<Handle> compile(GLenum kind, const char* name, const std::string& source)
 }
 
 }  // namespace
+
+#ifdef NDEBUG
+bool Program::strict = false;
+#else
+bool Program::strict = true;
+#endif
 
 Program::Program(Handle program, Handle vertexArray)
     : program_(std::move(program)), vertexArray_(std::move(vertexArray)) {}
@@ -115,6 +131,24 @@ int Program::location(const std::string& name) const {
   return found->second;
 }
 
+std::vector<std::string> Program::uniformFaults() const {
+  std::array<GLuint, 2> shaders{};
+  GLsizei count = 0;
+  glGetAttachedShaders(program_.id(), GLsizei(shaders.size()), &count, shaders.data());
+  std::set<std::string> declared;
+  for (GLsizei i = 0; i < count; ++i) declared.merge(declaredUniforms(sourceOf(shaders[std::size_t(i)])));
+  std::vector<std::string> faults;
+  for (const auto& [name, place] : locations_)
+    if (!declared.contains(name)) faults.push_back("the uniform " + name + " is set but not declared");
+  for (const std::string& name : declared)
+    if (!locations_.contains(name)) faults.push_back("the uniform " + name + " is declared but not set");
+  return faults;
+}
+
+void Program::refuseFaults() const {
+  if (const auto faults = uniformFaults(); !faults.empty()) throw std::logic_error(faults.front());
+}
+
 void Program::set(const std::string& name, int value) const {
   use();
   glUniform1i(location(name), value);
@@ -151,6 +185,7 @@ void Program::set(const std::string& name, std::span<const glm::vec4> values) co
 }
 
 void Program::draw() const {
+  if (strict) refuseFaults();
   use();
   glBindVertexArray(vertexArray_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -159,6 +194,7 @@ void Program::draw() const {
 void Program::drawTiles(int columns, int rows, int side) const {
   set("tileGrid", glm::vec2(columns, rows));
   set("tileSide", static_cast<float>(side));
+  if (strict) refuseFaults();
   glBindVertexArray(vertexArray_.id());
   // A point whose middle is outside the viewport is left out altogether.
   std::array<GLint, 4> viewport{};

@@ -7,16 +7,21 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "sdf/base/result.h"
 #include "viewer/gpu/handle.h"
 
 namespace sdf::viewer {
 
-/// A vertex and a fragment shader, linked. A uniform that the shaders do not use may be set; nothing comes of
-/// it.
+/// A vertex and a fragment shader, linked. OpenGL itself lets uniforms be set that the shaders do not have,
+/// and gives those that were never set some value; `strict` finds both.
 class Program {
  public:
+  /// Whether a program refuses to draw, by std::logic_error, while uniformFaults() finds something. It is
+  /// true in debug builds, and tests set it.
+  static bool strict;
+
   /// Errors: Graphics, with the driver's words and the source lines that it names.
   static Result<Program> create(const std::string& vertex, const std::string& fragment);
 
@@ -34,6 +39,10 @@ class Program {
 
   /// Where a uniform is, -1 if the shaders use none of that name. An array's name is its first element's.
   int location(const std::string& name) const;
+
+  /// What is wrong with the uniforms that were set so far: a line for each that no shader declares, and for
+  /// each declared one that was not set. Cost: the length of the sources.
+  std::vector<std::string> uniformFaults() const;
 
   // These use() the program.
   void set(const std::string& name, int value) const;  ///< also a sampler's unit
@@ -54,9 +63,10 @@ class Program {
 
  private:
   Program(Handle program, Handle vertexArray);
+  void refuseFaults() const;
 
   Handle program_, vertexArray_;
-  mutable std::unordered_map<std::string, int> locations_;
+  mutable std::unordered_map<std::string, int> locations_;  // of all that were set
 };
 
 }  // namespace sdf::viewer
