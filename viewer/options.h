@@ -23,7 +23,7 @@ struct Options {
   double framesPerSecond = 24.0;
   ShaderOptions shader;
   std::optional<Eye> eye;
-  Parameters parameters;
+  Values parameters;
 };
 
 /// Errors: Usage.

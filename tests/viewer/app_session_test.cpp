@@ -1,14 +1,16 @@
 // What the window shows, without the window.
-#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include "support/folder.h"
 #include "viewer/app/canvas.h"
 #include "viewer/app/materials.h"
+#include "viewer/compile_count.h"
 #include "viewer/gpu/context.h"
 
 namespace sdf::viewer {
 namespace {
+
+using test::CompileCount;
 
 constexpr int kSize = 49;  // pixels; odd, for one in the middle
 
@@ -20,25 +22,6 @@ directional_light{direction = {0, 0, 1}}
 camera{from = {0, 0, 6}, to = {0, 0, 0}, fov = 40}
 gamma(1)
 )";
-
-int compiled = 0;
-PFNGLCOMPILESHADERPROC compileShader = nullptr;
-void countingCompile(GLuint shader) {
-  ++compiled;
-  compileShader(shader);
-}
-
-/// Counts what the driver is asked to compile while it lives.
-class CompileCount {
- public:
-  CompileCount() {
-    compileShader = epoxy_glCompileShader;
-    epoxy_glCompileShader = countingCompile;
-    compiled = 0;
-  }
-  ~CompileCount() { epoxy_glCompileShader = compileShader; }
-  int value() const { return compiled; }
-};
 
 class SessionTest : public testing::Test {
  protected:
@@ -131,6 +114,7 @@ TEST_F(SessionTest, ASliderTheClockTheLightAndTheCameraCompileNothing) {
   session.controls.time = 2.0;
   picture(session);
   EXPECT_EQ(count.value(), 0);
+  EXPECT_EQ(count.tapes(), 0u);
   EXPECT_EQ(session.compilations(), compilations);
 }
 
@@ -184,7 +168,7 @@ part("cube", box(x + 0.5))
   session.followFile();
   EXPECT_EQ(session.message(), "");
   EXPECT_EQ(session.scene().parts[0].name, "cube");
-  EXPECT_EQ(session.controls.parameters, (Parameters{{"x", 1.0}})) << "kept, within the new range";
+  EXPECT_EQ(session.controls.parameters, (Values{{"x", 1.0}})) << "kept, within the new range";
   EXPECT_EQ(session.value(session.scene().parameters[0]), 1.0);
   EXPECT_EQ(session.controls.time, 3.0);
   EXPECT_EQ(session.eye().from, glm::dvec3(0.0, 0.0, 9.0));
@@ -253,6 +237,22 @@ TEST_F(MaterialsTest, AnEditedColourShowsAfterOneCompilation) {
   set(Attribute::Red, 0.0);
   EXPECT_EQ(middle(session), glm::ivec3(0, 255, 0));
   EXPECT_EQ(count.value(), 0);
+}
+
+TEST_F(MaterialsTest, AnEditedColourShowsOnAllOfAUnion) {
+  write(R"(local red = {color = 0, emission = {1, 0, 0}}
+part("row", union(sphere(1), sphere(1):translate(3, 0, 0)):paint(red))
+part("other", sphere(1):translate(-3, 0, 0):paint{color = 0, emission = {0, 0, 1}})
+camera{from = {0, 0, 6}, to = {0, 0, 0}, fov = 40}
+gamma(1)
+)");
+  Session session = open();
+  EXPECT_EQ(middle(session), glm::ivec3(255, 0, 0));
+  session.controls.editedMaterials = {"row"};
+  const Part& row = session.scene().parts[0];
+  session.controls.materials[surfaceParameter(row, Attribute::EmissionRed)->name] = 0.0;
+  session.controls.materials[surfaceParameter(row, Attribute::EmissionGreen)->name] = 1.0;
+  EXPECT_EQ(middle(session), glm::ivec3(0, 255, 0));
 }
 
 TEST_F(MaterialsTest, WhatVariesOverAPartIsNoParameter) {

@@ -3,9 +3,14 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 
+#include "sdf/march/field.h"
 #include "sdf/script/script.h"
+#include "sdf/shape/booleans.h"
+#include "sdf/shape/operators.h"
 #include "sdf/shape/solids.h"
+#include "viewer/compile_count.h"
 #include "viewer/gpu/context.h"
 #include "viewer/render/renderer.h"
 
@@ -51,9 +56,79 @@ TEST(Compiling, IsNotRepeatedWhenAParameterMoves) {
     ASSERT_EQ(before->hits.size(), after->hits.size()) << name;
     for (std::size_t i = 0; i < before->hits.size(); ++i)
       EXPECT_EQ(before->hits[i].cones, after->hits[i].cones) << name;
-    EXPECT_EQ(before->picture.values.uniformValues({{"time", 3.25}}), after->picture.values.uniformValues({}))
-        << name;
+    EXPECT_EQ(before->picture.uniforms.uniform({{"time", 3.25}}), after->picture.uniforms.uniform()) << name;
   }
+}
+
+// A frame's numbers are read from functions that were compiled with the shaders.
+TEST(Compiling, IsOverWhenAFrameOfAnotherMomentIsDrawn) {
+  const auto context = Context::headless();
+  ASSERT_TRUE(context) << context.error().message;
+  const auto target = Target::create(16, 9, {PixelFormat::Rgba8});
+  ASSERT_TRUE(target);
+  for (const char* name :
+       {"lighting_stack.lua", "melting_landscape.lua", "metaballs.lua", "bench/v_balls.lua"}) {
+    const Scene scene = loaded(name);
+    const LookFunction look(scene);
+    auto renderer = Renderer::make(scene);
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    const auto draw = [&](double time) {
+      Frame frame;
+      frame.parameters = {{"time", time}};
+      frame.look = look.at(frame.parameters);
+      ASSERT_TRUE(renderer->draw(frame, *target));
+    };
+    draw(0.0);
+    const test::CompileCount count;
+    draw(1.25);
+    draw(2.5);
+    EXPECT_EQ(count.value(), 0) << name;
+    EXPECT_EQ(count.tapes(), 0u) << name;
+  }
+}
+
+// Of the processor's time, for other programs may be running; a frame at sixty a second has 16 ms for all.
+TEST(Compiling, LeavesAFramesNumbersToBeComputedInAFifthOfAMillisecond) {
+  constexpr int kFrames = 200;
+  constexpr double kPatience = 0.2e-3;
+  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples")) {
+    if (entry.path().extension() != ".lua") continue;
+    const Scene scene = loaded(entry.path().filename());
+    const auto shaders = assemble(scene, {});
+    ASSERT_TRUE(shaders) << shaders.error().message;
+    const LookFunction look(scene);
+    std::vector<UniformValues> all{UniformValues(shaders->picture.uniforms)};
+    for (const HitShaders& pass : shaders->hits)
+      for (const Function& uniforms : pass.uniforms) all.emplace_back(uniforms);
+    const std::clock_t start = std::clock();
+    for (int i = 0; i < kFrames; ++i) {
+      const Values values{{"time", 0.01 * i}};
+      look.at(values);
+      for (UniformValues& uniforms : all) uniforms.move(values);
+    }
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / kFrames, kPatience)
+        << entry.path();
+  }
+}
+
+TEST(Compiling, IsRefusedForTheShapesThatMarchingRefuses) {
+  const Vec3E p = position();
+  const Expr steep = p.x * p.x * p.y - 1.0, moderate = p.x * p.x - 1.0;
+  const Box box = Box::centred(glm::dvec3(2.0));
+  const Shape floor = plane(Vec3E(Expr(0.0), Expr(1.0), Expr(0.0)), 0.0);
+  const Shape all[] = {
+      sphere(1.0),         floor, field(steep), field(steep, box), field(moderate, box) | floor,
+      field(log(p.x), box)};
+  std::vector<bool> refused;
+  for (const Shape& shape : all) {
+    Scene scene;
+    scene.add("", shape);
+    const auto marched = marchField(shape);
+    ASSERT_TRUE(marched) << marched.error().message;
+    refused.push_back(!assemble(scene, {}));
+    EXPECT_EQ(refused.back(), !checkSlope(*marched, "a ray")) << refused.size();
+  }
+  EXPECT_EQ(refused, (std::vector<bool>{false, false, true, false, true, true}));
 }
 
 TEST(Compiling, NamesThePartBehindEachLine) {

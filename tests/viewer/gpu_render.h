@@ -16,7 +16,7 @@ struct GpuRenderOptions {
   int maxSteps = viewer::Frame{}.maxSteps;
   double epsilon = viewer::Frame{}.epsilon;
   double threshold = viewer::Frame{}.threshold;
-  viewer::Parameters parameters;  ///< those that do not stand at their present values
+  Values parameters;  ///< those that do not stand at their present values
 };
 
 /// Encoded as the scene asks, in floats, rows from the top; alpha 0 where steps ran out. Throws

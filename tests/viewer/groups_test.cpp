@@ -1,5 +1,5 @@
 // Wide unions drawn group by group: the groups themselves, and pictures against those of one shader.
-#include "viewer/shaders/groups.h"
+#include "sdf/model/groups.h"
 
 #include <gtest/gtest.h>
 
@@ -18,15 +18,9 @@
 #include "viewer/gpu_render.h"
 #include "viewer/psnr.h"
 #include "viewer/shaders/assemble.h"
-#include "viewer/shaders/winner.h"
 
 namespace sdf::test {
 namespace {
-
-using viewer::Group;
-using viewer::groupsOf;
-using viewer::Numbered;
-using viewer::operandsOf;
 
 /// Anywhere in a flat box; the same ones for each seed.
 class Places {
@@ -53,38 +47,36 @@ Shape crates(int count) { return unite(scattered(box(Vec3E(Expr(0.1), Expr(0.12)
 /// Few of their kind.
 Shape rarities() { return torus(1.5, 0.1) | capsule(Vec3E(Expr(-2.0)), Vec3E(Expr(2.0)), 0.1); }
 
-std::vector<Numbered> numbered(const Expr& distance) {
-  std::vector<Numbered> result;
-  for (const Expr& e : operandsOf(distance)) result.push_back({e, static_cast<double>(result.size())});
-  return result;
+std::vector<OperandGroup> groupsOf(const Shape& shape) { return sdf::groupsOf(operandsOf(shape)); }
+
+std::size_t sizeOf(const Expr& least) {
+  return least.op() == Op::Min ? sizeOf(least.arg(0)) + sizeOf(least.arg(1)) : 1;
 }
 
-std::vector<Group> groupsOf(const Expr& distance) { return groupsOf(numbered(distance)); }
-
 TEST(Groups, HaveTheUnionsDistanceAndTellWhichOperandIsNearest) {
-  const Expr whole = (balls(100) | crates(70) | rarities()).distance;
-  const std::vector<Expr> operands = operandsOf(whole);
+  const Shape whole = balls(100) | crates(70) | rarities();
+  const std::vector<NumberedOperand> operands = operandsOf(whole);
   ASSERT_EQ(operands.size(), 172u);
-  const std::vector<Group> groups = groupsOf(whole);
-  const Tape tape(whole);
+  const std::vector<OperandGroup> groups = groupsOf(whole);
+  const Tape tape(whole.distance);
   Places places(3);
   for (int i = 0; i < 200; ++i) {
     const glm::dvec3 p = places.next();
     double least = kInfinity, winner = -1.0;
-    for (const Group& group : groups) {
+    for (const OperandGroup& group : groups) {
       const double d = evaluate(Tape(group.distance), p);
-      if (d < least) winner = evaluate(Tape(group.winner), p);
+      if (d < least) winner = evaluate(Tape(group.nearest), p);
       least = std::min(least, d);
     }
     EXPECT_EQ(least, evaluate(tape, p));
-    EXPECT_EQ(evaluate(Tape(operands.at(static_cast<std::size_t>(winner))), p), least) << winner;
+    EXPECT_EQ(evaluate(Tape(operands.at(static_cast<std::size_t>(winner)).distance), p), least) << winner;
   }
 }
 
 TEST(Groups, AreOneOfRaritiesAndOthersOfAKindInEqualNumbers) {
-  const std::vector<Group> groups = groupsOf((balls(100) | crates(70) | rarities()).distance);
+  const std::vector<OperandGroup> groups = groupsOf(balls(100) | crates(70) | rarities());
   std::multiset<std::size_t> sizes;
-  for (const Group& group : groups) sizes.insert(operandsOf(group.distance).size());
+  for (const OperandGroup& group : groups) sizes.insert(sizeOf(group.distance));
   // Balls by seven (the root of 100 / 2), crates by six.
   EXPECT_EQ(sizes.count(7), 15u);
   EXPECT_EQ(sizes.count(6), 12u);
@@ -95,10 +87,9 @@ TEST(Groups, AreOneOfRaritiesAndOthersOfAKindInEqualNumbers) {
 TEST(Groups, AreOfNeighbours) {
   std::vector<Shape> row;
   for (int i = 0; i < 98; ++i) row.push_back(translate(sphere(0.1), Vec3E(Expr(0.37 * (1 + (i * 41) % 98)))));
-  const Expr whole = unite(row).distance;
-  const std::vector<Group> groups = groupsOf(whole);
+  const std::vector<OperandGroup> groups = groupsOf(unite(row));
   ASSERT_EQ(groups.size(), 14u);
-  for (const Group& group : groups) {
+  for (const OperandGroup& group : groups) {
     std::set<double> places;  // in the row
     for (int step = 0; step < 98; ++step) {
       const glm::dvec3 p(0.37 * (1 + step));
@@ -110,14 +101,14 @@ TEST(Groups, AreOfNeighbours) {
 }
 
 TEST(Groups, AreNoneOfFewOperandsAndOfNoUnion) {
-  EXPECT_EQ(groupsOf(balls(30).distance).size(), 1u);
-  EXPECT_EQ(groupsOf(sphere(1.0).distance).size(), 1u);
-  EXPECT_TRUE(groupsOf(std::span<const Numbered>()).empty());
+  EXPECT_EQ(groupsOf(balls(30)).size(), 1u);
+  EXPECT_EQ(groupsOf(sphere(1.0)).size(), 1u);
+  EXPECT_TRUE(sdf::groupsOf({}).empty());
 }
 
 TEST(Groups, TakeOneRootForBallsOfOneRadiusBesideOthers) {
-  for (const Group& group : groupsOf((balls(98) | rarities()).distance)) {
-    if (operandsOf(group.distance).size() != 7) continue;
+  for (const OperandGroup& group : groupsOf(balls(98) | rarities())) {
+    if (sizeOf(group.distance) != 7) continue;
     const Expr read = hoisted(group.distance);
     const auto order = topologicalOrder({&read, 1});
     EXPECT_EQ(std::count_if(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Sqrt; }), 1);
@@ -126,13 +117,13 @@ TEST(Groups, TakeOneRootForBallsOfOneRadiusBesideOthers) {
 
 TEST(Groups, KeepWhatAllOperandsShare) {
   const Expr turn = Expr::parameter({"turn", 0.3, 0.0, 1.0});
-  const Expr whole = rotate(balls(60), Vec3E(Expr(0.0), turn * 90.0, Expr(0.0))).distance;
+  const Shape whole = rotate(balls(60), Vec3E(Expr(0.0), turn * 90.0, Expr(0.0)));
   const auto sines = [](const Expr& e) {
     const auto order = topologicalOrder({&e, 1});
     return std::count_if(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Sin; });
   };
-  ASSERT_EQ(sines(whole), 1);
-  for (const Group& group : groupsOf(whole)) EXPECT_EQ(sines(group.distance), 1);
+  ASSERT_EQ(sines(whole.distance), 1);
+  for (const OperandGroup& group : groupsOf(whole)) EXPECT_EQ(sines(group.distance), 1);
 }
 
 const Expr kWinner = Expr::parameter({"winner", 0.0, 0.0, 100.0});
@@ -148,7 +139,7 @@ constexpr glm::dvec3 kRed(1.0, 0.0, 0.0), kBlue(0.0, 0.0, 1.0);
 
 TEST(Winner, DecidesWhatTheUnionChose) {
   const Shape whole = (painted(balls(3, 5), kRed) | painted(crates(4), kBlue)) | painted(sphere(0.2), kRed);
-  const auto surface = viewer::decided(whole.surface, whole.distance, kWinner);
+  const auto surface = surfaceOf(whole, kWinner);
   for (int i = 0; i < 8; ++i) {
     const bool isBlue = i >= 3 && i < 7;
     for (const auto& [attribute, value] :
@@ -163,7 +154,7 @@ TEST(Winner, LeavesWhatOperandsAndMaterialsChoose) {
   const Shape a = painted(sphere(1.0), kRed), b = painted(translate(sphere(1.0), Vec3E(Expr(1.0))), kBlue);
   const Shape operand = round(a | b, 0.1);  // takes its colour from its own operands
   const Shape whole = unite(std::vector{a, b, operand});
-  const auto surface = viewer::decided(whole.surface, whole.distance, kWinner);
+  const auto surface = surfaceOf(whole, kWinner);
   const Expr red = bind(surface[static_cast<std::size_t>(Attribute::Red)], {{"winner", 2.0}});
   EXPECT_EQ(evaluate(Tape(red), {-0.8, 0.9, 0.0}), 1.0);
   EXPECT_EQ(evaluate(Tape(red), {1.8, 0.9, 0.0}), 0.0);

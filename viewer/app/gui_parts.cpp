@@ -92,7 +92,7 @@ int surfaceControl(Session& session, const Part& part, int attribute) {
     if (!infos[i]) return count;  // it varies over the part
     color[i] = static_cast<float>(session.value(*infos[i]));
   }
-  Parameters& moved = session.controls.materials;
+  Values& moved = session.controls.materials;
   if (triple) {
     if (ImGui::ColorEdit3(kSurface[attribute], color, kColor))
       for (int i = 0; i < count; ++i) moved[infos[i]->name] = static_cast<double>(color[i]);

@@ -43,11 +43,15 @@ std::optional<ParameterInfo> surfaceParameter(const Part& part, Attribute attrib
 Scene withSurfaceParameters(Scene scene, const std::set<std::string>& parts) {
   for (Part& part : scene.parts) {
     if (!parts.contains(part.name)) continue;
-    Attributes surface = part.shape.surface;
+    const Part before = part;
+    auto outer = part.shape.outer ? std::make_shared<Union>(*part.shape.outer) : nullptr;
     for (int i = 0; i < kAttributeCount; ++i)
-      if (const auto info = surfaceParameter(part, static_cast<Attribute>(i)))
-        surface[i] = Expr::parameter(*info);
-    part.shape.surface = surface;
+      if (const auto info = surfaceParameter(before, static_cast<Attribute>(i))) {
+        part.shape.surface[i] = Expr::parameter(*info);
+        if (!outer) continue;
+        for (Shape& operand : outer->operands) operand.surface[i] = part.shape.surface[i];
+      }
+    part.shape.outer = std::move(outer);
   }
   return scene;
 }

@@ -10,8 +10,8 @@ namespace sdf::viewer {
 namespace {
 
 /// The values of those parameters that the scene has, within their ranges.
-Parameters kept(const Parameters& values, const Scene& scene) {
-  Parameters result;
+Values kept(const Values& values, const Scene& scene) {
+  Values result;
   for (const ParameterInfo& p : scene.parameters)
     if (const auto it = values.find(p.name); it != values.end())
       result[p.name] = std::clamp(it->second, p.min, p.max);
@@ -19,7 +19,7 @@ Parameters kept(const Parameters& values, const Scene& scene) {
 }
 
 /// The scene built for these values; those that it has no parameters for are dropped from them.
-Result<Scene> loadKeeping(const std::filesystem::path& file, Parameters& values, double time) {
+Result<Scene> loadKeeping(const std::filesystem::path& file, Values& values, double time) {
   ScriptOptions options;
   options.time = time;
   auto plain = loadScene(file, options);
@@ -47,6 +47,7 @@ Session::Session(const SessionOptions& options, Scene scene, Renderer renderer)
     : file_(options.scene),
       watch_(file_),
       scene_(std::move(scene)),
+      look_(scene_),
       renderer_(std::move(renderer)),
       built_{options.view, options.method, {}} {
   controls.parameters = options.overrides;
@@ -83,7 +84,7 @@ void Session::settle() {
 }
 
 Status Session::load() {
-  Parameters parameters = controls.parameters;
+  Values parameters = controls.parameters;
   auto scene = loadKeeping(file_, parameters, controls.time);
   if (!scene) return scene.error();
   const Built wanted{controls.view, controls.method, {}};
@@ -91,6 +92,7 @@ Status Session::load() {
   if (!made) return Error{made.error().kind, file_.string() + ": " + made.error().message};
 
   scene_ = std::move(*scene);
+  look_ = LookFunction(scene_);
   renderer_ = std::move(*made);
   built_ = wanted;
   buildMessage_.clear();
@@ -122,20 +124,20 @@ bool Session::hasClock() const {
 }
 
 double Session::value(const ParameterInfo& parameter) const {
-  for (const Parameters* moved : {&controls.parameters, &controls.materials})
+  for (const Values* moved : {&controls.parameters, &controls.materials})
     if (const auto it = moved->find(parameter.name); it != moved->end()) return it->second;
   return parameter.value;
 }
 
-Parameters Session::values() const {
-  Parameters all = controls.parameters;
+Values Session::values() const {
+  Values all = controls.parameters;
   all.insert(controls.materials.begin(), controls.materials.end());
   all["time"] = controls.time;
   return all;
 }
 
 Look Session::look() const {
-  Look look = lookOf(scene_, values());
+  Look look = look_.at(values());
   if (controls.eye) look.eye = *controls.eye;
   const LookEdits& edits = controls.look;
   for (const auto& [index, light] : edits.lights) look.lights[index] = light;

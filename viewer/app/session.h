@@ -14,9 +14,9 @@ namespace sdf::viewer {
 /// What a session begins with.
 struct SessionOptions {
   std::filesystem::path scene;
-  Parameters overrides;  ///< without "time"
-  double time = 0.0;     ///< seconds
-  int samples = 1;       ///< a side, of pictures that stand still
+  Values overrides;   ///< without "time"
+  double time = 0.0;  ///< seconds
+  int samples = 1;    ///< a side, of pictures that stand still
   int maxSteps = Frame{}.maxSteps;
   Method method = Method::AutoRelaxed;
   View view = View::Picture;
@@ -33,8 +33,8 @@ struct LookEdits {
 
 /// All that the user can change. Equal controls of the same scene give the same picture.
 struct Controls {
-  Parameters parameters;                  ///< those moved, by name; without "time"
-  Parameters materials;                   ///< surface parameters that were moved, by name
+  Values parameters;                      ///< those moved, by name; without "time"
+  Values materials;                       ///< surface parameters that were moved, by name
   std::set<std::string> editedMaterials;  ///< parts whose surface parameters can be moved
   LookEdits look;
   std::optional<Eye> eye;  ///< none: the scene's camera
@@ -104,11 +104,12 @@ class Session {
   static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
   Status load();
   Built wanted() const { return {controls.view, controls.method, controls.editedMaterials}; }
-  Parameters values() const;
+  Values values() const;
 
   std::filesystem::path file_;
   Watch watch_;
   Scene scene_;
+  LookFunction look_;
   Renderer renderer_;
   Built built_;
   std::string fileMessage_, buildMessage_;

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "sdf/model/groups.h"
+
 namespace sdf::viewer {
 namespace {
 
@@ -19,19 +21,29 @@ double aheadOf(const glm::dvec3& forward, const Eye& eye, const std::optional<Bo
 
 }  // namespace
 
-Frame frameOf(const Scene& scene, Parameters parameters) {
+Frame frameOf(const Scene& scene, Values parameters) {
   Frame frame;
-  frame.look = lookOf(scene, parameters);
+  frame.look = LookFunction(scene).at(parameters);
   frame.parameters = std::move(parameters);
   return frame;
 }
 
-std::vector<glm::vec4> uniformsOf(const GlslWriter& writer, const Parameters& parameters) {
-  const std::vector<float> numbers = writer.uniformValues(parameters);
-  std::vector<glm::vec4> vectors;
-  for (std::size_t i = 0; i < numbers.size(); i += 4)
-    vectors.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]);
-  return vectors;
+UniformValues::UniformValues(Function numbers) : numbers_(std::move(numbers)) {
+  for (const ParameterInfo& input : numbers_.inputs())
+    if (!isGroupConstant(input.name)) inputs_.push_back(input.name);
+  vectors_.resize((numbers_.outputs().size() + 3) / 4);
+}
+
+void UniformValues::move(const Values& inputs) {
+  Values own;
+  for (const std::string& name : inputs_)
+    if (const auto value = inputs.find(name); value != inputs.end()) own.insert(*value);
+  if (computed_ && own == last_) return;
+  computed_ = true;
+  const std::vector<double> values = numbers_.uniform(own);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    vectors_[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
+  last_ = std::move(own);
 }
 
 Extent::Extent(const Scene& scene) : maxDistance(scene.maxDistance) {

@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "sdf/eval/glsl.h"
+#include "sdf/eval/function.h"
 #include "viewer/gpu/program.h"
 #include "viewer/render/look.h"
 
@@ -11,7 +11,7 @@ namespace sdf::viewer {
 /// What may change from one frame to the next without compiling, but for the first that takes more than one
 /// sample.
 struct Frame {
-  Parameters parameters;
+  Values parameters;
   Look look;
   int samples = 1;          ///< a side: a pixel takes its square
   bool filter = true;       ///< patterns are averaged over what a sample covers; see shaders/filter.h
@@ -20,11 +20,28 @@ struct Frame {
   double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit, half of it for loose scenes
 };
 
-/// The frame of the scene's own look.
-Frame frameOf(const Scene& scene, Parameters parameters = {});
+/// The frame of the scene's own look at these values. Those who draw many frames keep the LookFunction
+/// instead.
+Frame frameOf(const Scene& scene, Values parameters = {});
 
-/// Values of the writer's uniform sdfValues; empty if there is none.
-std::vector<glm::vec4> uniformsOf(const GlslWriter& writer, const Parameters& parameters);
+/// What a shader's uniform sdfValues holds in one frame after the other.
+class UniformValues {
+ public:
+  /// The outputs are the uniform's numbers.
+  explicit UniformValues(Function numbers);
+
+  /// Computes the values where the scene's inputs have these, unless they are those of the frame before.
+  void move(const Values& inputs);
+  /// The values of the frame, as whole vectors; none if there is no such uniform.
+  const std::vector<glm::vec4>& vectors() const { return vectors_; }
+
+ private:
+  Function numbers_;
+  std::vector<std::string> inputs_;  // those that a frame can move
+  Values last_;
+  std::vector<glm::vec4> vectors_;
+  bool computed_ = false;
+};
 
 /// What rays need to know of a scene.
 struct Extent {

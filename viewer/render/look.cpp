@@ -7,21 +7,42 @@
 namespace sdf::viewer {
 namespace {
 
+// All of a look that is computed, in the order in which Reader takes it.
+std::vector<Expr> numbersOf(const Scene& scene) {
+  std::vector<Expr> numbers;
+  const auto add = [&](const Vec3E& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); };
+  for (const Vec3E& v : {scene.camera.from, scene.camera.to, scene.camera.up, scene.ambient, scene.fog.color})
+    add(v);
+  numbers.insert(numbers.end(), {scene.camera.fov, scene.fog.density, scene.shadow.sharpness,
+                                 scene.ambientOcclusion.strength});
+  for (const Light& light : scene.lights) {
+    add(light.vector);
+    add(light.color);
+    numbers.push_back(light.intensity);
+  }
+  return numbers;
+}
+
+/// Takes one value after the other.
 class Reader {
  public:
-  explicit Reader(const Parameters& parameters) : parameters_(parameters) {}
-  double operator()(const Expr& e) const { return uniformValue(bind(e, parameters_)); }
-  glm::dvec3 operator()(const Vec3E& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
+  explicit Reader(const std::vector<double>& values) : next_(values.begin()) {}
+  double number() { return *next_++; }
+  glm::dvec3 vector() {
+    const glm::dvec3 v(next_[0], next_[1], next_[2]);
+    next_ += 3;
+    return v;
+  }
 
  private:
-  const Parameters& parameters_;
+  std::vector<double>::const_iterator next_;
 };
 
-LookLight lookOf(const Light& light, const Reader& value) {
-  const glm::dvec3 vector = value(light.vector), color = value(light.color) * value(light.intensity);
+LookLight read(const Light& light, Reader& values) {
+  const glm::dvec3 vector = values.vector(), color = values.vector();
   const bool point = light.kind == Light::Kind::Point;
   return {glm::vec4(point ? vector : glm::normalize(vector), point ? 1.0 : 0.0),
-          glm::vec4(color, light.castsShadow ? 1.0 : 0.0)};
+          glm::vec4(color * values.number(), light.castsShadow ? 1.0 : 0.0)};
 }
 
 std::string text(const glm::dvec3& v) {
@@ -40,17 +61,25 @@ Eye upright(Eye eye) {
   return eye;
 }
 
-Look lookOf(const Scene& scene, const Parameters& parameters) {
-  const Reader value(parameters);
-  const Camera& c = scene.camera;
-  Look look{upright({value(c.from), value(c.to), value(c.up), value(c.fov), c.mirrored}),
-            {},
-            glm::vec3(value(scene.ambient)),
-            glm::vec3(value(scene.fog.color)),
-            static_cast<float>(value(scene.fog.density)),
-            static_cast<float>(value(scene.shadow.sharpness)),
-            static_cast<float>(value(scene.ambientOcclusion.strength))};
-  for (const Light& light : scene.lights) look.lights.push_back(lookOf(light, value));
+LookFunction::LookFunction(const Scene& scene)
+    : numbers_(numbersOf(scene)), lights_(scene.lights), mirrored_(scene.camera.mirrored) {}
+
+Look LookFunction::at(const Values& values) const {
+  const std::vector<double> numbers = numbers_.uniform(values);
+  Reader next(numbers);
+  Look look;
+  look.eye.from = next.vector();
+  look.eye.to = next.vector();
+  look.eye.up = next.vector();
+  look.ambient = glm::vec3(next.vector());
+  look.fogColor = glm::vec3(next.vector());
+  look.eye.fov = next.number();
+  look.eye.mirrored = mirrored_;
+  look.eye = upright(look.eye);
+  look.fogDensity = static_cast<float>(next.number());
+  look.sharpness = static_cast<float>(next.number());
+  look.occlusionStrength = static_cast<float>(next.number());
+  for (const Light& light : lights_) look.lights.push_back(read(light, next));
   return look;
 }
 

@@ -2,16 +2,13 @@
 #pragma once
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "sdf/eval/function.h"
 #include "sdf/scene/scene.h"
 
 namespace sdf::viewer {
-
-/// Values of parameters by name; those that are missing have their present ones. "time" is one of them.
-using Parameters = std::map<std::string, double>;
 
 /// A pinhole camera, in double: it may stand far from the origin.
 struct Eye {
@@ -21,16 +18,18 @@ struct Eye {
   bool operator==(const Eye&) const = default;
 };
 
-/// The eye; one that looks straight along its `up` has north, -z, up instead, as on a plan, or +y where that
-/// is no better.
+/// Makes an eye that looks straight along its `up` have north, -z, up instead, as on a plan, or +y where that
+/// is no better; any other eye stays as it is.
 Eye upright(Eye eye);
 
+/// A light at one moment.
 struct LookLight {
   glm::vec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
   glm::vec4 color;   ///< times its intensity; w: 1 if it casts shadows
   bool operator==(const LookLight&) const = default;
 };
 
+/// A scene's look at one moment.
 struct Look {
   Eye eye;
   std::vector<LookLight> lights;
@@ -38,10 +37,21 @@ struct Look {
   float fogDensity, sharpness, occlusionStrength;
 };
 
-/// The scene's own look at these values of its parameters.
-Look lookOf(const Scene& scene, const Parameters& parameters);
+/// The scene's own look as a function of its inputs, compiled once.
+class LookFunction {
+ public:
+  explicit LookFunction(const Scene& scene);
 
-/// The camera as a scene's text: a call of `camera`.
+  /// The look at these values; inputs without one have their defaults. "time" is one of them.
+  Look at(const Values& values) const;
+
+ private:
+  Function numbers_;
+  std::vector<Light> lights_;
+  bool mirrored_;
+};
+
+/// Writes the camera as a scene's text: a call of `camera`.
 std::string textOf(const Eye& eye);
 
 }  // namespace sdf::viewer

@@ -28,8 +28,8 @@ Result<PrimaryHits> PrimaryHits::make(const std::vector<HitShaders>& shaders, bo
       if (!hits) return hits.error();
       pass.hits = std::move(*hits);
     }
-    for (const GlslWriter& uniforms : shader.values)
-      draws.push_back({passes.size(), uniforms, {}, pass.cones ? cells++ : -1});
+    for (const Function& uniforms : shader.uniforms)
+      draws.push_back({passes.size(), UniformValues(uniforms), pass.cones ? cells++ : -1});
     passes.push_back(std::move(pass));
   }
   return PrimaryHits(std::move(passes), std::move(draws), cells, counted);
@@ -66,7 +66,7 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
     const Program& cones = *passes_[draw.pass].cones;
     const glm::ivec2 corner = cornerOf(draw.cell, shot);
     coarse_->bind(corner.x, corner.y, tiles(shot.width(), kTile), tiles(shot.height(), kTile));
-    shot.set(cones, draw.values);
+    shot.set(cones, draw.values.vectors());
     cones.set("coarser", 0);
     cones.set("first", 1);
     cones.set("tile", static_cast<float>(kTile));
@@ -101,7 +101,7 @@ void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
 void PrimaryHits::drawHits(const Shot& shot) const {
   for (const Draw& draw : draws_) {
     const Program& hits = *passes_[draw.pass].hits;
-    shot.set(hits, draw.values);
+    shot.set(hits, draw.values.vectors());
     if (draw.cell < 0) {
       hits.draw();
     } else {
@@ -111,9 +111,12 @@ void PrimaryHits::drawHits(const Shot& shot) const {
   }
 }
 
-Status PrimaryHits::begin(const Frame& frame, const Shot& shot) {
+void PrimaryHits::prepare(const Frame& frame) {
+  for (Draw& draw : draws_) draw.values.move(frame.parameters);
+}
+
+Status PrimaryHits::begin(const Shot& shot) {
   if (auto s = makeTargets(shot); !s) return s;
-  for (Draw& draw : draws_) draw.values = uniformsOf(draw.uniforms, frame.parameters);
   drawStarts(shot);
   if (isFine()) drawFineStarts(shot);
   readings_ = 0.0;

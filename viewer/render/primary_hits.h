@@ -18,8 +18,11 @@ class PrimaryHits {
   /// Compiles the passes. Errors: Graphics with the driver's log.
   static Result<PrimaryHits> make(const std::vector<HitShaders>& shaders, bool counted);
 
-  /// Makes the targets of this size, and draws where the rays of each tile start. Errors: Limits, Graphics.
-  Status begin(const Frame& frame, const Shot& shot);
+  /// Computes the passes' uniforms of a frame. It calls no OpenGL.
+  void prepare(const Frame& frame);
+  /// Makes the targets of the shot's size, and draws where the rays of each tile start. Errors: Limits,
+  /// Graphics.
+  Status begin(const Shot& shot);
   /// Draws the hits of the shot's sample, if the passes do. Errors: Graphics.
   Status drawSample(const Shot& shot);
 
@@ -40,9 +43,8 @@ class PrimaryHits {
   /// A pass, drawn with these values of its uniforms.
   struct Draw {
     std::size_t pass;
-    GlslWriter uniforms;
-    std::vector<glm::vec4> values;  // in the frame that is being drawn
-    int cell = -1;                  // of the starts; none if all rays start at the eye
+    UniformValues values;
+    int cell = -1;  // of the starts; none if all rays start at the eye
   };
   PrimaryHits(std::vector<Pass> passes, std::vector<Draw> draws, int cells, bool counted);
   Status makeTargets(const Shot& shot);

@@ -46,6 +46,7 @@ Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options
 
 Renderer::Renderer(const Scene& scene, SceneShaders shaders)
     : shaders_(std::move(shaders)),
+      values_(shaders_.picture.uniforms),
       extent_(scene),
       shadow_(scene.shadow),
       tapSpacing_(scene.ambientOcclusion.spacing) {}
@@ -65,6 +66,7 @@ Status Renderer::compile() {
   auto background = Program::overScreen(shaders_.background->text);
   if (!background) return background.error();
   background_ = std::move(*background);
+  backgroundValues_ = UniformValues(shaders_.background->uniforms);
   return okStatus();
 }
 
@@ -106,7 +108,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
 }
 
 void Renderer::drawPicture(const Frame& frame, const Shot& shot) const {
-  shot.set(*picture_, values_);
+  shot.set(*picture_, values_.vectors());
   setLook(*picture_, frame, shot);
   if (hits_) hits_->giveTo(*picture_, shot);
   if (background_)
@@ -117,7 +119,7 @@ void Renderer::drawPicture(const Frame& frame, const Shot& shot) const {
 
 void Renderer::drawBackground(const Shot& shot) const {
   if (!background_) return;
-  shot.set(*background_, backgroundValues_);
+  shot.set(*background_, backgroundValues_->vectors());
   background_->draw();
 }
 
@@ -159,13 +161,18 @@ Status Renderer::drawSample(const Frame& frame, const Shot& shot, const Target& 
   return okStatus();
 }
 
+void Renderer::prepare(const Frame& frame) {
+  values_.move(frame.parameters);
+  if (backgroundValues_) backgroundValues_->move(frame.parameters);
+  if (hits_) hits_->prepare(frame);
+}
+
 Status Renderer::draw(const Frame& frame, const Target& target) {
-  values_ = uniformsOf(shaders_.picture.values, frame.parameters);
-  if (background_) backgroundValues_ = uniformsOf(shaders_.background->values, frame.parameters);
+  prepare(frame);
   Shot shot(frame, target.width(), target.height(), extent_);
   samples_ = shot.samples();
   if (hits_)
-    if (auto s = hits_->begin(frame, shot); !s) return s;
+    if (auto s = hits_->begin(shot); !s) return s;
   if (auto s = samples_ > 1 ? drawSamples(frame, shot, target) : drawSample(frame, shot, target); !s)
     return s;
   return check("draw the scene");

@@ -24,6 +24,10 @@ class Renderer {
   /// Compiles the scene's shaders. Errors: Scene as assemble; Graphics with the driver's log.
   static Result<Renderer> make(const Scene& scene, const ShaderOptions& options = {});
 
+  /// Computes the uniforms of a frame, which draw() does too, unless they are those of the frame before. It
+  /// compiles nothing and calls no OpenGL.
+  void prepare(const Frame& frame);
+
   /// Draws into the target, whose first layer is the picture (alpha 0 where a primary ray ran out of steps)
   /// and, with countReadings, whose second (floats) holds what readings(target) then sums up. Errors: Limits,
   /// Graphics.
@@ -48,9 +52,10 @@ class Renderer {
   std::optional<PrimaryHits> hits_;
   std::optional<Program> picture_, background_;  // the latter of tiles that show nothing else
   std::optional<Program> resolve_;
-  std::optional<Target> sums_;                        // of several samples
-  int samples_ = 1;                                   // of the frame drawn last
-  std::vector<glm::vec4> values_, backgroundValues_;  // of sdfValues, in the frame that is being drawn
+  std::optional<Target> sums_;  // of several samples
+  int samples_ = 1;             // of the frame drawn last
+  UniformValues values_;        // of the picture
+  std::optional<UniformValues> backgroundValues_;
   Extent extent_;
   Shadow shadow_;
   double tapSpacing_;

@@ -21,8 +21,9 @@ using OcclusionKind = AmbientOcclusion::Kind;
 GlslWriter labelled(const Scene& scene) {
   GlslWriter writer;
   for (const Part& part : scene.parts) {
-    writer.label(part.shape.distance, "part '" + part.name + "'");
-    for (const Expr& e : part.shape.surface) writer.label(e, "part '" + part.name + "'");
+    std::vector<Expr> own{part.shape.distance};
+    own.insert(own.end(), part.shape.surface.begin(), part.shape.surface.end());
+    for (const Expr& e : withoutClaims(own)) writer.label(e, "part '" + part.name + "'");
   }
   return writer;
 }
@@ -173,7 +174,7 @@ Shader picture(const Scene& scene, const Plan& plan, GlslWriter writer) {
   }
   Composer composer(plan.options.es, macros, functions, std::move(writer), globals);
   std::string text = composer.compose(pictureBody(scene, plan));
-  return {std::move(text), composer.values()};
+  return {std::move(text), composer.uniforms()};
 }
 
 Shader background(const Scene& scene, const Plan& plan) {
@@ -186,7 +187,7 @@ Shader background(const Scene& scene, const Plan& plan) {
   std::string text = composer.compose(std::string(parts::kCamera) +
                                       (plan.options.countReadings ? parts::kPictureCounts : "") +
                                       parts::kBackground + encoder(scene, plan) + parts::kPicture);
-  return {std::move(text), composer.values()};
+  return {std::move(text), composer.uniforms()};
 }
 
 }  // namespace
@@ -201,16 +202,16 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   if (const auto sound = checked(scene); !sound) return sound.error();
   auto plan = planOf(scene, options);
   if (!plan) return plan.error();
-  SceneShaders result;
-  result.hits = groupShaders(*plan);
-  if (result.hits.empty()) plan->groups.clear();
-  if (startsHere(*plan)) result.hits = {startShaders(*plan)};
-  result.picture = picture(scene, *plan, labelled(scene));
-  if (plan->tiled) result.background = background(scene, *plan);
-  result.resolve = Composer(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {})
-                       .compose(encoder(scene, *plan) + parts::kResolve);
-  result.plan = std::move(*plan);
-  return result;
+  std::vector<HitShaders> hits = groupShaders(*plan);
+  if (hits.empty()) plan->groups.clear();
+  if (startsHere(*plan)) hits = {startShaders(*plan)};
+  Shader shown = picture(scene, *plan, labelled(scene));
+  std::optional<Shader> tiles;
+  if (plan->tiled) tiles = background(scene, *plan);
+  Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
+  std::string resolved = resolve.compose(encoder(scene, *plan) + parts::kResolve);
+  return SceneShaders{std::move(*plan), std::move(hits), std::move(shown), std::move(tiles),
+                      std::move(resolved)};
 }
 
 }  // namespace sdf::viewer

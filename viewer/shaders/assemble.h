@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "sdf/eval/glsl.h"
+#include "sdf/eval/function.h"
 #include "viewer/shaders/plan.h"
 
 namespace sdf::viewer {
 
-/// A fragment shader, and the values of its uniform sdfValues.
+/// A fragment shader, and what its uniform sdfValues holds.
 struct Shader {
   std::string text;
-  GlslWriter values;
+  Function uniforms;
 };
 
 /// The fragment shaders of a pass that looks where the rays of each tile start and, if it is one of those by
@@ -20,7 +20,7 @@ struct Shader {
 struct HitShaders {
   std::string cones;  ///< the starts; empty: all rays start at the eye
   std::string hits;   ///< fills the layers of hits (parts::kHits); empty: the picture's shader marches
-  std::vector<GlslWriter> values;  ///< the pass is drawn once with the values of each
+  std::vector<Function> uniforms;  ///< the pass is drawn once with the values of each
 };
 
 /// The fragment shaders that draw a scene, one pass after the other; see parts.h for their uniforms.

@@ -1,7 +1,6 @@
 #include "viewer/shaders/filter.h"
 
 #include <optional>
-#include <unordered_map>
 
 #include "sdf/base/box.h"
 #include "sdf/expr/gradient.h"
@@ -20,16 +19,14 @@ Expr sum(const Expr& a, const Expr& b) { return a.isConstant(0.0) ? b : b.isCons
 
 class Filter {
  public:
-  Filtered run(std::span<const Expr> outputs) {
+  Filtered run(std::span<const Expr> outputs) const {
     Filtered result;
-    for (const Expr& e : topologicalOrder(outputs)) {
-      std::vector<Expr> args;
-      for (int i = 0; i < arity(e.op()); ++i) args.push_back(made_.at(e.arg(i)));
-      const std::optional<Expr> share = e.op() == Op::Select ? shareOfOdd(e.arg(0)) : std::nullopt;
-      result.changed = result.changed || share;
-      made_.emplace(e, share ? mix(args[2], args[1], *share) : args.empty() ? e : Expr::make(e.op(), args));
-    }
-    for (const Expr& e : outputs) result.outputs.push_back(made_.at(e));
+    result.outputs = rewrite(withoutClaims(outputs), [&](const Expr& e, std::span<const Expr> args) {
+      std::optional<Expr> share = e.op() == Op::Select ? shareOfOdd(e.arg(0)) : std::nullopt;
+      if (!share) return share;
+      result.changed = true;
+      return std::optional(mix(args[2], args[1], *share));
+    });
     return result;
   }
 
@@ -70,7 +67,6 @@ class Filter {
 
   const Vec3E way_{pixelTerm("pixelWay.x"), pixelTerm("pixelWay.y"), pixelTerm("pixelWay.z")};  // d / (d.n)
   const Expr size_ = pixelTerm("pixelSize");
-  std::unordered_map<Expr, Expr> made_;
 };
 
 }  // namespace

@@ -17,30 +17,21 @@ constexpr std::size_t kLongProgram = 6000;
 // What every driver has room for, but for some of the camera's.
 constexpr std::size_t kMostUniforms = 960;
 
-Expr nearestOperand(const std::vector<Numbered>& operands) {
-  std::vector<Expr> distances, numbers;
-  for (const Numbered& operand : operands) {
-    distances.push_back(operand.distance);
-    numbers.emplace_back(operand.number);
-  }
-  return numberOfLeast(distances, numbers);
-}
-
-Obstacles obstaclesOf(const Group& group, const Plan& plan) {
+Obstacles obstaclesOf(const OperandGroup& group, const Plan& plan) {
   Marched part = *plan.rest;
   part.distance = hoisted(group.distance);
   Obstacles result{part, part, {}, {}};
-  if (!plan.operands.empty()) result.operand = group.winner;
+  if (!plan.operands.empty()) result.operand = group.nearest;
   return result;
 }
 
 Obstacles planesOf(const Plan& plan) {
-  std::vector<Numbered> operands;
+  std::vector<NumberedOperand> operands;
   for (const HalfSpace& plane : plan.planes) operands.push_back(plane.operand);
   Marched nearest{.distance = operands.front().distance};
-  for (const Numbered& operand : operands) nearest.distance = min(nearest.distance, operand.distance);
+  for (const NumberedOperand& operand : operands) nearest.distance = min(nearest.distance, operand.distance);
   Obstacles result{nearest, {}, plan.planes, {}};
-  if (!plan.operands.empty()) result.operand = nearestOperand(operands);
+  if (!plan.operands.empty()) result.operand = numberOfNearest(operands);
   return result;
 }
 
@@ -78,12 +69,12 @@ std::string hitsOf(const Obstacles& obstacles, bool cones, const Plan& plan, Com
 }
 
 // A reading counts as the share of one of the whole that the group's operations are.
-HitShaders passOf(const Group& group, double share, const Plan& plan) {
+HitShaders passOf(const OperandGroup& group, double share, const Plan& plan) {
   const Obstacles obstacles = obstaclesOf(group, plan);
   Composer composer = composerOf(obstacles, share, true, plan);
   HitShaders pass{.cones = conesOf(obstacles, composer)};
   pass.hits = hitsOf(obstacles, true, plan, composer);
-  pass.values.push_back(composer.values());
+  pass.uniforms.push_back(composer.uniforms());
   return pass;
 }
 
@@ -91,7 +82,7 @@ HitShaders passOfPlanes(const Plan& plan) {
   const Obstacles planes = planesOf(plan);
   Composer composer = composerOf(planes, 0.0, false, plan);
   HitShaders pass{.hits = hitsOf(planes, false, plan, composer)};
-  pass.values.push_back(composer.values());
+  pass.uniforms.push_back(composer.uniforms());
   return pass;
 }
 
@@ -99,7 +90,7 @@ HitShaders passOfPlanes(const Plan& plan) {
 
 Obstacles obstaclesOf(const Plan& plan) {
   Obstacles result{plan.whole, plan.rest, plan.planes, {}};
-  if (!plan.operands.empty()) result.operand = nearestOperand(plan.operands);
+  if (!plan.operands.empty()) result.operand = numberOfNearest(plan.operands);
   return result;
 }
 
@@ -148,22 +139,22 @@ HitShaders startShaders(const Plan& plan) {
   const Obstacles obstacles = obstaclesOf(plan);
   Composer composer = composerOf(obstacles, 1.0, true, plan);
   HitShaders pass{.cones = conesOf(obstacles, composer)};
-  pass.values.push_back(composer.values());
+  pass.uniforms.push_back(composer.uniforms());
   return pass;
 }
 
 std::vector<HitShaders> groupShaders(const Plan& plan) {
   const auto operations = [](const Expr& e) { return static_cast<double>(topologicalOrder({&e, 1}).size()); };
   double whole = 0.0;
-  for (const Group& group : plan.groups) whole += operations(group.distance);
+  for (const OperandGroup& group : plan.groups) whole += operations(group.distance);
   std::vector<HitShaders> result;
-  for (const Group& group : plan.groups) {
+  for (const OperandGroup& group : plan.groups) {
     HitShaders pass = passOf(group, operations(group.distance) / whole, plan);
-    if (pass.values.front().uniformValues({}).size() > kMostUniforms) return {};
+    if (pass.uniforms.front().outputs().size() > kMostUniforms) return {};
     if (result.empty() || result.back().hits != pass.hits)
       result.push_back(std::move(pass));
     else
-      result.back().values.push_back(std::move(pass.values.front()));
+      result.back().uniforms.push_back(std::move(pass.uniforms.front()));
   }
   if (!plan.planes.empty() && !result.empty()) result.push_back(passOfPlanes(plan));
   return result;

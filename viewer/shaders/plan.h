@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sdf/model/groups.h"
 #include "sdf/scene/scene.h"
-#include "viewer/shaders/groups.h"
 
 namespace sdf::viewer {
 
@@ -35,39 +35,38 @@ struct ShaderOptions {
 
 /// A distance that rays march along, divided by its slope.
 struct Marched {
-  Expr distance;         ///< hoisted
-  Expr written;          ///< as the scene has it
+  Expr distance;
   double inverse = 1.0;  ///< of the slope
   Box bounds = Box::everything();
 };
 
 /// A half space, which rays meet by division.
 struct HalfSpace {
-  Numbered operand;  ///< its distance as the scene has it, and its number among the union's operands
-  Expr height;       ///< the distance divided by its slope
-  Expr climb;        ///< how the height changes along the direction in normal()
+  NumberedOperand operand;
+  Expr height;  ///< the distance divided by its slope
+  Expr climb;   ///< how the height changes along the direction in normal()
 };
 
 /// All that decides which shaders are written, and which uniforms they take.
 struct Plan {
   ShaderOptions options;
   Marched whole;
-  std::optional<Marched>
-      rest;  ///< what is marched: the whole without its half spaces, if there is more than these
-  std::vector<HalfSpace> planes;  ///< none: the rest is the whole
-  std::vector<Numbered>
-      operands;  ///< of the whole, if a hit's surface follows from the number of its operand
-  std::vector<Group>
-      groups;  ///< of the rest, each of which is drawn by itself; none: the rest is drawn as one
+  /// What is marched: the whole without its half spaces, if there is more than these.
+  std::optional<Marched> rest;
+  std::vector<HalfSpace> planes;
+  /// The operands of the whole, if a hit's surface follows from the number of its operand.
+  std::vector<NumberedOperand> operands;
+  /// Groups of the rest that are drawn each by itself, or none.
+  std::vector<OperandGroup> groups;
   std::vector<Expr> surface;  ///< the attributes of a hit, if they are shown
   bool plain = false;         ///< rays take plain steps
   bool cones = false;         ///< rays start where the cone pass says
   bool tiled = false;         ///< where the cones saw nothing there is only background
   bool lights = false;        ///< light is shown, and there is some
+  bool filters = false;       ///< the surface has patterns that are averaged over what a pixel covers
+  int bounces = 0;            ///< reflections that are followed
   Shadow::Kind shadow = Shadow::Kind::None;
   AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;
-  int bounces = 0;       ///< reflections that are followed
-  bool filters = false;  ///< the surface has patterns that are averaged over what a pixel covers
 };
 
 /// The plan of a sound scene. Errors (Scene): a shape whose distance has no known slope.

@@ -41,8 +41,8 @@ class Composer {
   /// no others.
   std::string compose(const std::string& body);
 
-  /// The writer of all functions so far, which knows the values of their uniforms.
-  const GlslWriter& values() const { return writer_; }
+  /// The values of the uniform sdfValues of all shaders so far.
+  Function uniforms() const { return writer_.uniforms(); }
 
  private:
   std::string start_;  // header and globals

@@ -60,6 +60,9 @@ enum class Decision : std::uint8_t {
   Second  ///< the other way round
 };
 
+/// The number of tapes that this thread has compiled so far, which stands still where inputs alone change.
+std::size_t tapesCompiled();
+
 /// Immutable, and cheap to copy: copies and specialised tapes share what they can.
 class Tape {
  public:

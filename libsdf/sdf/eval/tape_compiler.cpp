@@ -11,6 +11,8 @@
 namespace sdf {
 namespace {
 
+thread_local std::size_t compiled = 0;
+
 float roundedUp(double slope) {
   const float f = static_cast<float>(slope);
   return f < slope ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
@@ -18,7 +20,10 @@ float roundedUp(double slope) {
 
 }  // namespace
 
+std::size_t tapesCompiled() { return compiled; }
+
 TapeCompiler::TapeCompiler(std::span<const Expr> outputs) {
+  ++compiled;
   pool_->doubles = {0.0, 1.0};
   literals_ = {{std::bit_cast<std::uint64_t>(0.0), kZero}, {std::bit_cast<std::uint64_t>(1.0), kOne}};
   gather(outputs);

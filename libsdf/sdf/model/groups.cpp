@@ -1,22 +1,21 @@
-#include "viewer/shaders/groups.h"
+#include "sdf/model/groups.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <map>
-#include <span>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "sdf/base/box.h"
-#include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/hoist.h"
-#include "viewer/shaders/source.h"
 
-namespace sdf::viewer {
+namespace sdf {
 namespace {
+
+constexpr char kOwn = '\x01';  // begins the names of groups' constants, and no scene's
 
 // Fewer like operands cost less together than the passes that would draw their groups.
 constexpr std::size_t kMany = 40;
@@ -42,9 +41,9 @@ std::string kindOf(const Expr& operand) {
 /// What operands of one kind have in common, and their other constants as parameters.
 class Likeness {
  public:
-  explicit Likeness(std::span<const Numbered> operands) {
+  explicit Likeness(std::span<const NumberedOperand> operands) {
     std::unordered_map<Expr, std::size_t> uses;
-    for (const Numbered& operand : operands)
+    for (const NumberedOperand& operand : operands)
       for (const Expr& node : topologicalOrder({&operand.distance, 1})) ++uses[node];
     for (const auto& [node, count] : uses)
       if (count == operands.size()) common_.insert(node);
@@ -58,25 +57,18 @@ class Likeness {
     }));
   }
 
-  /// A new parameter that stands at this value.
-  Expr parameter(double v) { return Expr::parameter({"constant " + std::to_string(parameters_++), v, v, v}); }
+  /// A new parameter whose default is this value.
+  Expr parameter(double v) {
+    return Expr::parameter({kOwn + std::string("constant ") + std::to_string(parameters_++), v, v, v});
+  }
 
   /// The operand with new parameters for those of its constants that not all have.
   Expr withParameters(const Expr& operand) {
-    std::unordered_map<Expr, Expr> done;
-    for (const Expr& node : topologicalOrder({&operand, 1})) {
-      Expr made = node;
-      if (common_.contains(node)) {
-      } else if (node.isConstant()) {
-        made = parameter(node.constantValue());
-      } else if (arity(node.op()) > 0) {
-        std::vector<Expr> args;
-        for (int i = 0; i < arity(node.op()); ++i) args.push_back(done.at(node.arg(i)));
-        made = Expr::make(node.op(), args);
-      }
-      done.emplace(node, made);
-    }
-    return done.at(operand);
+    return rewrite(operand, [&](const Expr& node, std::span<const Expr>) -> std::optional<Expr> {
+      if (common_.contains(node)) return node;
+      if (node.isConstant()) return parameter(node.constantValue());
+      return std::nullopt;
+    });
   }
 
  private:
@@ -85,22 +77,15 @@ class Likeness {
 };
 
 struct Placed {
-  Numbered operand;
+  NumberedOperand operand;
   glm::dvec3 place;
 };
 
-// A point of its surface, or near it: that to which steps along the gradient lead from the origin.
-glm::dvec3 placeOf(const Expr& operand) {
-  constexpr int kSteps = 8;
-  const Tape tape(operand);
-  glm::dvec3 p(0.0);
-  for (int i = 0; i < kSteps; ++i) {
-    const auto [value, gradient] = evaluateGradient(tape, p);
-    const glm::dvec3 next = p - value * gradient / glm::dot(gradient, gradient);
-    if (!std::isfinite(glm::length(next))) break;
-    p = next;
-  }
-  return p;
+// The middle of the bounds, along the axes along which there are any.
+glm::dvec3 placeOf(const Box& bounds) {
+  const glm::dvec3 centre = bounds.centre();
+  const auto along = [&](int axis) { return std::isfinite(centre[axis]) ? centre[axis] : 0.0; };
+  return {along(0), along(1), along(2)};
 }
 
 struct Members {
@@ -111,7 +96,7 @@ struct Members {
     numbers.push_back(number);
   }
 
-  Group joined() const {
+  OperandGroup joined() const {
     Expr least = distances.front();
     for (std::size_t i = 1; i < distances.size(); ++i) least = min(least, distances[i]);
     return {least, numberOfLeast(distances, numbers)};
@@ -119,7 +104,7 @@ struct Members {
 };
 
 // A union's later operand wins a tie.
-bool inOrder(const Numbered& a, const Numbered& b) { return a.number < b.number; }
+bool inOrder(const NumberedOperand& a, const NumberedOperand& b) { return a.number < b.number; }
 
 // How many of so many operands a group takes: half as many as there are groups then.
 std::size_t sizeOf(std::size_t operands, std::size_t numbersEach) {
@@ -143,12 +128,12 @@ void arrange(std::span<Placed> all, std::size_t size) {
 }
 
 // Adds the groups of one kind, unless it has too many numbers.
-bool split(std::span<const Numbered> alike, std::vector<Group>& result) {
+bool split(std::span<const NumberedOperand> alike, std::vector<OperandGroup>& result) {
   Likeness likeness(alike);
   const std::size_t numbers = likeness.numbersOf(alike.front().distance) + 1;
   if (numbers > kMostNumbers) return false;
   std::vector<Placed> placed;
-  for (const Numbered& e : alike) placed.push_back({e, placeOf(e.distance)});
+  for (const NumberedOperand& e : alike) placed.push_back({e, placeOf(e.bounds)});
   const std::size_t size = sizeOf(placed.size(), numbers);
   arrange(placed, size);
   while (placed.size() % size != 0) placed.push_back(placed.back());
@@ -164,22 +149,64 @@ bool split(std::span<const Numbered> alike, std::vector<Group>& result) {
   return true;
 }
 
+// The attribute of the operand of this number, one of those from `first` on.
+Expr chosen(std::span<const Shape> operands, int attribute, double first, const Expr& number) {
+  if (operands.size() == 1) return operands.front().surface[attribute];
+  const std::size_t half = operands.size() / 2;
+  const double middle = first + static_cast<double>(half);
+  const Expr low = chosen(operands.first(half), attribute, first, number);
+  const Expr high = chosen(operands.subspan(half), attribute, middle, number);
+  return low == high ? low : select(less(middle - 0.5, number), high, low);
+}
+
+bool isHardUnion(const Shape& shape) { return shape.outer && shape.outer->blend.kind == Blend::Kind::Hard; }
+
+NumberedOperand numbered(const Shape& shape, double number) {
+  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, number};
+}
+
 }  // namespace
 
-std::vector<Group> groupsOf(std::span<const Numbered> operands) {
-  std::map<std::string, std::vector<Numbered>> kinds;
-  for (const Numbered& e : operands) kinds[kindOf(e.distance)].push_back(e);
-  std::vector<Group> result;
-  std::vector<Numbered> others;
+std::vector<NumberedOperand> operandsOf(const Shape& shape, double first) {
+  if (!isHardUnion(shape)) return {numbered(shape, first)};
+  std::vector<NumberedOperand> result;
+  for (const Shape& operand : shape.outer->operands)
+    result.push_back(numbered(operand, first + static_cast<double>(result.size())));
+  return result;
+}
+
+Expr numberOfNearest(std::span<const NumberedOperand> operands) {
+  std::vector<Expr> distances, numbers;
+  for (const NumberedOperand& operand : operands) {
+    distances.push_back(operand.distance);
+    numbers.emplace_back(operand.number);
+  }
+  return numberOfLeast(distances, numbers);
+}
+
+Attributes surfaceOf(const Shape& shape, const Expr& number) {
+  Attributes result = shape.surface;
+  if (isHardUnion(shape))
+    for (int i = 0; i < kAttributeCount; ++i) result[i] = chosen(shape.outer->operands, i, 0.0, number);
+  return result;
+}
+
+bool isGroupConstant(const std::string& name) { return name.starts_with(kOwn); }
+
+std::vector<OperandGroup> groupsOf(std::span<const NumberedOperand> operands) {
+  std::map<std::string, std::vector<NumberedOperand>> kinds;
+  for (const NumberedOperand& e : operands) kinds[kindOf(e.distance)].push_back(e);
+  std::vector<OperandGroup> result;
+  std::vector<NumberedOperand> others;
   for (const auto& [kind, alike] : kinds) {
     if (alike.size() < kMany || !split(alike, result))
       others.insert(others.end(), alike.begin(), alike.end());
   }
   std::sort(others.begin(), others.end(), inOrder);
   Members rest;
-  for (const Numbered& e : others) rest.add(e.distance, e.number);
+  for (const NumberedOperand& e : others) rest.add(e.distance, e.number);
   if (!others.empty()) result.push_back(rest.joined());
   return result;
 }
 
-}  // namespace sdf::viewer
+}  // namespace sdf
