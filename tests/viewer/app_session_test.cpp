@@ -175,6 +175,23 @@ part("cube", box(x + 0.5))
   EXPECT_FALSE(session.controls.look.ambient);
 }
 
+// The scene that is shown lives while the next one is loaded, and both have one formula.
+TEST_F(SessionTest, ACorrectedLipschitzInAWatchedFileTakesEffect) {
+  const auto fieldOf = [](const char* lipschitz) {
+    return std::string(
+               "return field(function(x, y, z) return 3 * (length(x, y, z) - 1) end, "
+               "{bounds = {{-1, -1, -1}, {1, 1, 1}}, lipschitz = ") +
+           lipschitz + "})";
+  };
+  write(fieldOf("0.5"));
+  Session session = open();
+  EXPECT_EQ(slopeOf(session.scene().parts[0].shape), 0.5);
+  write(fieldOf("3"));
+  session.followFile();
+  EXPECT_EQ(session.message(), "");
+  EXPECT_NEAR(slopeOf(session.scene().parts[0].shape), 3.0, 1e-12);
+}
+
 TEST_F(SessionTest, ABrokenFileLeavesTheSceneAndNamesTheLine) {
   Session session = open();
   session.controls.parameters["x"] = 0.25;
