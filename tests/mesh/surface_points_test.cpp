@@ -104,7 +104,8 @@ Comparison compareWithWhole(const PointScene& scene) {
   Comparison c;
   Progress progress;
   forEachRun(
-      scene.points.size(), [&](std::size_t i) { return scene.points[i]; }, BandField(scene.band, scene.whole), progress,
+      scene.points.size(), [&](std::size_t i) { return scene.points[i]; }, BandField(scene.band, scene.whole),
+      progress,
       [&](const PointRun& run) {
         PointRows at;
         float local[kOutputs + 1][kBatchPoints], whole[kOutputs + 1][kBatchPoints];
@@ -200,8 +201,8 @@ TEST(ForEachRun, DoesNothingOnceStopped) {
   progress.stop();
   int runs = 0;
   forEachRun(
-      scene.points.size(), [&](std::size_t i) { return scene.points[i]; }, BandField(scene.band, scene.whole), progress,
-      [&](const PointRun&) { ++runs; });
+      scene.points.size(), [&](std::size_t i) { return scene.points[i]; }, BandField(scene.band, scene.whole),
+      progress, [&](const PointRun&) { ++runs; });
   EXPECT_EQ(runs, 0);
 }
 
