@@ -25,7 +25,8 @@ std::size_t tapesCompiled() { return compiled; }
 TapeCompiler::TapeCompiler(std::span<const Expr> outputs) {
   ++compiled;
   pool_->doubles = {0.0, 1.0};
-  literals_ = {{std::bit_cast<std::uint64_t>(0.0), kZero}, {std::bit_cast<std::uint64_t>(1.0), kOne}};
+  literals_.insert(std::bit_cast<std::uint64_t>(0.0), kZero);
+  literals_.insert(std::bit_cast<std::uint64_t>(1.0), kOne);
   gather(outputs);
   layOutUniform();
   chooseInstructions(outputs);
@@ -45,7 +46,9 @@ void TapeCompiler::use(const Expr& e) {
 }
 
 void TapeCompiler::gather(std::span<const Expr> outputs) {
-  for (Expr& e : topologicalOrder(outputs)) {
+  std::vector<Expr> order = topologicalOrder(outputs);
+  nodes_.reserve(order.size());
+  for (Expr& e : order) {
     if (e.op() == Op::Claim) continue;
     NodeInfo node;
     node.uniform = e.op() != Op::Variable;
@@ -56,7 +59,7 @@ void TapeCompiler::gather(std::span<const Expr> outputs) {
       ++nodes_[node.args[k]].uses;
       node.uniform = node.uniform && nodes_[node.args[k]].uniform;
     }
-    indices_.emplace(e.node(), static_cast<Index>(nodes_.size()));
+    indices_.insert(e.node(), static_cast<Index>(nodes_.size()));
     node.e = std::move(e);
     nodes_.push_back(std::move(node));
   }
@@ -64,10 +67,10 @@ void TapeCompiler::gather(std::span<const Expr> outputs) {
 }
 
 std::uint32_t TapeCompiler::literal(double v) {
-  const auto [it, fresh] = literals_.try_emplace(std::bit_cast<std::uint64_t>(v),
-                                                 static_cast<std::uint32_t>(pool_->doubles.size()));
+  const auto [place, fresh] =
+      literals_.insert(std::bit_cast<std::uint64_t>(v), static_cast<std::uint32_t>(pool_->doubles.size()));
   if (fresh) pool_->doubles.push_back(v);
-  return it->second;
+  return place;
 }
 
 // What depends on inputs alone is computed in double, once for all points.
@@ -140,7 +143,7 @@ TapeCompiler::Match TapeCompiler::match(Index i) const {
 // sqrt(a² + b²) - offset, sqrt(a² + b² + c²) - offset, and the latter with shifted arguments. Squares and
 // sums that others use as well are worked out again: that is cheaper than a pass through memory.
 TapeCompiler::Match TapeCompiler::matchLength(Index root, std::span<const Number> offset) const {
-  std::vector<Index> terms;
+  Indices terms;
   if (op(root) != Op::Sqrt || nodes_[root].uniform || !collectSquares(arg(root, 0), terms)) return {};
   // The fused operations add the first square last, as a² + (b² + c²) does. (a² + b²) + c² rounds otherwise.
   const Index sum = arg(root, 0);
@@ -162,7 +165,7 @@ TapeCompiler::Match TapeCompiler::matchLength(Index root, std::span<const Number
   return shifts >= 2 ? m : Match{Op::Length3, terms, {last}};
 }
 
-bool TapeCompiler::collectSquares(Index i, std::vector<Index>& terms) const {
+bool TapeCompiler::collectSquares(Index i, Indices& terms) const {
   if (op(i) == Op::Square) return terms.push_back(arg(i, 0)), terms.size() <= 3;
   if (op(i) == Op::Add) return collectSquares(arg(i, 0), terms) && collectSquares(arg(i, 1), terms);
   return false;

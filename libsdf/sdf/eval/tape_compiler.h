@@ -3,11 +3,12 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "sdf/base/flat_map.h"
 #include "sdf/eval/tape.h"
 
 namespace sdf {
@@ -20,6 +21,28 @@ struct UniformStep {
   Op op;
   std::array<std::uint32_t, kMaxArity> in;
   std::uint32_t out;
+};
+
+/// A list of at most N.
+template <class T, std::size_t N>
+class Few {
+ public:
+  Few() = default;
+  Few(std::initializer_list<T> all) {
+    for (const T& t : all) push_back(t);
+  }
+  void push_back(const T& t) { all_[size_++] = t; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T* begin() { return all_.data(); }
+  T* end() { return all_.data() + size_; }
+  const T* begin() const { return all_.data(); }
+  const T* end() const { return all_.data() + size_; }
+  const T& operator[](std::size_t i) const { return all_[i]; }
+
+ private:
+  std::array<T, N> all_{};
+  std::size_t size_ = 0;
 };
 
 /// An input's place in the pool.
@@ -57,10 +80,11 @@ class TapeCompiler {
     Index node = 0;
     bool negative = false;
   };
+  using Indices = Few<Index, kMaxArity>;
   struct Match {
     Op op = Op::Constant;
-    std::vector<Index> args;
-    std::vector<Number> numbers;
+    Indices args;
+    Few<Number, 4> numbers;
   };
   struct Shifted;
 
@@ -70,7 +94,8 @@ class TapeCompiler {
   void chooseInstructions(std::span<const Expr> outputs);
   Match match(Index i) const;
   Match matchLength(Index root, std::span<const Number> offset) const;
-  bool collectSquares(Index i, std::vector<Index>& terms) const;
+
+  bool collectSquares(Index i, Indices& terms) const;
   Shifted shifted(Index i) const;
   std::uint32_t literal(double v);
   std::uint32_t inPool(const Number& number);
@@ -82,9 +107,9 @@ class TapeCompiler {
   Index indexOf(const Expr& e) const { return indices_.at(e.unclaimed().node()); }
 
   std::vector<NodeInfo> nodes_;  // without claims, arguments before their users
-  std::unordered_map<const Node*, Index> indices_;
+  FlatMap<Index> indices_;
   std::vector<Match> matches_;  // by node
-  std::unordered_map<std::uint64_t, std::uint32_t> literals_;
+  FlatMap<std::uint32_t> literals_;
   std::vector<UniformStep> steps_;
   std::vector<InputPlace> inputs_;
   std::shared_ptr<Tape::Pool> pool_ = std::make_shared<Tape::Pool>();

@@ -12,6 +12,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "sdf/base/flat_map.h"
 #include "sdf/expr/apply-inl.h"
 
 namespace sdf {
@@ -287,10 +288,10 @@ Expr mix(const Expr& a, const Expr& b, const Expr& t) { return a == b ? a : a + 
 
 std::vector<Expr> topologicalOrder(std::span<const Expr> roots) {
   std::vector<Expr> order;
-  std::unordered_set<const Node*> seen;
+  FlatMap<bool> seen;
   std::vector<std::pair<Expr, int>> stack;
   for (const Expr& root : roots) {
-    if (!seen.insert(root.node()).second) continue;
+    if (!seen.insert(root.node(), true).second) continue;
     stack.emplace_back(root, 0);
     while (!stack.empty()) {
       auto& [e, next] = stack.back();
@@ -300,7 +301,7 @@ std::vector<Expr> topologicalOrder(std::span<const Expr> roots) {
         continue;
       }
       Expr child = e.arg(next++);
-      if (seen.insert(child.node()).second) stack.emplace_back(std::move(child), 0);
+      if (seen.insert(child.node(), true).second) stack.emplace_back(std::move(child), 0);
     }
   }
   return order;
