@@ -31,7 +31,7 @@ struct CpuRenderOptions {
   MarchOptions march{.method = MarchMethod::AutoRelaxed, .epsilon = 1e-6, .maxSteps = 100'000};
 };
 
-/// The picture, with the lighting that viewer/shaders draw. Values and time stand at their present
+/// The picture, with the lighting that viewer/shaders draw. Parameters and time stand at their present
 /// values. Rays that run out of steps or meet what is not a number show the background. Throws
 /// std::runtime_error where sdf/march refuses the scene. Cost: about a second for 160 x 90 rays of a scene
 /// with shadows; the rows are shared out among the machine's threads.

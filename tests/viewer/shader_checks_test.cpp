@@ -9,7 +9,6 @@
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
-#include "viewer/gpu/uniforms.h"
 #include "viewer/shaders/assemble.h"
 #include "viewer/shaders/parts.h"
 #include "viewer/shaders/source.h"

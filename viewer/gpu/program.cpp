@@ -4,11 +4,11 @@
 
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
+#include <regex>
 #include <stdexcept>
 
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/shader_log.h"
-#include "viewer/gpu/uniforms.h"
 
 namespace sdf::viewer {
 namespace {
@@ -86,6 +86,17 @@ Result<Handle> compile(GLenum kind, const char* name, const std::string& source)
 }
 
 }  // namespace
+
+std::set<std::string> declaredUniforms(const std::string& source) {
+  static const std::regex declaration("(?:^|[;\\n])\\s*uniform\\s+\\w+\\s([^;]*)"), name("(\\w+)[^,]*");
+  std::set<std::string> names;
+  for (std::sregex_iterator list(source.begin(), source.end(), declaration), end; list != end; ++list) {
+    const std::string declarators = (*list)[1];
+    for (std::sregex_iterator one(declarators.begin(), declarators.end(), name); one != end; ++one)
+      names.insert((*one)[1]);
+  }
+  return names;
+}
 
 #ifdef NDEBUG
 bool Program::strict = false;

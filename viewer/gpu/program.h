@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -13,6 +14,9 @@
 #include "viewer/gpu/handle.h"
 
 namespace sdf::viewer {
+
+/// The names of the uniforms that a shader's source declares, arrays without their brackets.
+std::set<std::string> declaredUniforms(const std::string& source);
 
 /// A vertex and a fragment shader, linked. OpenGL itself lets uniforms be set that the shaders do not have,
 /// and gives those that were never set some value; `strict` finds both.

@@ -51,9 +51,16 @@ bool startsHere(const Plan& plan) {
   return plan.cones && plan.groups.empty() && plan.options.view != View::Slice;
 }
 
+// Shadows of these kinds are looked for between the half spaces and the rest.
+bool readsRest(const Plan& plan) {
+  return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft;
+}
+
+const Box& boundsOfRest(const Plan& plan) { return plan.rest ? plan.rest->bounds : plan.whole.bounds; }
+
 Macros pictureMacros(const Scene& scene, const Plan& plan) {
   const bool taps = plan.occlusion == OcclusionKind::Taps, steps = plan.occlusion == OcclusionKind::Steps;
-  const Box bounds = plan.rest ? plan.rest->bounds : plan.whole.bounds;
+  const Box& bounds = boundsOfRest(plan);
   Macros macros = countingMacros(plan.options.countReadings);
   macros["ENCODE(c)"] = encoding(scene, plan);
   macros["BOX_MIN"] = vector(bounds.min);
@@ -80,63 +87,34 @@ Macros pictureMacros(const Scene& scene, const Plan& plan) {
 }
 
 std::string shadowParts(const Plan& plan) {
-  const std::string settings = parts::kShadowSettings;
-  const Box bounds = plan.rest ? plan.rest->bounds : plan.whole.bounds;
-  const std::string span = std::string(bounds.finite() ? parts::kShadowSpan : parts::kNoShadowSpan) +
-                           (plan.planes.empty() ? parts::kNoPlanesLight : parts::kPlanesLight);
-  switch (plan.shadow) {
-    case ShadowKind::None:
-      return "";
-    case ShadowKind::Hard:
-      return span + settings + parts::kHardShadow;
-    case ShadowKind::Soft:
-      return span + settings + parts::kSoftShadow;
-    case ShadowKind::Improved:
-      return settings + parts::kImprovedShadow;
-    case ShadowKind::Signed:
-      break;
-  }
-  return settings + parts::kSignedShadow;
-}
-
-std::string occlusionParts(const Plan& plan) {
-  switch (plan.occlusion) {
-    case OcclusionKind::None:
-      return "";
-    case OcclusionKind::Taps:
-      return parts::kOcclusionTaps;
-    case OcclusionKind::Steps:
-      break;
-  }
-  return parts::kOcclusionSteps;
+  if (plan.shadow == ShadowKind::None) return "";
+  const char* const kinds[] = {"", parts::kHardShadow, parts::kSoftShadow, parts::kImprovedShadow,
+                               parts::kSignedShadow};
+  const std::string shadow = parts::kShadowSettings + std::string(kinds[static_cast<int>(plan.shadow)]);
+  if (!readsRest(plan)) return shadow;
+  return (boundsOfRest(plan).finite() ? parts::kShadowSpan : parts::kNoShadowSpan) +
+         std::string(plan.planes.empty() ? parts::kNoPlanesLight : parts::kPlanesLight) + shadow;
 }
 
 // Those that define colorOf(ray, spent), beside what it calls.
 std::string colorParts(const Plan& plan) {
-  const std::string nothing = parts::kNothing, hit = parts::kHitColor;
-  switch (plan.options.view) {
-    case View::Steps:
-      return parts::kStepsView + hit;
-    case View::Slice:
-      return nothing + parts::kSliceView;
-    case View::Normals:
-      return nothing + parts::kNormalsView + hit;
-    case View::Gradient:
-      return nothing + parts::kGradientView + hit;
-    case View::Occlusion:
-      return nothing + parts::kOcclusionView + hit;
-    case View::Material:
-      return nothing + parts::kMaterialView + hit;
-    case View::Shadow:
-      return nothing + (plan.shadow == ShadowKind::None ? parts::kHitsView : parts::kShadowView) + hit;
-    default:
-      return (plan.lights ? parts::kLights : "") + std::string(parts::kRadiance);
-  }
+  if (plan.options.view == View::Picture)
+    return (plan.lights ? parts::kLights : "") + std::string(parts::kRadiance);
+  const char* const shadows = plan.shadow == ShadowKind::None ? parts::kHitsView : parts::kShadowView;
+  const char* const views[] = {"",
+                               parts::kNormalsView,
+                               parts::kStepsView,
+                               parts::kSliceView,
+                               parts::kGradientView,
+                               parts::kMaterialView,
+                               parts::kOcclusionView,
+                               shadows};
+  const std::string view = views[static_cast<int>(plan.options.view)];
+  return parts::kNothing + view + (plan.options.view == View::Slice ? "" : parts::kHitColor);
 }
 
 std::string pictureBody(const Scene& scene, const Plan& plan) {
   const bool meets = (plan.groups.empty() && plan.options.view != View::Slice) || plan.bounces > 0;
-  const bool readsRest = plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft;
   const bool readsField = plan.occlusion == OcclusionKind::Taps || plan.shadow == ShadowKind::Improved ||
                           plan.shadow == ShadowKind::Signed;
   std::string text = std::string(parts::kCamera) + parts::kHit;
@@ -145,13 +123,14 @@ std::string pictureBody(const Scene& scene, const Plan& plan) {
   if (!plan.groups.empty()) text += parts::kHitFromLayers;
   if (meets)
     text += meeting(obstaclesOf(plan));
-  else if (readsRest)
+  else if (readsRest(plan))
     text += parts::kRest;
   if (readsField) text += parts::kField;
   if (plan.filters) text += parts::kFootprint;
   if (plan.lights) text += parts::kLightSettings;
-  return text + shadowParts(plan) + occlusionParts(plan) + colorParts(plan) + encoder(scene, plan) +
-         parts::kPicture;
+  const char* const occlusions[] = {"", parts::kOcclusionTaps, parts::kOcclusionSteps};
+  text += occlusions[static_cast<int>(plan.occlusion)];
+  return text + shadowParts(plan) + colorParts(plan) + encoder(scene, plan) + parts::kPicture;
 }
 
 Shader picture(const Scene& scene, const Plan& plan, GlslWriter writer) {
@@ -160,9 +139,7 @@ Shader picture(const Scene& scene, const Plan& plan, GlslWriter writer) {
   macros.merge(meetingMacros(obstacles, plan));
   Functions functions = meetingFunctions(obstacles);
   functions["sdfSurface"] = [&] { return plan.surface; };
-  functions["sdfBackground"] = [&] {
-    return std::vector{scene.background.x, scene.background.y, scene.background.z};
-  };
+  functions["sdfBackground"] = [&] { return partsOf(scene.background); };
   std::string globals;
   if (!plan.operands.empty()) {
     globals += "float operand = 0.0;\n";
@@ -178,9 +155,7 @@ Shader picture(const Scene& scene, const Plan& plan, GlslWriter writer) {
 }
 
 Shader background(const Scene& scene, const Plan& plan) {
-  const Functions functions{{"sdfBackground", [&] {
-                               return std::vector{scene.background.x, scene.background.y, scene.background.z};
-                             }}};
+  const Functions functions{{"sdfBackground", [&] { return partsOf(scene.background); }}};
   Macros macros = pictureMacros(scene, plan);
   macros["START_RAY"] = "";
   Composer composer(plan.options.es, macros, functions, {});

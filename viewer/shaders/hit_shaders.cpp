@@ -47,41 +47,29 @@ std::string farEnd(const Box& bounds) {
          "  return widening < 0.5 ? clamp(reach / (1.0 - widening), 0.0, maxDistance) : maxDistance;\n}\n";
 }
 
-Composer composerOf(const Obstacles& obstacles, double share, bool cones, const Plan& plan) {
+/// Which shaders of a pass there are, and the share of one of the whole that one of its readings counts as.
+struct Parts {
+  bool cones, hits;
+  double share = 1.0;
+};
+
+HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& plan) {
   Macros macros = meetingMacros(obstacles, plan);
   macros["OPERANDS"] = number(static_cast<double>(std::max<std::size_t>(plan.operands.size(), 1)));
-  macros["SHARE"] = number(share);
-  macros["START_RAY"] = cones ? "startRay(ray);" : "";
+  macros["SHARE"] = number(wanted.share);
+  macros["START_RAY"] = wanted.cones ? "startRay(ray);" : "";
+  const bool counted = plan.options.countReadings;
   macros["STORE_COUNTS"] =
-      plan.options.countReadings ? "counts = vec4(weight * SHARE * float(hit.readings), 0.0, 0.0, 0.0);" : "";
-  return {plan.options.es, macros, meetingFunctions(obstacles), {}};
-}
-
-std::string conesOf(const Obstacles& obstacles, Composer& composer) {
-  return composer.compose(std::string(parts::kCamera) + parts::kRest + farEnd(obstacles.whole.bounds) +
-                          parts::kCones);
-}
-
-std::string hitsOf(const Obstacles& obstacles, bool cones, const Plan& plan, Composer& composer) {
-  return composer.compose(std::string(parts::kCamera) + parts::kHit + meeting(obstacles) +
-                          (cones ? parts::kStarts : "") +
-                          (plan.options.countReadings ? parts::kHitCounts : "") + parts::kHits);
-}
-
-// A reading counts as the share of one of the whole that the group's operations are.
-HitShaders passOf(const OperandGroup& group, double share, const Plan& plan) {
-  const Obstacles obstacles = obstaclesOf(group, plan);
-  Composer composer = composerOf(obstacles, share, true, plan);
-  HitShaders pass{.cones = conesOf(obstacles, composer)};
-  pass.hits = hitsOf(obstacles, true, plan, composer);
-  pass.uniforms.push_back(composer.uniforms());
-  return pass;
-}
-
-HitShaders passOfPlanes(const Plan& plan) {
-  const Obstacles planes = planesOf(plan);
-  Composer composer = composerOf(planes, 0.0, false, plan);
-  HitShaders pass{.hits = hitsOf(planes, false, plan, composer)};
+      counted ? "counts = vec4(weight * SHARE * float(hit.readings), 0.0, 0.0, 0.0);" : "";
+  Composer composer(plan.options.es, macros, meetingFunctions(obstacles), {});
+  const std::string camera = parts::kCamera;
+  HitShaders pass;
+  if (wanted.cones)
+    pass.cones = composer.compose(camera + parts::kRest + farEnd(obstacles.whole.bounds) + parts::kCones);
+  if (wanted.hits)
+    pass.hits =
+        composer.compose(camera + parts::kHit + meeting(obstacles) + (wanted.cones ? parts::kStarts : "") +
+                         (counted ? parts::kHitCounts : "") + parts::kHits);
   pass.uniforms.push_back(composer.uniforms());
   return pass;
 }
@@ -95,9 +83,8 @@ Obstacles obstaclesOf(const Plan& plan) {
 }
 
 std::string gradients(const Expr& distance) {
-  const Vec3E g = gradientOf(distance);
-  const Expr all[] = {g.x, g.y, g.z};
-  return topologicalOrder(all).size() > kLongProgram ? parts::kGradientByTaps : parts::kGradient;
+  const bool isLong = topologicalOrder(partsOf(gradientOf(distance))).size() > kLongProgram;
+  return isLong ? parts::kGradientByTaps : parts::kGradient;
 }
 
 std::string meeting(const Obstacles& obstacles) {
@@ -124,23 +111,15 @@ Functions meetingFunctions(const Obstacles& obstacles) {
       outputs.insert(outputs.end(), {plane.height, plane.climb});
     return outputs;
   };
-  const auto gradient = [=] {
-    const Vec3E g = gradientOf(obstacles.whole.distance);
-    return std::vector{g.x, g.y, g.z};
-  };
   return {{"sdfDistance", [=] { return std::vector{obstacles.whole.distance}; }},
           {"sdfRest", [=] { return std::vector{obstacles.rest->distance}; }},
           {"sdfPlanes", planes},
-          {"sdfGradient", gradient},
+          {"sdfGradient", [=] { return partsOf(gradientOf(obstacles.whole.distance)); }},
           {"sdfOperand", [=] { return std::vector{*obstacles.operand}; }}};
 }
 
 HitShaders startShaders(const Plan& plan) {
-  const Obstacles obstacles = obstaclesOf(plan);
-  Composer composer = composerOf(obstacles, 1.0, true, plan);
-  HitShaders pass{.cones = conesOf(obstacles, composer)};
-  pass.uniforms.push_back(composer.uniforms());
-  return pass;
+  return passOf(obstaclesOf(plan), {.cones = true, .hits = false}, plan);
 }
 
 std::vector<HitShaders> groupShaders(const Plan& plan) {
@@ -149,14 +128,16 @@ std::vector<HitShaders> groupShaders(const Plan& plan) {
   for (const OperandGroup& group : plan.groups) whole += operations(group.distance);
   std::vector<HitShaders> result;
   for (const OperandGroup& group : plan.groups) {
-    HitShaders pass = passOf(group, operations(group.distance) / whole, plan);
+    const Parts both{.cones = true, .hits = true, .share = operations(group.distance) / whole};
+    HitShaders pass = passOf(obstaclesOf(group, plan), both, plan);
     if (pass.uniforms.front().outputs().size() > kMostUniforms) return {};
     if (result.empty() || result.back().hits != pass.hits)
       result.push_back(std::move(pass));
     else
       result.back().uniforms.push_back(std::move(pass.uniforms.front()));
   }
-  if (!plan.planes.empty() && !result.empty()) result.push_back(passOfPlanes(plan));
+  if (!plan.planes.empty() && !result.empty())
+    result.push_back(passOf(planesOf(plan), {.cones = false, .hits = true, .share = 0.0}, plan));
   return result;
 }
 

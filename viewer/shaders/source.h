@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sdf/eval/glsl.h"
+#include "sdf/expr/vec.h"
 
 namespace sdf::viewer {
 
@@ -24,6 +25,9 @@ std::string vector(const glm::dvec3& v);
 
 /// The name of a parameter that no scene has.
 inline std::string hidden(const std::string& name) { return '\x01' + name; }
+
+/// A vector's components as outputs of one function.
+inline std::vector<Expr> partsOf(const Vec3E& v) { return {v.x, v.y, v.z}; }
 
 /// The definitions of macros by their names, parameters included, as in "ENCODE(c)".
 using Macros = std::map<std::string, std::string>;
