@@ -75,7 +75,7 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
   }
 }
 
-void PrimaryHits::drawFineStarts(const Shot& shot) const {
+void PrimaryHits::drawFineStarts(const Shot&) const {
   const Program& cones = *passes_[draws_.front().pass].cones;
   fine_->bind();
   coarse_->bindTexture(0);

@@ -77,7 +77,9 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   const Shape whole = scene.whole();
   auto wholeMarched = marched(whole);
   if (!wholeMarched) return wholeMarched.error();
-  Plan plan{.options = options, .whole = std::move(*wholeMarched)};
+  Plan plan;
+  plan.options = options;
+  plan.whole = std::move(*wholeMarched);
   // Occlusion by steps counts the readings of the whole.
   const bool stepsCount = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps;
   const bool isPicture = options.view == View::Picture;
