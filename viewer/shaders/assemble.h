@@ -18,9 +18,9 @@ struct Shader {
 /// The fragment shaders of a pass that looks where the rays of each tile start and, if it is one of those by
 /// which a wide union is drawn, what they hit.
 struct HitShaders {
-  std::string cones;  ///< the starts; empty: all rays start at the eye
-  std::string hits;   ///< fills the layers of hits (parts::kHits); empty: the picture's shader marches
-  std::vector<Function> uniforms;  ///< the pass is drawn once with the values of each
+  std::string cones{};  ///< the starts; empty: all rays start at the eye
+  std::string hits{};   ///< fills the layers of hits (parts::kHits); empty: the picture's shader marches
+  std::vector<Function> uniforms{};  ///< the pass is drawn once with the values of each
 };
 
 /// The fragment shaders that draw a scene, one pass after the other; see parts.h for their uniforms.
