@@ -8,8 +8,8 @@
 #include "fuzz/targets.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/gltf/view.h"
-#include "sdf/mesh/color.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/model/model.h"
 
 namespace sdf::fuzz {
 namespace {
@@ -56,7 +56,7 @@ void checkError(const Error& error) {
 void touch(const Part& part) {
   if (part.name.empty()) find("a part without a name");
   const Shape& shape = part.shape;
-  const Tape tape(surfaceOutputs(shape));
+  const Tape tape = *Model(shape).at().whole();
   for (const glm::dvec3& p : {glm::dvec3(0.0), glm::dvec3(0.25, -1.5, 3.0), glm::dvec3(-1e4)}) {
     evaluateAll(tape, p);
     evaluateGradient(tape, p);

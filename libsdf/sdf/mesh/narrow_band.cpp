@@ -465,7 +465,6 @@ NarrowBand::NarrowBand(NarrowBand&&) noexcept = default;
 NarrowBand& NarrowBand::operator=(NarrowBand&&) noexcept = default;
 
 double NarrowBand::voxelSize() const { return grid_->voxelSize; }
-std::size_t NarrowBand::leafCount() const { return grid_->tapes.size(); }
 std::uint64_t NarrowBand::sampleCount() const { return grid_->samples; }
 const NarrowBand::NotNumbers& NarrowBand::notNumbers() const { return grid_->notNumbers; }
 

@@ -28,7 +28,6 @@ class NarrowBand {
   NarrowBand& operator=(NarrowBand&&) noexcept;
 
   double voxelSize() const;
-  std::size_t leafCount() const;
   /// Distance samples taken, those of coarse cells included.
   std::uint64_t sampleCount() const;
   /// Samples next to which the surface may lie whose value is not a number, and the first of them.
