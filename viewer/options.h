@@ -11,6 +11,7 @@
 
 namespace sdf::viewer {
 
+/// Options are what the command line says, with defaults for what it does not.
 struct Options {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> picture, glsl;
@@ -26,7 +27,7 @@ struct Options {
   Values parameters;
 };
 
-/// Errors: Usage.
+/// Reads the command line, or answers it where it asks for help or the version. Errors: Usage.
 Result<std::variant<Options, command_line::Answer>> parseOptions(int argc, const char* const* argv);
 
 }  // namespace sdf::viewer

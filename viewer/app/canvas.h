@@ -8,7 +8,7 @@
 
 namespace sdf::viewer {
 
-/// What the last frame was.
+/// FrameStatistics says what the last frame was.
 struct FrameStatistics {
   int width = 0, height = 0;         ///< pixels drawn
   int samples = 1;                   ///< a side
@@ -16,26 +16,27 @@ struct FrameStatistics {
   std::optional<double> outOfSteps;  ///< share of pixels whose ray ran out of steps; of whole pictures only
 };
 
-/// Works in the current context, which must be the same for its whole life.
+/// A Canvas keeps the picture that the window shows, in the context that is current, which must be the same
+/// for its whole life.
 class Canvas {
  public:
-  /// Seconds without a change after which a picture is drawn with all pixels and samples.
+  /// The seconds without a change after which a picture is drawn with all pixels and samples.
   static constexpr double kStill = 0.15;
 
   /// Draws the settled session for a window of this size if the picture is not what it should be at this time
-  /// (of any clock, seconds). Is the picture another one now? A window of 0 pixels, being minimised, keeps
-  /// the picture that it had. Errors: Limits, Graphics.
+  /// (of any clock, seconds), and returns whether the picture is another one now. A window of 0 pixels, being
+  /// minimised, keeps the picture that it had. Errors: Limits, Graphics.
   Result<bool> update(Session& session, int width, int height, double now);
 
-  /// Has the last picture all its pixels and samples? Otherwise another update is due, kStill after the last
-  /// change.
+  /// Whether the last picture has all its pixels and samples; otherwise another update is due, kStill after
+  /// the last change.
   bool whole() const { return whole_; }
 
   /// Copies the picture, if there is one, to the window that is current.
   void show() const;
 
-  /// The whole picture, RGB, drawn now if it is not there yet. Errors: as update; Limits before the first
-  /// update.
+  /// Returns the whole picture, RGB, which is drawn now if it is not there yet. Errors: as update; Limits
+  /// before the first update.
   Result<Picture> picture(Session& session);
 
   const FrameStatistics& statistics() const { return statistics_; }

@@ -9,14 +9,14 @@
 
 namespace sdf::viewer {
 
-/// Needs a Dear ImGui context with a frame begun; draws nothing itself.
+/// The Gui lays the panels out in a Dear ImGui context whose frame was begun; it draws nothing itself.
 class Gui {
  public:
   explicit Gui(std::string picture) : pictureName(std::move(picture)) {}
 
-  /// All panels. What the user does in them changes the session's controls, or is requested.
+  /// Lays out all panels. What the user does in them changes the session's controls, or is requested.
   void panels(Session& session, const Canvas& canvas, Requests& requests);
-  /// What is wrong, over the picture; nothing if all is well.
+  /// Says over the picture what is wrong, if anything is.
   void overlay(const Session& session) const;
 
   std::string pictureName;           ///< of the file to save

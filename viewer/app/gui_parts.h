@@ -4,6 +4,7 @@
 
 namespace sdf::viewer {
 
+/// Each lays out the controls of one kind of thing.
 void parameterSliders(Session& session);
 void lightPanel(Session& session);
 void materialPanel(Session& session);

@@ -8,21 +8,22 @@
 
 namespace sdf::viewer {
 
-/// Drags: left orbits, middle or shift and left pans, right turns the camera; the wheel goes nearer. Keys: W
-/// A S D E Q fly, 1 to 6 look from the sides, 0 through the scene's camera, space plays and pauses, V shows
-/// the next view, Tab hides the panels, P saves the picture, C copies the camera, M counts readings, Escape
-/// ends. Keys, buttons, actions and modifiers are GLFW's numbers.
+/// Input turns keys, buttons and the pointer into changes of a session. Drags: left orbits, middle or shift
+/// and left pans, right turns the camera; the wheel goes nearer. Keys: W A S D E Q fly, 1 to 6 look from the
+/// sides, 0 through the scene's camera, space plays and pauses, V shows the next view, Tab hides the panels,
+/// P saves the picture, C copies the camera, M counts readings, Escape ends. Keys, buttons, actions and
+/// modifiers are GLFW's numbers.
 class Input {
  public:
   void key(int key, int action, Session& session, Requests& requests);
   void button(int button, int action, int modifiers);
-  /// The pointer's place in a window of this height, in the same unit, from the top left.
+  /// Moves the pointer to a place in a window of this height, in the same unit, from the top left.
   void cursor(glm::dvec2 place, double windowHeight, Session& session);
   void scroll(double steps, Session& session);
   /// Lets go of all keys and buttons, as when another window gets them.
   void release();
 
-  /// Moves on for as long as keys that fly are held.
+  /// Moves the camera on for as long as keys that fly are held.
   void fly(double seconds, Session& session) const;
   bool flying() const { return !held_.empty(); }
   bool panelsHidden() const { return panelsHidden_; }

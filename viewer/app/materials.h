@@ -8,11 +8,11 @@
 
 namespace sdf::viewer {
 
-/// One number of a part's surface as a parameter, if it is the same all over the part; no scene can have a
-/// parameter of its name.
+/// Returns one number of a part's surface as a parameter, if it is the same all over the part; no scene can
+/// have a parameter of its name.
 std::optional<ParameterInfo> surfaceParameter(const Part& part, Attribute attribute);
 
-/// The scene with these parts' surface numbers as parameters where they can be.
+/// Returns the scene with these parts' surface numbers as parameters where they can be.
 Scene withSurfaceParameters(Scene scene, const std::set<std::string>& parts);
 
 }  // namespace sdf::viewer

@@ -18,17 +18,18 @@ Eye turned(Eye eye, glm::dvec2 drag);
 /// Shifts the camera so that what it looks at follows the drag.
 Eye panned(Eye eye, glm::dvec2 drag);
 
-/// Goes a tenth of the way to what it looks at for each step; back for negative ones. Never gets there.
+/// Moves the camera a tenth of the way to what it looks at for each step, which it never reaches; back for
+/// negative steps.
 Eye dollied(Eye eye, double steps);
 
-/// Flies: x to the picture's right, y up, z along the view, in distances to what it looks at.
+/// Moves the camera: x to the picture's right, y up, z along the view, in distances to what it looks at.
 Eye flown(Eye eye, const glm::dvec3& way);
 
-/// Where a view key looks from. Of a scene whose up is y, Front is +z and Right +x; of one with z up, Front
-/// is -y.
+/// The side from which a view key looks. Of a scene whose up is y, Front is +z and Right +x; of one with z
+/// up, Front is -y.
 enum class Side { Front, Back, Left, Right, Top, Bottom };
 
-/// From that side, as far away as now.
+/// Places the camera on that side, as far away as now.
 Eye seenFrom(Eye eye, Side side);
 
 }  // namespace sdf::viewer

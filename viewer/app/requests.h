@@ -3,6 +3,7 @@
 
 namespace sdf::viewer {
 
+/// Requests are what is to be done at the next turn.
 struct Requests {
   bool savePicture = false;  ///< as the file that the panel names
   bool copyCamera = false;   ///< as scene text, to the clipboard

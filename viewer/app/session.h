@@ -11,7 +11,7 @@
 
 namespace sdf::viewer {
 
-/// What a session begins with.
+/// SessionOptions are what a session begins with.
 struct SessionOptions {
   std::filesystem::path scene;
   Values overrides;   ///< without "time"
@@ -23,7 +23,7 @@ struct SessionOptions {
   std::optional<Eye> eye;  ///< none: the scene's camera
 };
 
-/// Changes of the look; what is not here is as in the scene.
+/// LookEdits are changes of the look; what is not here is as in the scene.
 struct LookEdits {
   std::map<std::size_t, LookLight> lights;  ///< by index
   std::optional<glm::vec3> ambient, fogColor;
@@ -31,7 +31,7 @@ struct LookEdits {
   bool operator==(const LookEdits&) const = default;
 };
 
-/// All that the user can change. Equal controls of the same scene give the same picture.
+/// Controls are all that the user can change. Equal controls of the same scene give the same picture.
 struct Controls {
   Values parameters;                      ///< those moved, by name; without "time"
   Values materials;                       ///< surface parameters that were moved, by name
@@ -46,13 +46,13 @@ struct Controls {
   bool operator==(const Controls&) const = default;
 };
 
-/// Works in the current context, which must be the same for its whole life.
+/// A Session works in the context that is current, which must be the same for its whole life.
 class Session {
  public:
-  /// Errors: those of loadScene and of Renderer::make.
+  /// Loads the scene and compiles its shaders. Errors: those of loadScene and of Renderer::make.
   static Result<Session> open(const SessionOptions& options);
 
-  /// For everyone to change; settle() then sees to it.
+  /// The controls are for everyone to change; settle() then makes the picture fit them.
   Controls controls;
   bool playing = false;
 
@@ -69,18 +69,18 @@ class Session {
   /// camera and the clock stay, edits of the look and of materials give way to what the file says. On an
   /// error the scene stays, and message() says what is wrong, and in which line.
   void followFile();
-  /// The same, whether written or not.
+  /// Loads the scene again like followFile, whether its file was written or not.
   void reload();
-  /// All parameters as the file has them.
+  /// Gives all parameters the values that the file has.
   void resetParameters();
 
   const Scene& scene() const { return scene_; }
   const std::filesystem::path& file() const { return file_; }
-  /// What is wrong with the file or else with what the controls last asked for; "" if all is well.
+  /// Says what is wrong with the file or else with what the controls last asked for; "" if all is well.
   const std::string& message() const { return fileMessage_.empty() ? buildMessage_ : fileMessage_; }
   Renderer& renderer() { return renderer_; }
   const Renderer& renderer() const { return renderer_; }
-  /// How often shaders were compiled: a picture drawn at another count is of another scene.
+  /// Counts how often shaders were compiled: a picture drawn at another count is of another scene.
   int compilations() const { return compilations_; }
 
   bool hasClock() const;
@@ -89,7 +89,8 @@ class Session {
   Eye eye() const { return look().eye; }
   Frame frame() const;
 
-  /// Readings of the present picture at this size. Compiles shaders that count. Errors: Limits, Graphics.
+  /// Measures the readings of the present picture at this size, for which it compiles shaders that count.
+  /// Errors: Limits, Graphics.
   Result<Readings> measure(int width, int height) const;
 
  private:

@@ -7,13 +7,13 @@
 
 namespace sdf::viewer {
 
-/// Watches one file by its time of writing and its size. Scenes load no other files.
+/// A Watch looks at one file by its time of writing and its size. Scenes load no other files.
 class Watch {
  public:
   explicit Watch(std::filesystem::path file);
 
-  /// Has it been written since this was last asked, or since the beginning? A file that is missing, as while
-  /// an editor replaces it, counts once it is back.
+  /// Whether the file has been written since this was last asked, or since the beginning. A file that is
+  /// missing, as while an editor replaces it, counts once it is back.
   bool written();
 
  private:

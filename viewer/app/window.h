@@ -10,24 +10,25 @@ struct GLFWwindow;
 
 namespace sdf::viewer {
 
+/// WindowOptions are what a window begins with.
 struct WindowOptions {
   SessionOptions session;
   int width = 1280, height = 720;
 };
 
-/// Shows the scene until the window is closed. Must be called on the main thread. Errors: Graphics where no
-/// window can be opened, those of Session::open, and what goes wrong while it draws.
+/// Shows the scene until the window is closed. It must be called on the main thread. Errors: Graphics where
+/// no window can be opened, those of Session::open, and what goes wrong while it draws.
 Status runWindow(const WindowOptions& options);
 
-/// What runWindow runs.
+/// A Window is what runWindow runs: one turn after the other.
 class Window {
  public:
-  /// Errors: as runWindow.
+  /// Opens the window. Errors: as runWindow.
   static Result<std::unique_ptr<Window>> open(const WindowOptions& options);
   ~Window();
 
-  /// Waits until something happens or a little longer, and shows what came of it. False once the window is to
-  /// close.
+  /// Waits until something happens or a little longer, and shows what came of it. Returns false once the
+  /// window is to close.
   Result<bool> turn();
 
   Session& session() { return session_; }

@@ -8,7 +8,7 @@
 
 namespace sdf::viewer {
 
-/// What draws, and how far it reaches.
+/// A Driver is what draws in a context, and how far it reaches.
 struct Driver {
   std::string renderer, vendor;  ///< as the driver names them, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
   int version = 0;               ///< of OpenGL: 45 for 4.5
@@ -16,35 +16,36 @@ struct Driver {
   int mostHeight = 0;            ///< rows a target may have
 };
 
-/// The driver of the current context.
+/// Asks for the driver of the current context.
 Driver currentDriver();
 
-/// How a context without a visible window comes about.
+/// The ways in which a context without a visible window comes about.
 enum class Way { Surfaceless, Device, HiddenWindow };
 
-/// An OpenGL core context of 4.5, 4.3 or 3.3, the highest to be had, that loses itself rather than hang when
-/// the GPU is reset, where the driver can. It is current in the thread that opened it.
+/// A Context is an OpenGL core context of 4.5, 4.3 or 3.3, the highest to be had, that loses itself rather
+/// than hang when the GPU is reset, where the driver can. It is current in the thread that opened it.
 class Context {
  public:
-  /// EGL's surfaceless platform, else an EGL device, else a hidden window, which needs X and the main thread.
-  /// Devices come first where one is a GPU: Mesa's surfaceless platform would draw in software beside another
-  /// maker's driver. Errors: Graphics, with why each way failed and what to install.
+  /// Opens a context on EGL's surfaceless platform, else on an EGL device, else in a hidden window, which
+  /// needs X and the main thread. Devices come first where one is a GPU: Mesa's surfaceless platform would
+  /// draw in software beside another maker's driver. Errors: Graphics, with why each way failed and what to
+  /// install.
   static Result<std::unique_ptr<Context>> headless();
 
-  /// That way only. Errors: Graphics, with why not.
+  /// Opens a context in that way only. Errors: Graphics, with why not.
   static Result<std::unique_ptr<Context>> open(Way way);
 
   virtual ~Context() = default;
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// For the calling thread. Errors: Graphics.
+  /// Makes the context current in the calling thread. Errors: Graphics.
   virtual Status makeCurrent() = 0;
 
   Way way() const { return way_; }
   const Driver& driver() const { return driver_; }
 
-  /// One line: what draws, the version of OpenGL and the way here.
+  /// Says in one line what draws, the version of OpenGL and the way here.
   std::string description() const;
 
  protected:
@@ -55,11 +56,11 @@ class Context {
   Driver driver_;
 };
 
-/// What OpenGL has to report since the last call, as an error: "cannot DOING: WHY". Waits for nothing: a draw
-/// that is still under way reports later. Errors: Limits if memory ran out, else Graphics.
+/// Returns what OpenGL has to report since the last call, as an error: "cannot DOING: WHY". It waits for
+/// nothing: a draw that is still under way reports later. Errors: Limits if memory ran out, else Graphics.
 Status check(const std::string& doing);
 
-/// What check returns for a value of glGetError.
+/// Returns what check does for a value of glGetError.
 Status statusOf(unsigned glError, const std::string& doing);
 
 }  // namespace sdf::viewer

@@ -4,7 +4,7 @@
 
 namespace sdf::viewer {
 
-/// The one of the least depth. For targets with depth.
+/// Lets the fragment of the least depth win, in targets that have depth.
 class NearestWins {
  public:
   NearestWins();
@@ -13,7 +13,7 @@ class NearestWins {
   NearestWins& operator=(const NearestWins&) = delete;
 };
 
-/// The sum of all.
+/// Adds up the values of all fragments.
 class SumOfAll {
  public:
   SumOfAll();
@@ -22,7 +22,7 @@ class SumOfAll {
   SumOfAll& operator=(const SumOfAll&) = delete;
 };
 
-/// Into one layer only; the others stay as they are.
+/// Lets fragments into one layer only; the others stay as they are.
 class OneLayer {
  public:
   explicit OneLayer(int layer);

@@ -4,7 +4,8 @@
 
 namespace sdf::viewer {
 
-/// One object of OpenGL, deleted at the end, which must come while its context is current.
+/// A Handle owns one object of OpenGL and deletes it at its end, which must come while its context is
+/// current.
 class Handle {
  public:
   using Delete = void (*)(unsigned id);

@@ -5,7 +5,7 @@
 
 namespace sdf::viewer {
 
-/// Rows from the top, pixels from the left, `channels` bytes each, nothing between them.
+/// A Picture holds rows from the top, pixels from the left, `channels` bytes each, nothing between them.
 struct Picture {
   int width = 0, height = 0;
   int channels = 0;  ///< 3: RGB, 4: RGBA (alpha not premultiplied)

@@ -15,37 +15,39 @@
 
 namespace sdf::viewer {
 
-/// The names of the uniforms that a shader's source declares, arrays without their brackets.
+/// Finds the names of the uniforms that a shader's source declares, arrays without their brackets.
 std::set<std::string> declaredUniforms(const std::string& source);
 
-/// A vertex and a fragment shader, linked. OpenGL itself lets uniforms be set that the shaders do not have,
-/// and gives those that were never set some value; `strict` finds both.
+/// A Program is a vertex and a fragment shader, linked. OpenGL itself lets uniforms be set that the shaders
+/// do not have, and gives those that were never set some value; `strict` finds both.
 class Program {
  public:
   /// Whether a program refuses to draw, by std::logic_error, while uniformFaults() finds something. It is
   /// true in debug builds, and tests set it.
   static bool strict;
 
-  /// Errors: Graphics, with the driver's words and the source lines that it names.
+  /// Compiles and links the shaders. Errors: Graphics, with the driver's words and the source lines that it
+  /// names.
   static Result<Program> create(const std::string& vertex, const std::string& fragment);
 
-  /// One whose fragment shader runs once for each pixel of the target. Errors: as create.
+  /// Makes a program whose fragment shader runs once for each pixel of the target. Errors: as create.
   static Result<Program> overScreen(const std::string& fragment);
 
-  /// One whose fragment shader runs once for each pixel of some square tiles, in rows from the bottom: those
-  /// at which the texture `tiles` has a value below `tileLimit`. A larger texture may hold several cells of
-  /// such tiles, in rows from the bottom; then one value of those from `firstCell` to `lastCell` (0 unless
-  /// set) suffices. Errors: as create.
+  /// Makes a program whose fragment shader runs once for each pixel of some square tiles, in rows from the
+  /// bottom: those at which the texture `tiles` has a value below `tileLimit`. A larger texture may hold
+  /// several cells of such tiles, in rows from the bottom; then one value of those from `firstCell` to
+  /// `lastCell` suffices. Errors: as create.
   static Result<Program> overTiles(const std::string& fragment);
 
-  /// Makes it the one that draws.
+  /// Makes the program the one that draws.
   void use() const;
 
-  /// Where a uniform is, -1 if the shaders use none of that name. An array's name is its first element's.
+  /// Returns where a uniform is, or -1 if the shaders use none of that name. An array's name is its first
+  /// element's.
   int location(const std::string& name) const;
 
-  /// What is wrong with the uniforms that were set so far: a line for each that no shader declares, and for
-  /// each declared one that was not set. Cost: the length of the sources.
+  /// Returns what is wrong with the uniforms that were set so far: a line for each that no shader declares,
+  /// and for each declared one that was not set. Cost: the length of the sources.
   std::vector<std::string> uniformFaults() const;
 
   // These use() the program.

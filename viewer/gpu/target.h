@@ -10,30 +10,30 @@
 
 namespace sdf::viewer {
 
-/// Of one pixel: four channels. Rgba8 holds 0 to 1 in steps of 1/255 and clamps; the others hold what floats
-/// of 16 and of 32 bits do.
+/// A PixelFormat says what a pixel holds: four bytes, from 0 to 1 in steps of 1/255 and clamped, or two or
+/// four floats of 32 bits.
 enum class PixelFormat { Rgba8, Rg32f, Rgba32f };
 
-/// A framebuffer of one or more textures, its layers, which the outputs of a fragment shader fill by their
-/// locations. New ones hold anything.
+/// A Target is a framebuffer of one or more textures, its layers, which the outputs of a fragment shader fill
+/// by their locations. New ones hold anything.
 class Target {
  public:
-  /// With depth, of 32-bit floats, if asked. Leaves bound what is. Errors: Limits if a side is less than 1 or
-  /// more than the driver can draw, or memory runs out; else Graphics.
+  /// Makes a target, with depth of 32-bit floats if asked, and leaves bound what is. Errors: Limits if a side
+  /// is less than 1 or more than the driver can draw, or memory runs out; else Graphics.
   static Result<Target> create(int width, int height, const std::vector<PixelFormat>& layers,
                                bool depth = false);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Makes it what is drawn into, the whole of it.
+  /// Makes the whole target what is drawn into.
   void bind() const;
-  /// Only so many of its pixels, from (x, y) on.
+  /// Makes so many of its pixels, from (x, y) on, what is drawn into.
   void bind(int x, int y, int width, int height) const;
 
-  /// Makes it what is drawn into, one layer filled with this value.
+  /// Makes the target what is drawn into, and fills one layer with this value.
   void clear(int layer, const glm::vec4& value) const;
-  /// The same of the depth, with 1. For targets that have it.
+  /// Makes the target, which must have depth, what is drawn into, and fills its depth with 1.
   void clearDepth() const;
 
   /// Copies the first layer to the window that is current, stretched over this many pixels, and makes the
@@ -43,13 +43,13 @@ class Target {
   /// Makes a layer what samplers of this unit read, without filtering, the edge going on outside.
   void bindTexture(int unit, int layer = 0) const;
 
-  /// One layer's pixels, rows from the top. Waits until all is drawn. Errors: as check.
+  /// Reads one layer's pixels, rows from the top, and so waits until all is drawn. Errors: as check.
   Result<std::vector<glm::vec4>> pixels(int layer = 0) const;
 
-  /// The sum of one layer's pixels. Errors: as check.
+  /// Adds up one layer's pixels. Errors: as check.
   Result<glm::dvec4> sum(int layer) const;
 
-  /// The same as RGBA bytes; floats are clamped to 0 to 1 and rounded. Errors: as check.
+  /// Reads one layer as RGBA bytes; floats are clamped to 0 to 1 and rounded. Errors: as check.
   Result<Picture> picture(int layer = 0) const;
 
  private:

@@ -6,16 +6,16 @@
 
 namespace sdf::viewer {
 
-/// A version of OpenGL to ask for.
+/// A Version of OpenGL is what a context is asked for.
 struct Version {
   int major, minor;
 };
 inline constexpr Version kVersions[] = {{4, 5}, {4, 3}, {3, 3}};
 
-/// Is one of EGL's devices a GPU?
+/// Whether one of EGL's devices is a GPU.
 bool eglListsGpu();
 
-// Each makes the context current. Errors: Graphics, with the reason only.
+/// Each opens a context in its way and makes it current. Errors: Graphics, with the reason only.
 Result<std::unique_ptr<Context>> openSurfaceless();
 Result<std::unique_ptr<Context>> openDevice();
 Result<std::unique_ptr<Context>> openHiddenWindow();

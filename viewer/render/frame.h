@@ -8,8 +8,8 @@
 
 namespace sdf::viewer {
 
-/// What may change from one frame to the next without compiling, but for the first that takes more than one
-/// sample.
+/// A Frame holds what may change from one frame to the next without compiling, but for the first that takes
+/// more than one sample.
 struct Frame {
   Values parameters;
   Look look;
@@ -20,19 +20,19 @@ struct Frame {
   double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit, half of it for loose scenes
 };
 
-/// The frame of the scene's own look at these values. Those who draw many frames keep the LookFunction
+/// Makes the frame of the scene's own look at these values. Those who draw many frames keep the LookFunction
 /// instead.
 Frame frameOf(const Scene& scene, Values parameters = {});
 
-/// What a shader's uniform sdfValues holds in one frame after the other.
+/// UniformValues are what a shader's uniform sdfValues holds in one frame after the other.
 class UniformValues {
  public:
-  /// The outputs are the uniform's numbers.
+  /// Takes the function whose outputs are the uniform's numbers.
   explicit UniformValues(Function numbers);
 
   /// Computes the values where the scene's inputs have these, unless they are those of the frame before.
   void move(const Values& inputs);
-  /// The values of the frame, as whole vectors; none if there is no such uniform.
+  /// Returns the values of the frame, as whole vectors; none if there is no such uniform.
   const std::vector<glm::vec4>& vectors() const { return vectors_; }
 
  private:
@@ -43,7 +43,7 @@ class UniformValues {
   bool computed_ = false;
 };
 
-/// What rays need to know of a scene.
+/// An Extent is what rays need to know of a scene.
 struct Extent {
   explicit Extent(const Scene& scene);
 
@@ -52,10 +52,10 @@ struct Extent {
   bool loose;  ///< distances may be less than the way to the surface, so that rays count as hits farther off
 };
 
-/// A frame's rays through the pixels of a picture of this size. The frame must outlive it.
+/// A Shot is a frame's rays through the pixels of a picture of this size. The frame must outlive it.
 class Shot {
  public:
-  /// Rays begin up to a ball around the bounds, if there are any, and end at maxDistance.
+  /// Aims the rays, which begin up to a ball around the bounds, if there are any, and end at maxDistance.
   Shot(const Frame& frame, int width, int height, const Extent& extent);
 
   int width() const { return width_; }
@@ -63,9 +63,10 @@ class Shot {
   double maxDistance() const { return extent_.maxDistance; }
 
   int samples() const { return frame_.samples * frame_.samples; }
-  /// A sample's share of its pixel.
+  /// Returns a sample's share of its pixel.
   double weight() const { return 1.0 / samples(); }
-  /// The width of a sample's cone at distance 1 over which patterns are averaged; 0 leaves them sharp.
+  /// Returns the width of a sample's cone at distance 1 over which patterns are averaged; 0 leaves them
+  /// sharp.
   double footprint() const;
   /// Draws the rays of the i-th sample from now on.
   void chooseSample(int i) { sample_ = i; }

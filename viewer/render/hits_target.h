@@ -7,7 +7,7 @@
 
 namespace sdf::viewer {
 
-/// A target with one layer for each output of parts::kHits, and depth: a hit may be kept only where it is
+/// A HitsTarget has one layer for each output of parts::kHits, and depth: a hit may be kept only where it is
 /// nearer than the one that is there. The picture's shader reads the layers by the outputs' names.
 class HitsTarget {
  public:
@@ -15,22 +15,19 @@ class HitsTarget {
   /// Errors: as Target::create.
   Status resize(int width, int height, bool counted);
 
-  /// Makes it what is drawn into.
-  void bind() const { target_->bind(); }
-
-  /// Binds it, with no hit anywhere, as far away as can be.
+  /// Binds the layers, which then hold no hit anywhere, at the farthest depth.
   void clear() const;
 
-  /// Binds it with no readings counted.
+  /// Binds the layers, with no readings counted.
   void clearCounts() const;
 
   /// Lets the program read the layers of hits, in texture units from 0 on.
   void giveTo(const Program& program) const;
 
-  /// The sum of the readings that were counted. Errors: as Target::sum.
+  /// Returns the sum of the readings that were counted. Errors: as Target::sum.
   Result<double> readings() const;
 
-  /// The layer of readings.
+  /// The number of the layer of readings.
   static constexpr int kCounts = 2;
 
  private:

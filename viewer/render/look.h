@@ -10,7 +10,7 @@
 
 namespace sdf::viewer {
 
-/// A pinhole camera, in double: it may stand far from the origin.
+/// An Eye is a pinhole camera, in double: it may stand far from the origin.
 struct Eye {
   glm::dvec3 from{0.0, 1.5, 6.0}, to{0.0}, up{0.0, 1.0, 0.0};
   double fov = 45.0;  ///< vertical, degrees
@@ -22,14 +22,14 @@ struct Eye {
 /// is no better; any other eye stays as it is.
 Eye upright(Eye eye);
 
-/// A light at one moment.
+/// A LookLight is a light at one moment.
 struct LookLight {
   glm::vec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
   glm::vec4 color;   ///< times its intensity; w: 1 if it casts shadows
   bool operator==(const LookLight&) const = default;
 };
 
-/// A scene's look at one moment.
+/// A Look is a scene's camera, lights and settings at one moment.
 struct Look {
   Eye eye;
   std::vector<LookLight> lights;
@@ -37,12 +37,12 @@ struct Look {
   float fogDensity, sharpness, occlusionStrength;
 };
 
-/// The scene's own look as a function of its inputs, compiled once.
+/// A LookFunction is a scene's own look as a function of its inputs, compiled once.
 class LookFunction {
  public:
   explicit LookFunction(const Scene& scene);
 
-  /// The look at these values; inputs without one have their defaults. "time" is one of them.
+  /// Computes the look at these values; inputs without one have their defaults. "time" is one of them.
   Look at(const Values& values) const;
 
  private:

@@ -13,6 +13,7 @@
 
 namespace sdf::viewer {
 
+/// PrimaryHits draw the passes that come before the picture.
 class PrimaryHits {
  public:
   /// Compiles the passes. Errors: Graphics with the driver's log.
@@ -28,11 +29,11 @@ class PrimaryHits {
 
   /// Lets the picture's program read the hits of the sample drawn last or else the starts.
   void giveTo(const Program& picture, const Shot& shot) const;
-  /// The starts of all tiles, the passes' cells beside one another.
+  /// Returns the starts of all tiles, the passes' cells beside one another.
   Cells starts() const { return {*coarse_, 0, cells_ - 1}; }
 
-  /// The readings that the primary rays took since begin, and those of the cones, sums over all pixels. Both
-  /// need `counted`. Errors: as Target::pixels.
+  /// Return the readings that the primary rays took since begin, and those of the cones, as sums over all
+  /// pixels. Both need `counted`. Errors: as Target::pixels.
   double readings() const { return readings_; }
   Result<double> coneReadings() const;
 

@@ -10,15 +10,17 @@
 
 namespace sdf::viewer {
 
-/// Readings of the distance a pixel, means over the picture; with `countReadings` only.
+/// Readings are counts of readings of the distance a pixel, means over the picture; with `countReadings`
+/// only.
 struct Readings {
   double primary = 0.0;  ///< a primary ray, its part of the cone pass included
   double shadow = 0.0, occlusion = 0.0, reflection = 0.0;
 };
 
-/// The number of pixels, of a picture that a Renderer drew, whose rays ran out of steps.
+/// Counts the pixels, of a picture that a Renderer drew, whose rays ran out of steps.
 std::size_t pixelsOutOfSteps(const Picture& picture);
 
+/// A Renderer draws one scene.
 class Renderer {
  public:
   /// Compiles the scene's shaders. Errors: Scene as assemble; Graphics with the driver's log.
@@ -33,7 +35,7 @@ class Renderer {
   /// Graphics.
   Status draw(const Frame& frame, const Target& target);
 
-  /// Errors: as Target::pixels.
+  /// Returns the readings that the last picture, in this target, took. Errors: as Target::pixels.
   Result<Readings> readings(const Target& target) const;
 
   const SceneShaders& shaders() const { return shaders_; }

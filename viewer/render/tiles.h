@@ -6,17 +6,17 @@
 
 namespace sdf::viewer {
 
-/// Side of the larger tiles, pixels: smaller ones cost more than they spare.
+/// The side of the larger tiles, pixels: smaller ones cost more than they spare.
 inline constexpr int kTile = 16;
 
-/// How many tiles of this side cover so many pixels.
+/// Returns how many tiles of this side cover so many pixels.
 inline int tiles(int pixels, int side) { return (pixels + side - 1) / side; }
 
 /// Makes a target of this size and these layers, if it is not one already. Errors: as Target::create.
 Status ensure(std::optional<Target>& target, int width, int height, const std::vector<PixelFormat>& layers,
               bool depth = false);
 
-/// Cells of a texture of starts; see Program::overTiles.
+/// Cells are some of those of a texture of starts; see Program::overTiles.
 struct Cells {
   const Target& starts;
   int first = 0, last = 0;

@@ -9,7 +9,7 @@
 
 namespace sdf::viewer {
 
-/// What the rays of one pass may meet.
+/// Obstacles are what the rays of one pass may meet.
 struct Obstacles {
   Marched whole;                  ///< its gradient gives the normals
   std::optional<Marched> rest;    ///< what is marched, if anything
@@ -17,26 +17,26 @@ struct Obstacles {
   std::optional<Expr> operand;    ///< the number of the operand that is nearest; none: 0
 };
 
-/// All that there is to be met of a scene.
+/// Returns all that there is to be met of a scene.
 Obstacles obstaclesOf(const Plan& plan);
 
-/// The parts that define meet(ray).
+/// Returns the parts that define meet(ray).
 std::string meeting(const Obstacles& obstacles);
 
-/// The parts that define gradientAt(p).
+/// Returns the parts that define gradientAt(p).
 std::string gradients(const Expr& distance);
 
-/// The macros that these parts use, and parts::kField and parts::kRest.
+/// Returns the macros that these parts use, and parts::kField and parts::kRest.
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan);
 
-/// The functions of the scene that these parts use.
+/// Returns the functions of the scene that these parts use.
 Functions meetingFunctions(const Obstacles& obstacles);
 
-/// The pass that looks where the rays of the whole start.
+/// Writes the pass that looks where the rays of the whole start.
 HitShaders startShaders(const Plan& plan);
 
-/// The passes that draw the plan's groups, and the half spaces beside them. None if a group has more numbers
-/// than every driver has room for.
+/// Writes the passes that draw the plan's groups, and the half spaces beside them; none if a group has more
+/// numbers than every driver has room for.
 std::vector<HitShaders> groupShaders(const Plan& plan);
 
 }  // namespace sdf::viewer

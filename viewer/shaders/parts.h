@@ -85,7 +85,7 @@ extern const char* const kPicture;
 /// Defines main() of the pass that encodes the samples' sums.
 extern const char* const kResolve;
 
-/// The text of every part.
+/// Returns the texts of all parts.
 std::span<const char* const> all();
 
 }  // namespace sdf::viewer::parts

@@ -9,7 +9,7 @@
 
 namespace sdf::viewer {
 
-/// What a pixel shows.
+/// A View is what a pixel shows.
 enum class View {
   Picture,    ///< the scene under its lights
   Normals,    ///< (n + 1) / 2
@@ -23,8 +23,10 @@ enum class View {
   Count
 };
 
+/// A Method is how rays are marched: by steps as long as is safe to guess, or by plain ones.
 enum class Method { AutoRelaxed, Plain };
 
+/// ShaderOptions say which shaders of a scene are wanted.
 struct ShaderOptions {
   View view = View::Picture;
   Method method = Method::AutoRelaxed;
@@ -33,21 +35,21 @@ struct ShaderOptions {
   bool grouped = true;         ///< may draw a wide union's picture in groups; else one shader draws all of it
 };
 
-/// A distance that rays march along, divided by its slope.
+/// A Marched distance is one that rays can be marched through.
 struct Marched {
   Expr distance;
   double inverse = 1.0;  ///< of the slope
   Box bounds = Box::everything();
 };
 
-/// A half space, which rays meet by division.
+/// A HalfSpace is an operand that rays meet by division.
 struct HalfSpace {
   NumberedOperand operand;
   Expr height;  ///< the distance divided by its slope
   Expr climb;   ///< how the height changes along the direction in normal()
 };
 
-/// All that decides which shaders are written, and which uniforms they take.
+/// A Plan is all that decides which shaders are written, and which uniforms they take.
 struct Plan {
   ShaderOptions options;
   Marched whole;
@@ -69,7 +71,7 @@ struct Plan {
   AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;
 };
 
-/// The plan of a sound scene. Errors (Scene): a shape whose distance has no known slope.
+/// Makes the plan of a sound scene. Errors (Scene): a shape whose distance has no known slope.
 Result<Plan> planOf(const Scene& scene, const ShaderOptions& options);
 
 }  // namespace sdf::viewer

@@ -14,38 +14,38 @@
 
 namespace sdf::viewer {
 
-/// The line with the version, and the precision where it must be stated.
+/// Returns the line with the version, and the precision where it must be stated.
 std::string header(bool es);
 
-/// The number as a GLSL term.
+/// Writes the number as a GLSL term.
 std::string number(double v);
 
-/// The vector as a GLSL term.
+/// Writes the vector as a GLSL term.
 std::string vector(const glm::dvec3& v);
 
-/// The name of a parameter that no scene has.
+/// Returns the name of a parameter that no scene has.
 inline std::string hidden(const std::string& name) { return '\x01' + name; }
 
-/// A vector's components as outputs of one function.
+/// Returns a vector's components as the outputs of one function.
 inline std::vector<Expr> partsOf(const Vec3E& v) { return {v.x, v.y, v.z}; }
 
-/// The definitions of macros by their names, parameters included, as in "ENCODE(c)".
+/// Macros are definitions by their names, parameters included, as in "ENCODE(c)".
 using Macros = std::map<std::string, std::string>;
 
-/// The outputs of the scene's functions by their names, which begin with "sdf". Each is made when it is used.
+/// Functions are the outputs of the scene's functions by their names, which begin with "sdf". Each is made
+/// when it is used.
 using Functions = std::map<std::string, std::function<std::vector<Expr>()>>;
 
-/// Writes shaders that share the values of one set of uniforms.
+/// A Composer writes shaders that share the values of one set of uniforms.
 class Composer {
  public:
-  /// The writer may know labels and terms, which are variables that `globals` declares.
+  /// Takes a writer that may know labels and terms, which are variables that `globals` declares.
   Composer(bool es, Macros macros, Functions functions, GlslWriter writer, std::string globals = {});
 
-  /// The source of a shader of this body: before it stand those of the macros and functions that it uses, and
-  /// no others.
+  /// Writes a shader of this body: before it stand the macros and functions that it uses, and no others.
   std::string compose(const std::string& body);
 
-  /// The values of the uniform sdfValues of all shaders so far.
+  /// Returns what the uniform sdfValues holds, of all shaders so far.
   Function uniforms() const { return writer_.uniforms(); }
 
  private:
@@ -56,15 +56,15 @@ class Composer {
   std::set<std::string> written_;  // functions
 };
 
-/// The names of the macros that a source uses, by the convention that these, like constants, are in capitals.
-/// Constants that it declares, and what comments say, do not count.
+/// Finds the names of the macros that a source uses, by the convention that these, like constants, are in
+/// capitals. Constants that it declares, and what comments say, do not count.
 std::set<std::string> usedMacros(std::string_view source);
 
-/// The names of those macros that neither a fixed part nor another of them uses, so that no shader can.
+/// Finds the names of those macros that neither a fixed part nor another of them uses, so that no shader can.
 std::vector<std::string> deadMacros(const Macros& macros);
 
-/// What is wrong with the macros of a whole shader: one line for each that it uses without a definition or
-/// defines without a use.
+/// Returns what is wrong with the macros of a whole shader: one line for each that it uses without a
+/// definition or defines without a use.
 std::vector<std::string> macroFaults(std::string_view shader);
 
 }  // namespace sdf::viewer
