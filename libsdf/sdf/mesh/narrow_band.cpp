@@ -339,8 +339,8 @@ class BandSampler {
       makeFinite(cell.origin, values);
       if (smallestMagnitude(values, kLeafVoxels) > near) return {};
     }
-    const double film = kFilm * h_ * NarrowBand::Grid::slopeOf(*tapes.distance, model_.slope());
-    leaf->setTransientData(smallest <= film + slack(centre(cell.origin, kLeaf)));
+    const auto steepest = NarrowBand::Grid::slopeOf(*tapes.distance, model_.slope());
+    leaf->setTransientData(smallest <= kFilm * static_cast<float>(steepest * h_));
     return {std::move(leaf), tapes};
   }
 
@@ -392,14 +392,15 @@ class BandSampler {
 
   // The places of a block's voxels, z running fastest.
   void placeBlock(const openvdb::Coord& start, float* x, float* y, float* z) const {
-    float along[3][kBlock];
-    for (int axis = 0; axis < 3; ++axis)
-      for (int k = 0; k < kBlock; ++k) along[axis][k] = static_cast<float>((start[axis] + k) * h_);
-    for (int row = 0; row < kBlock * kBlock; ++row) {
-      std::fill_n(x + row * kBlock, kBlock, along[0][row / kBlock]);
-      std::fill_n(y + row * kBlock, kBlock, along[1][row % kBlock]);
-      std::copy_n(along[2], kBlock, z + row * kBlock);
+    constexpr int kPlane = kBlock * kBlock;
+    for (int i = 0; i < kBlock; ++i) {
+      std::fill_n(x + i * kPlane, kPlane, static_cast<float>((start.x() + i) * h_));
+      std::fill_n(y + i * kBlock, kBlock, static_cast<float>((start.y() + i) * h_));
+      z[i] = static_cast<float>((start.z() + i) * h_);
     }
+    for (int i = kBlock; i < kPlane; i += kBlock) std::copy_n(z, kBlock, z + i);
+    for (int i = kPlane; i < kBlockVoxels; i += kPlane)
+      std::copy_n(y, kPlane, y + i), std::copy_n(z, kPlane, z + i);
   }
 
   // The extraction takes no others. What is not a number counts as outside; the first one is the least in
