@@ -49,10 +49,10 @@ constexpr Promise promise(Op op) {
 }
 
 /// How far the float value of a distance may be off at p, whose coordinates are no more than 2^62: some tens
-/// of roundings of numbers of the size of the coordinates and of the shape, or what else is added to them;
-/// and what lengths lose whose squares are too small for floats.
+/// of roundings of numbers of the size of the coordinates and of the shape. A shape whose own numbers are of
+/// another size than its bounds' may round worse.
 inline double distanceRounding(const glm::dvec3& p, double size = 0.0) {
-  return 0x1p-18 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + size) + 0x1p-70;
+  return 0x1p-18 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + size);
 }
 
 }  // namespace sdf
