@@ -283,11 +283,11 @@ TEST_F(Sdfview, ReportsWhatFramesCost) {
   EXPECT_EQ(report["rays"], 40.0 * 30.0 * 4.0);
   EXPECT_EQ(report["pixels_out_of_steps"], 0);
   EXPECT_NE(report["driver"].get<std::string>().find("OpenGL"), std::string::npos);
-  for (const char* key : {"compile_ms", "first_frame_ms", "frame_ms", "shader_bytes"})
+  for (const char* key : {"compile_ms", "first_frame_ms", "frame_ms", "cpu_ms", "shader_bytes"})
     EXPECT_GT(report[key].get<double>(), 0.0) << key;
   for (const char* ray : {"primary", "shadow", "occlusion", "reflection"})
     EXPECT_GT(report["readings_a_ray"][ray].get<double>(), 0.0) << ray;
-  EXPECT_EQ(report.size(), 11u);
+  EXPECT_EQ(report.size(), 12u);
 }
 
 TEST_F(Sdfview, DrawsBenchesAndWritesTheShaderAtOnce) {
@@ -303,7 +303,7 @@ TEST_F(Sdfview, WritesAShaderThatCompiles) {
   ASSERT_EQ(run({scene(kMoving), "--glsl", file, "--view", "normals", "--method", "plain"}).status, 0);
   const std::string text = contents(file);
   EXPECT_EQ(text.rfind("#version 330 core\n", 0), 0u);
-  EXPECT_NE(text.find("#define METHOD_PLAIN"), std::string::npos);
+  EXPECT_NE(text.find("#define STEP r\n"), std::string::npos);
   if (std::string(SDF_GLSLANG).empty()) GTEST_SKIP() << "glslangValidator is not installed";
   const Outcome outcome = Command{{SDF_GLSLANG, file}}.run();
   EXPECT_EQ(outcome.status, 0) << outcome.out;
