@@ -19,7 +19,7 @@ namespace {
 using Lines = std::vector<std::string>;
 
 class Strictly : public testing::Environment {
-  void SetUp() override { Program::strict = true; }
+  void SetUp() override { Program::strict = Composer::strict = true; }
 };
 const testing::Environment* const kStrictly = testing::AddGlobalTestEnvironment(new Strictly);
 
@@ -96,6 +96,12 @@ TEST(Macros, OneThatNoPartUsesIsDead) {
   EXPECT_EQ(deadMacros({{"REST", "0.0"}, {"RESTS", "0.0"}}), Lines{"RESTS"});
 }
 
+TEST(Composer, RefusesMacrosThatAreDeadOrUndefined) {
+  EXPECT_THROW(Composer(false, {{"RESTS", "0.0"}}, {}, {}), std::logic_error);
+  Composer composer(false, {{"REST", "TAPS"}}, {}, {});
+  EXPECT_THROW(composer.compose("float rest(vec3 p) { return REST; }\n"), std::logic_error);
+}
+
 TEST(Composer, WritesTheMacrosAndFunctionsThatAreUsed) {
   const Functions functions{{"sdfOne", [] { return std::vector{position().x}; }},
                             {"sdfTwo", [] { return std::vector{position().y}; }}};
@@ -107,7 +113,6 @@ TEST(Composer, WritesTheMacrosAndFunctionsThatAreUsed) {
   EXPECT_EQ(shader.find("LIGHTS"), std::string::npos);
 }
 
-// Debug builds assert the same of every shader that is composed.
 TEST(Macros, AreSoundInAllShadersOfAllSamples) {
   for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples")) {
     if (entry.path().extension() != ".lua") continue;

@@ -8,11 +8,12 @@
 namespace sdf::viewer {
 namespace {
 
+// The last attribute, the material's number, is shown by no shader.
 // clang-format off
-constexpr const char* kAttributeNames[kAttributeCount] = {
+constexpr const char* kAttributeNames[kAttributeCount - 1] = {
     "RED", "GREEN", "BLUE", "AMBIENT_RED", "AMBIENT_GREEN", "AMBIENT_BLUE", "SPECULAR_RED", "SPECULAR_GREEN",
     "SPECULAR_BLUE", "SHININESS", "REFLECTIVITY", "FRESNEL_POWER", "FRESNEL_BIAS", "EMISSION_RED",
-    "EMISSION_GREEN", "EMISSION_BLUE", "MATERIAL_ID"};
+    "EMISSION_GREEN", "EMISSION_BLUE"};
 // clang-format on
 
 using ShadowKind = Shadow::Kind;
@@ -82,7 +83,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan) {
                               : "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
                                 "min(shadowReach, far) : shadowReach);";
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);
-  for (int i = 0; i < kAttributeCount; ++i) macros[kAttributeNames[i]] = std::to_string(i);
+  for (int i = 0; i + 1 < kAttributeCount; ++i) macros[kAttributeNames[i]] = std::to_string(i);
   return macros;
 }
 

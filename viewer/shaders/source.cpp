@@ -1,9 +1,9 @@
 #include "viewer/shaders/source.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cctype>
 #include <cstdio>
+#include <stdexcept>
 
 #include "viewer/shaders/parts.h"
 
@@ -111,12 +111,20 @@ std::vector<std::string> macroFaults(std::string_view shader) {
   return faults;
 }
 
+#ifdef NDEBUG
+bool Composer::strict = false;
+#else
+bool Composer::strict = true;
+#endif
+
 Composer::Composer(bool es, Macros macros, Functions functions, GlslWriter writer, std::string globals)
     : start_(header(es) + globals),
       macros_(std::move(macros)),
       functions_(std::move(functions)),
       writer_(std::move(writer)) {
-  assert(deadMacros(macros_).empty());
+  if (!strict) return;
+  if (const auto dead = deadMacros(macros_); !dead.empty())
+    throw std::logic_error(dead.front() + " is used by no part");
 }
 
 std::string Composer::compose(const std::string& body) {
@@ -138,7 +146,8 @@ std::string Composer::compose(const std::string& body) {
         function != functions_.end() && written_.insert(function->first).second)
       writer_.add(function->first, function->second());
   std::string shader = start_ + definitions + writer_.source() + body;
-  assert(macroFaults(shader).empty());
+  if (!strict) return shader;
+  if (const auto faults = macroFaults(shader); !faults.empty()) throw std::logic_error(faults.front());
   return shader;
 }
 

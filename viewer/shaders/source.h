@@ -39,6 +39,10 @@ using Functions = std::map<std::string, std::function<std::vector<Expr>()>>;
 /// A Composer writes shaders that share the values of one set of uniforms.
 class Composer {
  public:
+  /// Whether macros that are dead, undefined or unused are refused, by std::logic_error. It is true in debug
+  /// builds, and tests set it.
+  static bool strict;
+
   /// Takes a writer that may know labels and terms, which are variables that `globals` declares.
   Composer(bool es, Macros macros, Functions functions, GlslWriter writer, std::string globals = {});
 
