@@ -91,9 +91,10 @@ std::vector<std::vector<float>> readByShader(std::span<const Expr> outputs, std:
   const Vectors pointTexture(0, std::move(points)), normalTexture(1, std::move(normals));
   program.set("points", 0);
   program.set("normals", 1);
-  const std::vector<float> values = writer.uniformValues(parameters);
-  std::vector<glm::vec4> rows(values.size() / 4);
-  for (std::size_t i = 0; i < values.size(); ++i) rows[i / 4][static_cast<int>(i % 4)] = values[i];
+  const std::vector<double> values = writer.uniforms().uniform(parameters);
+  std::vector<glm::vec4> rows((values.size() + 3) / 4);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    rows[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
   if (!rows.empty()) program.set("sdfValues", rows);
   const std::size_t layers = (outputs.size() + 3) / 4;
   const viewer::Target target = targetOf(height, layers);

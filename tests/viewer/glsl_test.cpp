@@ -200,9 +200,9 @@ TEST(GlslWriterTest, LeavesParametersToUniforms) {
   };
   GlslWriter one, other;
   EXPECT_EQ(source(1.0, one), source(4.0, other));
-  EXPECT_EQ(one.uniformValues({}), (std::vector<float>{2.0f, 0.0f, 0.0f, 0.0f}));
-  EXPECT_EQ(other.uniformValues({}), (std::vector<float>{4.0f, 0.0f, 0.0f, 0.0f}));
-  EXPECT_EQ(one.uniformValues({{"size", 9.0}}), (std::vector<float>{6.0f, 0.0f, 0.0f, 0.0f}));
+  EXPECT_EQ(one.uniforms().uniform(), std::vector<double>{2.0});
+  EXPECT_EQ(other.uniforms().uniform(), std::vector<double>{4.0});
+  EXPECT_EQ(one.uniforms().uniform({{"size", 9.0}}), std::vector<double>{6.0});
 }
 
 TEST(GlslWriterTest, HasNoUniformsWithoutParameters) {
@@ -210,7 +210,7 @@ TEST(GlslWriterTest, HasNoUniformsWithoutParameters) {
   GlslWriter writer;
   writer.add("distance", {&e, 1});
   EXPECT_EQ(writer.source().find("uniform"), std::string::npos);
-  EXPECT_TRUE(writer.uniformValues({}).empty());
+  EXPECT_TRUE(writer.uniforms().outputs().empty());
 }
 
 using GlslUniforms = Gpu;

@@ -202,11 +202,4 @@ std::string GlslWriter::source() const {
   return text + functions_;
 }
 
-std::vector<float> GlslWriter::uniformValues(const Values& values) const {
-  const std::vector<double> numbers = uniforms().uniform(values);
-  std::vector<float> floats(numbers.begin(), numbers.end());
-  floats.resize((floats.size() + 3) / 4 * 4);
-  return floats;
-}
-
 }  // namespace sdf

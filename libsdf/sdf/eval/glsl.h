@@ -38,8 +38,6 @@ class GlslWriter {
   /// The function whose outputs the uniform `vec4 sdfValues[]` holds, in order; it has none where the source
   /// has no such uniform. Readings of many frames keep it.
   Function uniforms() const { return Function(uniforms_); }
-  /// The uniform's values where inputs have these values, filled up to whole vectors.
-  std::vector<float> uniformValues(const Values& values) const;
 
  private:
   class Body;
