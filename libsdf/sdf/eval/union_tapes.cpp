@@ -101,7 +101,7 @@ class UnionTapes::Linker {
       return values[0] ? *values[o.index()] : o;
     };
     for (Instruction instruction : source.code->instructions) {
-      for (Operand& in : instruction.in) in = moved(in);
+      for (int k = 0; k < rowArguments(instruction.op); ++k) instruction.in[k] = moved(instruction.in[k]);
       instruction.constants += constants;
       if (instruction.lipschitz > 0.0f) instruction.lipschitz *= slope;
       code_->instructions.push_back(instruction);
