@@ -237,7 +237,7 @@ class BandSampler {
   const TapePtr& linkedTape(const Places& operands, Workspace& w) const {
     for (const LinkedTape& l : w.linked)
       if (*l.operands == *operands) return l.tape;
-    return w.linked.emplace_back(operands, model_.link(*operands)).tape;
+    return w.linked.emplace_back(LinkedTape{operands, model_.link(*operands)}).tape;
   }
 
   static const LocalTapes& localTapes(const TapePtr& tape, Workspace& w) {
@@ -250,7 +250,7 @@ class BandSampler {
       if (distance->instructions().size() == tape->instructions().size())
         distance = tape;  // no need to keep both
     }
-    return w.local.emplace_back(tape, std::move(distance));
+    return w.local.emplace_back(LocalTapes{tape, std::move(distance)});
   }
 
   // Can the zero set meet the cell (and a voxel around it)? First by the slope bound; then, where that is
