@@ -16,18 +16,15 @@ struct Function::Compiled {
   std::vector<UniformStep> steps;
   std::vector<InputPlace> places;
 
-  // The tape's constants where inputs have these values, and whether all lie in their ranges.
-  std::pair<std::vector<double>, bool> constantsAt(const Values& values,
-                                                   std::vector<double> constants) const {
-    bool inRange = true;
+  // The tape's constants where inputs have these values.
+  std::vector<double> constantsAt(const Values& values, std::vector<double> constants) const {
     for (const InputPlace& input : places)
       if (const auto it = values.find(input.parameter.parameterInfo().name); it != values.end()) {
         constants[input.place] = it->second;
-        inRange = inRange && input.parameter.range().contains(it->second);
       }
     for (const UniformStep& step : steps)
       constants[step.out] = evaluateOp<double>(step.op, [&](int k) { return constants[step.in[k]]; });
-    return {std::move(constants), inRange};
+    return constants;
   }
 };
 
@@ -50,15 +47,21 @@ Function::Function(std::vector<Expr> outputs) {
 const std::vector<Expr>& Function::outputs() const { return compiled_->outputs; }
 const std::vector<ParameterInfo>& Function::inputs() const { return compiled_->inputs; }
 
+bool Function::covers(const Values& values) const {
+  return std::all_of(compiled_->places.begin(), compiled_->places.end(), [&](const InputPlace& input) {
+    const auto it = values.find(input.parameter.parameterInfo().name);
+    return it == values.end() || input.parameter.range().contains(it->second);
+  });
+}
+
 TapePtr Function::at(const Values& values) const {
   const Tape& tape = *compiled_->tape;
   if (compiled_->places.empty() || values.empty()) return compiled_->tape;
   auto pool = std::make_shared<Tape::Pool>(*tape.pool_);
-  bool inRange = true;
-  std::tie(pool->doubles, inRange) = compiled_->constantsAt(values, std::move(pool->doubles));
+  pool->doubles = compiled_->constantsAt(values, std::move(pool->doubles));
   pool->floats.assign(pool->doubles.begin(), pool->doubles.end());
   std::shared_ptr<const Tape::Code> code = tape.code_;
-  if (!inRange) {
+  if (!covers(values)) {
     auto unbounded = std::make_shared<Tape::Code>(*code);
     for (Instruction& instruction : unbounded->instructions)
       instruction.lipschitz = std::numeric_limits<float>::infinity();
@@ -70,7 +73,7 @@ TapePtr Function::at(const Values& values) const {
 
 std::vector<double> Function::uniform(const Values& values) const {
   const Tape& tape = *compiled_->tape;
-  const std::vector<double> constants = compiled_->constantsAt(values, tape.pool_->doubles).first;
+  const std::vector<double> constants = compiled_->constantsAt(values, tape.pool_->doubles);
   std::vector<double> result;
   for (const Operand o : tape.outputs()) {
     assert(o.isConstant());

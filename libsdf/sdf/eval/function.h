@@ -27,6 +27,8 @@ class Function {
   /// The parameters that the outputs depend on, each name once.
   const std::vector<ParameterInfo>& inputs() const;
 
+  /// Do all values lie in their inputs' declared ranges, for which bounds and slopes hold?
+  bool covers(const Values& values) const;
   /// The tape with inputs at these values. Slope bounds hold for inputs within their declared ranges; where a
   /// value lies outside, the tape knows none. Cost: linear in the number of the tape's constants.
   TapePtr at(const Values& values = {}) const;

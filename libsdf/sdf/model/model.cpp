@@ -43,10 +43,13 @@ ModelTapes Model::at(const Values& values) const {
   ModelTapes result;
   std::vector<TapePtr> tapes;
   for (const Function& f : functions()) tapes.push_back(f.at(values));
+  const bool covered = std::all_of(functions().begin(), functions().end(),
+                                   [&](const Function& f) { return f.covers(values); }) &&
+                       (!compiled_->blend || compiled_->blend->covers(values));
+  result.slope_ = covered ? slopeOf(shape()) : kInfinity;
   for (std::uint32_t i = 0; i < tapes.size(); ++i) result.all_.push_back(i);
   if (!shape().outer) {
     result.whole_ = tapes.front();
-    result.slope_ = std::min<double>(slopeOf(shape()), result.whole_->lipschitz());
     return result;
   }
   TapePtr join;
@@ -58,9 +61,10 @@ ModelTapes Model::at(const Values& values) const {
   }
   result.tapes_.emplace(tapes, join);
   result.whole_ = result.tapes_->link(result.all_);
-  result.slope_ = std::min<double>(slopeOf(shape()), result.whole_->lipschitz());
-  for (const Shape& operand : operands())
-    result.reaches_.push_back({operand.bounds, growthOf(operand.claim)});
+  for (const Shape& operand : operands()) {
+    const Box bounds = covered ? operand.bounds : Box::everything();
+    result.reaches_.push_back({bounds, growthOf(operand.claim)});
+  }
   return result;
 }
 

@@ -63,7 +63,8 @@ class Model {
   /// Their functions, with the outputs of SurfaceOutput.
   const std::vector<Function>& functions() const { return compiled_->functions; }
 
-  /// The tapes where inputs have these values. Cost: linear in the number of constants.
+  /// The tapes where inputs have these values; no bounds and slopes are known where one lies out of its
+  /// range. Cost: linear in the number of constants.
   ModelTapes at(const Values& values = {}) const;
 
  private:
