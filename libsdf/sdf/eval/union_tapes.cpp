@@ -19,7 +19,7 @@ UnionTapes::UnionTapes(std::span<const TapePtr> operands, TapePtr join) {
 }
 
 UnionTapes::Source UnionTapes::add(const TapePtr& tape, Tape::Pool& pool) {
-  const Source source{tape->code_, static_cast<std::uint32_t>(pool.doubles.size())};
+  const Source source{tape, static_cast<std::uint32_t>(pool.doubles.size())};
   const std::vector<double>& own = tape->pool_->doubles;
   pool.doubles.insert(pool.doubles.end(), own.begin() + 2, own.end());
   return source;
@@ -33,7 +33,7 @@ class UnionTapes::Linker {
 
   std::shared_ptr<const Tape::Code> run() {
     std::size_t length = 0;
-    for (const std::uint32_t i : operands_) length += from_.operands_[i].code->instructions.size() + 1;
+    for (const std::uint32_t i : operands_) length += from_.operands_[i].tape->instructions().size() + 1;
     code_->instructions.reserve(length);
     code_->outputs = from_.join_ ? blended() : joined(operands_);
     code_->finish();
@@ -100,14 +100,14 @@ class UnionTapes::Linker {
       if (o.isConstant()) return o.index() > kOne ? Operand::constant(constants + o.index()) : o;
       return values[0] ? *values[o.index()] : o;
     };
-    for (Instruction instruction : source.code->instructions) {
+    for (Instruction instruction : source.tape->instructions()) {
       for (int k = 0; k < rowArguments(instruction.op); ++k) instruction.in[k] = moved(instruction.in[k]);
       instruction.constants += constants;
       if (instruction.lipschitz > 0.0f) instruction.lipschitz *= slope;
       code_->instructions.push_back(instruction);
     }
     Outputs outputs;
-    for (const Operand o : source.code->outputs) outputs.push_back(moved(o));
+    for (const Operand o : source.tape->outputs()) outputs.push_back(moved(o));
     return outputs;
   }
 
@@ -124,6 +124,7 @@ class UnionTapes::Linker {
 
 TapePtr UnionTapes::link(std::span<const std::uint32_t> operands) const {
   assert(!operands.empty());
+  if (operands.size() == 1) return operands_[operands[0]].tape;
   return std::shared_ptr<const Tape>(new Tape(Linker(*this, operands).run(), pool_));
 }
 

@@ -18,17 +18,16 @@ class UnionTapes {
   /// of the second's outputs, and whether the second is taken where nothing can be mixed, in the last output.
   explicit UnionTapes(std::span<const TapePtr> operands, TapePtr join = nullptr);
 
-  std::size_t size() const { return operands_.size(); }
-
   /// The tape of these operands' union: the least distance, and the other outputs of the operand that has it,
   /// the last one on a tie; or what the join makes of them from left to right. `operands` are places in
-  /// ascending order, at least one. Cost: linear in the sum of the operands' sizes.
+  /// ascending order, at least one. Cost: linear in the sum of the operands' sizes; one alone is given as it
+  /// is.
   TapePtr link(std::span<const std::uint32_t> operands) const;
 
  private:
   struct Source {
-    std::shared_ptr<const Tape::Code> code;
-    std::uint32_t firstConstant;
+    TapePtr tape;
+    std::uint32_t firstConstant;  // in the pool of all
   };
   class Linker;
   Source add(const TapePtr& tape, Tape::Pool& pool);
