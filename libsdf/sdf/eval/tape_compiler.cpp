@@ -37,12 +37,13 @@ TapeCompiler::TapeCompiler(std::span<const Expr> outputs) {
   code_->finish();
 }
 
-void TapeCompiler::use(const Expr& e) {
-  NodeInfo& node = nodes_[indexOf(e)];
+TapeCompiler::Index TapeCompiler::use(const Expr& e) {
+  const Index i = indexOf(e);
   if (e.op() == Op::Claim)
-    node.claimed = std::max(node.claimed, e.lipschitz());
+    nodes_[i].claimed = std::max(nodes_[i].claimed, e.lipschitz());
   else
-    node.unclaimed = true;
+    nodes_[i].unclaimed = true;
+  return i;
 }
 
 void TapeCompiler::gather(std::span<const Expr> outputs) {
@@ -53,9 +54,7 @@ void TapeCompiler::gather(std::span<const Expr> outputs) {
     NodeInfo node;
     node.uniform = e.op() != Op::Variable;
     for (int k = 0; k < arity(e.op()); ++k) {
-      const Expr argument = e.arg(k);
-      use(argument);
-      node.args[k] = indexOf(argument);
+      node.args[k] = use(e.arg(k));
       ++nodes_[node.args[k]].uses;
       node.uniform = node.uniform && nodes_[node.args[k]].uniform;
     }

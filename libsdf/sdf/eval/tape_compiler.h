@@ -89,7 +89,7 @@ class TapeCompiler {
   struct Shifted;
 
   void gather(std::span<const Expr> outputs);
-  void use(const Expr& e);
+  Index use(const Expr& e);  // the argument's index
   void layOutUniform();
   void chooseInstructions(std::span<const Expr> outputs);
   Match match(Index i) const;

@@ -25,7 +25,7 @@ class Node {
   Variable variable = Variable::X;
   double value = 0.0;
   std::unique_ptr<ParameterInfo> parameter;
-  std::array<const Node*, kMaxGraphArity> args{};
+  std::array<Expr, kMaxGraphArity> args{Expr(nullptr), Expr(nullptr), Expr(nullptr)};
   std::size_t hash = 0;
   Interval range;
   double lipschitz = 0.0;
@@ -40,7 +40,7 @@ std::size_t hashOf(const Node& n) {
   std::size_t h = combine(static_cast<std::size_t>(n.op) + 1, std::bit_cast<std::uint64_t>(n.value));
   h = combine(h, static_cast<std::size_t>(n.variable));
   if (n.parameter) h = combine(h, std::hash<std::string>()(n.parameter->name));
-  for (const Node* a : n.args) h = combine(h, reinterpret_cast<std::size_t>(a));
+  for (const Expr& a : n.args) h = combine(h, reinterpret_cast<std::size_t>(a.node()));
   return h;
 }
 
@@ -78,13 +78,13 @@ void setFacts(Node& n) {
       return;
     }
     case Op::Claim:
-      n.range = n.args[0]->range;
+      n.range = n.args[0].range();
       n.lipschitz = n.value;
       return;
     default:
       break;
   }
-  const Fact fact = evaluateOp<Fact>(n.op, [&](int i) { return factOf(*n.args[i]); });
+  const Fact fact = evaluateOp<Fact>(n.op, [&](int i) { return factOf(*n.args[i].node()); });
   n.range = fact.v;
   n.lipschitz = fact.d[0].magnitude();
 }
@@ -118,9 +118,7 @@ class NodeTable {
     }
     if (nodesHeld >= nodesAllowed) throw NodeLimitReached();
     setFacts(*n);
-    for (const Node* a : n->args)
-      if (a) retain(a);
-    const Node* node = n.release();
+    Node* node = n.release();
     nodes_.insert(node);
     ++nodesHeld;
     return Expr(node);
@@ -128,7 +126,7 @@ class NodeTable {
 
   static void retain(const Node* n) { n->references.fetch_add(1, std::memory_order_relaxed); }
 
-  static void release(const Node* n) {
+  static void release(Node* n) {
     int count = n->references.load(std::memory_order_relaxed);
     while (count > 1)
       if (n->references.compare_exchange_weak(count, count - 1, std::memory_order_acq_rel)) return;
@@ -137,23 +135,23 @@ class NodeTable {
 
  private:
   // Deep graphs are taken down with an explicit stack.
-  void releaseLast(const Node* first) {
+  void releaseLast(Node* first) {
     std::lock_guard lock(mutex_);
-    std::vector<const Node*> pending{first};
+    std::vector<Node*> pending{first};
     while (!pending.empty()) {
-      const Node* n = pending.back();
+      Node* n = pending.back();
       pending.pop_back();
       if (n->references.fetch_sub(1, std::memory_order_acq_rel) > 1) continue;
       nodes_.erase(n);
-      for (const Node* a : n->args)
-        if (a) pending.push_back(a);
+      for (Expr& a : n->args)
+        if (a.node_) pending.push_back(std::exchange(a.node_, nullptr));
       delete n;
       --nodesHeld;
     }
   }
 
   std::mutex mutex_;
-  std::unordered_set<const Node*, Hash, Same> nodes_;
+  std::unordered_set<Node*, Hash, Same> nodes_;
 };
 
 Expr::Expr(double value) : node_(nullptr) {
@@ -224,10 +222,8 @@ std::optional<Expr> simplified(Op op, std::span<const Expr> args) {
   const bool signless = op == Op::Abs || op == Op::Square;
   if (op == Op::Neg && a.op() == Op::Neg) return a.arg(0);
   if (op == Op::Abs && a.op() == Op::Abs) return a;
-  if (signless && (a.op() == Op::Neg || (op == Op::Square && a.op() == Op::Abs))) {
-    const Expr inner = a.arg(0);
-    return Expr::make(op, {&inner, 1});
-  }
+  if (signless && (a.op() == Op::Neg || (op == Op::Square && a.op() == Op::Abs)))
+    return Expr::make(op, {&a.arg(0), 1});
   return std::nullopt;
 }
 
@@ -240,15 +236,12 @@ Expr Expr::make(Op op, std::span<const Expr> args) {
   if (std::optional<Expr> simpler = simplified(op, args)) return *std::move(simpler);
   auto n = std::make_unique<Node>();
   n->op = op;
-  for (std::size_t i = 0; i < args.size(); ++i) n->args[i] = args[i].node_;
+  std::copy(args.begin(), args.end(), n->args.begin());
   return NodeTable::instance().intern(std::move(n));
 }
 
 Op Expr::op() const { return node_->op; }
-Expr Expr::arg(int i) const {
-  NodeTable::retain(node_->args[i]);
-  return Expr(node_->args[i]);
-}
+const Expr& Expr::arg(int i) const { return node_->args[i]; }
 double Expr::constantValue() const { return node_->value; }
 Variable Expr::variableIndex() const { return node_->variable; }
 const ParameterInfo& Expr::parameterInfo() const { return *node_->parameter; }
@@ -256,11 +249,10 @@ const Interval& Expr::range() const { return node_->range; }
 double Expr::lipschitz() const { return node_->lipschitz; }
 Expr Expr::claimLipschitz(double bound) const {
   if (!(bound < lipschitz())) return *this;
-  const Expr about = unclaimed();
   auto n = std::make_unique<Node>();
   n->op = Op::Claim;
   n->value = bound;
-  n->args[0] = about.node_;
+  n->args[0] = unclaimed();
   return NodeTable::instance().intern(std::move(n));
 }
 
@@ -289,19 +281,20 @@ Expr mix(const Expr& a, const Expr& b, const Expr& t) { return a == b ? a : a + 
 std::vector<Expr> topologicalOrder(std::span<const Expr> roots) {
   std::vector<Expr> order;
   FlatMap<bool> seen;
-  std::vector<std::pair<Expr, int>> stack;
+  std::vector<std::pair<const Expr*, int>> stack;
+  const auto visit = [&](const Expr& e) {
+    if (seen.insert(e.node(), true).second) stack.emplace_back(&e, 0);
+  };
   for (const Expr& root : roots) {
-    if (!seen.insert(root.node(), true).second) continue;
-    stack.emplace_back(root, 0);
+    visit(root);
     while (!stack.empty()) {
       auto& [e, next] = stack.back();
-      if (next == arity(e.op())) {
-        order.push_back(e);
+      if (next < arity(e->op())) {
+        visit(e->arg(next++));
+      } else {
+        order.push_back(*e);
         stack.pop_back();
-        continue;
       }
-      Expr child = e.arg(next++);
-      if (seen.insert(child.node(), true).second) stack.emplace_back(std::move(child), 0);
     }
   }
   return order;
@@ -339,7 +332,7 @@ std::vector<Expr> rewrite(std::span<const Expr> roots, const Replacement& replac
     args.clear();
     bool same = true;
     for (int i = 0; i < arity(n.op()); ++i) {
-      const Expr argument = n.arg(i);
+      const Expr& argument = n.arg(i);
       args.push_back(made.at(argument.node()));
       same = same && args.back() == argument;
     }

@@ -50,9 +50,9 @@ class Expr {
   static Expr make(Op op, std::span<const Expr> args);
 
   Op op() const;
-  Expr arg(int i) const;
+  const Expr& arg(int i) const;  ///< lives as long as this node
   /// The expression itself, or what a claim is about.
-  Expr unclaimed() const { return op() == Op::Claim ? arg(0) : *this; }
+  const Expr& unclaimed() const { return op() == Op::Claim ? arg(0) : *this; }
   double constantValue() const;                ///< op() == Constant
   Variable variableIndex() const;              ///< op() == Variable
   const ParameterInfo& parameterInfo() const;  ///< op() == Parameter
@@ -73,9 +73,10 @@ class Expr {
   const Node* node() const { return node_; }
 
  private:
-  explicit Expr(const Node* node) : node_(node) {}  // takes over one reference
+  explicit Expr(Node* node) : node_(node) {}  // takes over one reference
+  friend class Node;
   friend class NodeTable;
-  const Node* node_;
+  Node* node_;
 };
 
 /// Thrown by the making of a node that the NodeLimit in force does not allow.
