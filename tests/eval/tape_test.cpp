@@ -143,6 +143,34 @@ TEST(Specialisation, DropsAFarUnionMemberAndAllItNeeds) {
   EXPECT_EQ(special->instructions().size(), 1u);
 }
 
+TEST(Specialisation, DropsABlendWithFarOperands) {
+  const Expr k = 0.25, near = sphere({0, 0, 0}, 1), far = sphere({100, 0, 0}, 1);
+  const auto apart = [&](const Expr& a, const Expr& b) { return max(k - abs(b - a), 0.0); };
+  const auto quadratic = [&](const Expr& a, const Expr& b) {
+    return min(a, b) + square(apart(a, b)) * (-0.25 / k);
+  };
+  const auto cubic = [&](const Expr& a, const Expr& b) {
+    return square(apart(a, b)) * apart(a, b) * (-1.0 / (6.0 * square(k))) + min(a, b);
+  };
+  for (const Expr& blend : {quadratic(near, far), quadratic(far, near), cubic(near, far), cubic(far, near)}) {
+    const Tape tape(blend);
+    for (const bool byBall : {false, true}) {
+      const TapePtr special = specialiseOnce(tape, {0.9, 0.2, 0.1}, 0.1, byBall);
+      ASSERT_TRUE(special);
+      EXPECT_EQ(special->instructions().size(), 1u);
+      EXPECT_EQ(evaluate(*special, {0.9, 0.2, 0.1}), evaluate(tape, {0.9, 0.2, 0.1}));
+    }
+  }
+}
+
+TEST(Specialisation, KeepsAFactorThatIsWrittenAsZero) {
+  const Vec3E p = position();
+  const Tape tape(min((1.0 / p.x) * 0.0, 1.0) + max(p.y, 0.0));
+  const TapePtr special = specialiseOnce(tape, {1.0, -1.0, 0.0}, 0.5, false);
+  ASSERT_TRUE(special);
+  EXPECT_TRUE(std::isnan(evaluate(*special, {0.0, -1.0, 0.0})));
+}
+
 TEST(Specialisation, SaysWhenNothingCanBeDropped) {
   const Tape tape(min(sphere({0, 0, 0}, 1), sphere({0.5, 0, 0}, 1)));
   const Decision open = Decision::Open;

@@ -98,19 +98,33 @@ Instruction withoutZeros(Instruction n) {
   return n;
 }
 
-// The operand that instruction i stands for under decision d, its arguments resolved already.
+// The operand that an instruction stands for under decision d, its arguments resolved to `in`. A factor that
+// a decision turned into 0, as a blend's width where nothing is blended, makes its product 0.
 Operand resolve(const Tape& tape, const Instruction& instruction, Operand self, Decision d,
                 const std::array<Operand, 3>& in) {
   if (isComparison(instruction.op) && d != Decision::Open)
     return Operand::constant(d == Decision::First ? kOne : kZero);
-  if (instruction.op == Op::Select) {
-    if (in[0].isConstant()) d = tape.constant(in[0].index()) != 0.0 ? Decision::First : Decision::Second;
-    return d == Decision::Open ? self : in[d == Decision::First ? 1 : 2];
+  const auto vanished = [&](int k) { return in[k] == kZeroOperand && instruction.in[k].isValue(); };
+  switch (instruction.op) {
+    case Op::Select:
+      if (in[0].isConstant()) d = tape.constant(in[0].index()) != 0.0 ? Decision::First : Decision::Second;
+      return d == Decision::Open ? self : in[d == Decision::First ? 1 : 2];
+    case Op::Min:
+    case Op::Max:
+      return d == Decision::Open ? self : in[d == Decision::First ? 0 : 1];
+    case Op::Add:
+      return in[0] == kZeroOperand ? in[1] : in[1] == kZeroOperand ? in[0] : self;
+    case Op::Sub:
+      return in[1] == kZeroOperand ? in[0] : self;
+    case Op::Square:
+      return vanished(0) ? kZeroOperand : self;
+    case Op::Mul:
+      return vanished(0) || vanished(1) ? kZeroOperand : self;
+    case Op::MulAdd:
+      return vanished(0) || vanished(1) ? in[2] : self;
+    default:
+      return self;
   }
-  if (isChoice(instruction.op) && d != Decision::Open) return in[d == Decision::First ? 0 : 1];
-  if (instruction.op == Op::Add && in[0] == kZeroOperand) return in[1];
-  if (instruction.op == Op::Add && in[1] == kZeroOperand) return in[0];
-  return self;
 }
 
 Operand knownAs(const std::vector<Operand>& known, Operand a) { return a.isValue() ? known[a.index()] : a; }
