@@ -36,19 +36,6 @@ class NarrowBand {
     glm::vec3 first{0.0f};
   };
   const NotNumbers& notNumbers() const;
-  /// Finds tapes for points; remembers the last leaf, so that neighbours are found at once.
-  class Finder {
-   public:
-    explicit Finder(const NarrowBand& band) : band_(band) {}
-    /// Tapes of the leaf of 8³ voxels at or next to a point, which hold two voxels around it, too; nullptr
-    /// far from the surface.
-    const LocalTapes* at(const glm::vec3& p);
-
-   private:
-    const NarrowBand& band_;
-    const LocalTapes* last_ = nullptr;
-    glm::ivec3 lastLeaf_{};
-  };
 
   /// A sample next to which the surface may pass unseen between samples of one sign.
   struct Suspect {
@@ -60,8 +47,8 @@ class NarrowBand {
   /// Samples that bound how close the surface comes, yet see no change of sign: those within half a cell's
   /// diagonal of it all of whose 26 neighbours have their sign, and the ends of lattice edges towards which
   /// the distance falls from both sides to less than the edge's length (the tips of edges seen nearby left
-  /// out). What is thinner than a voxel, solid
-  /// or gap, shows up here. Cost: some look-ups for each sample next to the surface.
+  /// out). What is thinner than a voxel, solid or gap, shows up here. Cost: some look-ups for each sample
+  /// next to the surface.
   std::vector<Suspect> suspects() const;
 
   /// The zero set by dual marching cubes (Nielson 2004), leaf by leaf. Call once: the samples are released on
@@ -71,13 +58,15 @@ class NarrowBand {
   struct Grid;
 
  private:
+  friend class BandField;
   friend class BandSampler;
   void settleZeros();
   std::unique_ptr<Grid> grid_;
 };
 
-/// A band's tapes, at one resolution; those of the whole model serve points far from every leaf. The band
-/// must outlive it; its samples may be gone.
+/// A band's tapes, at one resolution: those of the leaf of 8³ voxels at or next to a point, which hold two
+/// voxels around it, too; far from every leaf those of the whole model. The band must outlive it; its samples
+/// may be gone.
 class BandField : public LocalField {
  public:
   BandField(const NarrowBand& band, LocalTapes whole) : band_(band), whole_(std::move(whole)) {}
