@@ -17,11 +17,11 @@ Argument number(double v) { return Expr(v); }
 Argument vector(double x, double y, double z) { return Vec3E(x, y, z); }
 
 Shape call(const std::vector<CatalogEntry>& entries, const std::string& name,
-           std::vector<Argument> arguments) {
+           const std::vector<Argument>& arguments) {
   for (const CatalogEntry& e : entries)
     if (e.name == name) {
       EXPECT_EQ(arguments.size(), e.parameters.size()) << name;
-      return e.build(Arguments(std::move(arguments)));
+      return e.build(arguments);
     }
   return Shape::failed("no entry " + name);
 }

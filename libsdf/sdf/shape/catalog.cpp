@@ -49,7 +49,7 @@ Argument fallbackOf(const Parameter& p) {
     case ArgumentKind::Vector3:
       return vectorOf(numbers);
     case ArgumentKind::Choice:
-      return static_cast<int>(std::find(p.choices.begin(), p.choices.end(), p.fallback) - p.choices.begin());
+      return static_cast<int>(std::ranges::find(p.choices, p.fallback) - p.choices.begin());
     case ArgumentKind::Points:
       return pointsOf(numbers);
     case ArgumentKind::Shape:
@@ -122,12 +122,12 @@ Expr radians(const Expr& degrees) { return degrees * (std::numbers::pi / 180.0);
 
 const std::vector<CatalogEntry>& catalog() {
   static const std::vector<CatalogEntry> entries = [] {
+    const std::pair<Group, std::vector<CatalogEntry>> groups[] = {
+        {Group::Solid, solidEntries()},   {Group::Flat, flatEntries()},   {Group::Boolean, booleanEntries()},
+        {Group::Deform, deformEntries()}, {Group::Place, placeEntries()}, {Group::Pattern, patternEntries()}};
     std::vector<CatalogEntry> all;
-    for (auto group :
-         {solidEntries, flatEntries, booleanEntries, deformEntries, placeEntries, patternEntries}) {
-      std::vector<CatalogEntry> some = group();
-      std::move(some.begin(), some.end(), std::back_inserter(all));
-    }
+    for (const auto& [group, some] : groups)
+      for (const CatalogEntry& e : some) all.emplace_back(e).group = group;
     return all;
   }();
   return entries;
@@ -135,7 +135,7 @@ const std::vector<CatalogEntry>& catalog() {
 
 const CatalogEntry* findEntry(std::string_view name) {
   const auto& all = catalog();
-  const auto it = std::find_if(all.begin(), all.end(), [&](const CatalogEntry& e) { return e.name == name; });
+  const auto it = std::ranges::find(all, name, &CatalogEntry::name);
   return it == all.end() ? nullptr : &*it;
 }
 
@@ -152,7 +152,7 @@ Shape build(const CatalogEntry& entry, std::vector<Argument> arguments) {
     checkArgument(p, arguments[i], c);
   }
   if (!c.ok()) return c.failure();
-  return entry.build(Arguments(std::move(arguments)));
+  return entry.build(arguments);
 }
 
 }  // namespace sdf

@@ -42,22 +42,6 @@ struct Parameter {
 using Argument =
     std::variant<std::monostate, Expr, Vec3E, int, std::vector<glm::dvec2>, Shape, std::vector<Shape>>;
 
-/// The arguments of one call, by position in CatalogEntry::parameters.
-class Arguments {
- public:
-  explicit Arguments(std::vector<Argument> values) : values_(std::move(values)) {}
-  bool given(int i) const { return values_[i].index() != 0; }
-  const Expr& number(int i) const { return std::get<Expr>(values_[i]); }
-  const Vec3E& vector(int i) const { return std::get<Vec3E>(values_[i]); }
-  int integer(int i) const { return std::get<int>(values_[i]); }
-  const std::vector<glm::dvec2>& points(int i) const { return std::get<std::vector<glm::dvec2>>(values_[i]); }
-  const Shape& shape(int i) const { return std::get<Shape>(values_[i]); }
-  const std::vector<Shape>& shapes(int i) const { return std::get<std::vector<Shape>>(values_[i]); }
-
- private:
-  std::vector<Argument> values_;
-};
-
 enum class Group { Solid, Flat, Boolean, Deform, Place, Pattern };
 
 struct CatalogEntry {
@@ -68,7 +52,8 @@ struct CatalogEntry {
   std::string doc;    ///< what it is, its axis and its origin; one or two sentences
   std::string claim;  ///< the claim in words for the reference page, e.g. "exact", "bound, L = 1"
   std::vector<Parameter> parameters;
-  std::function<Shape(const Arguments&)> build;
+  /// Makes the shape of checked arguments, one for each parameter.
+  std::function<Shape(const std::vector<Argument>&)> build;
 };
 
 /// Every shape and operator, in the order of the reference page.

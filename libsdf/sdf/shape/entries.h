@@ -1,5 +1,6 @@
-// The catalog's groups, and short ways to write their parameters. Private to shape/.
+// The catalog's groups, and short ways to write their entries. Private to shape/.
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace sdf {
 
-/// One list per file catalog_<group>.cpp, in the order of the reference page.
+/// One list per file catalog_<group>.cpp, in the order of the reference page; catalog() sets their group.
 std::vector<CatalogEntry> solidEntries();
 std::vector<CatalogEntry> flatEntries();
 std::vector<CatalogEntry> booleanEntries();
@@ -16,45 +17,68 @@ std::vector<CatalogEntry> deformEntries();
 std::vector<CatalogEntry> placeEntries();
 std::vector<CatalogEntry> patternEntries();
 
-/// Parameters by kind. An empty fallback makes the parameter required.
+/// The argument as the type that a function of the library takes.
+template <class T>
+const T& argumentAs(const Argument& a, const T* /*type*/) {
+  return std::get<T>(a);
+}
+template <class T>
+std::optional<T> argumentAs(const Argument& a, const std::optional<T>* /*type*/) {
+  return a.index() == 0 ? std::optional<T>() : std::get<T>(a);
+}
+
+/// The function with its arguments taken from a list.
+template <class... T>
+std::function<Shape(const std::vector<Argument>&)> onList(std::function<Shape(T...)> make) {
+  return [make](const std::vector<Argument>& a) {
+    return [&]<std::size_t... i>(std::index_sequence<i...>) {
+      return make(argumentAs(a[i], static_cast<const std::decay_t<T>*>(nullptr))...);
+    }
+    (std::index_sequence_for<T...>());
+  };
+}
+
+/// An entry that calls `make` with the arguments in the order of the parameters. What may be absent comes as
+/// a std::optional.
+template <class Make>
+CatalogEntry entry(std::string name, std::string doc, std::string claim, std::vector<Parameter> parameters,
+                   Make make) {
+  return {std::move(name),       {},
+          std::move(doc),        std::move(claim),
+          std::move(parameters), onList(std::function(make))};
+}
+
+/// Parameters by kind: number("radius", "of the ball", Rule::Positive, "1"). Without a fallback the parameter
+/// is required.
 namespace parameter {
 
-inline Parameter of(ArgumentKind kind, std::string name, std::string doc, Rule rule, std::string fallback) {
-  Parameter p;
-  p.name = std::move(name);
-  p.kind = kind;
-  p.doc = std::move(doc);
-  p.rule = rule;
-  p.required = fallback.empty();
-  p.fallback = std::move(fallback);
-  return p;
+struct OfKind {
+  ArgumentKind kind;
+  Parameter operator()(std::string name, std::string doc, Rule rule = Rule::Any,
+                       std::string fallback = "") const {
+    const bool required = fallback.empty();
+    return {std::move(name), kind, std::move(doc), rule, std::move(fallback), required, {}};
+  }
+};
+inline constexpr OfKind number{ArgumentKind::Number};
+inline constexpr OfKind integer{ArgumentKind::Integer};
+inline constexpr OfKind vector2{ArgumentKind::Vector2};
+inline constexpr OfKind vector3{ArgumentKind::Vector3};
+inline constexpr OfKind points{ArgumentKind::Points};
+inline constexpr OfKind shape{ArgumentKind::Shape};
+inline constexpr OfKind shapes{ArgumentKind::Shapes};
+
+inline Parameter size(std::string name, std::string doc, std::string fallback) {
+  return number(std::move(name), std::move(doc), Rule::Positive, std::move(fallback));
 }
-inline Parameter number(std::string name, std::string doc, Rule rule, std::string fallback = "") {
-  return of(ArgumentKind::Number, std::move(name), std::move(doc), rule, std::move(fallback));
+inline Parameter halfHeight(std::string fallback) {
+  return size("half_height", "from the centre to the top and to the bottom", std::move(fallback));
 }
-inline Parameter integer(std::string name, std::string doc, Rule rule, std::string fallback = "") {
-  return of(ArgumentKind::Integer, std::move(name), std::move(doc), rule, std::move(fallback));
-}
-inline Parameter vector2(std::string name, std::string doc, Rule rule, std::string fallback = "") {
-  return of(ArgumentKind::Vector2, std::move(name), std::move(doc), rule, std::move(fallback));
-}
-inline Parameter vector3(std::string name, std::string doc, Rule rule, std::string fallback = "") {
-  return of(ArgumentKind::Vector3, std::move(name), std::move(doc), rule, std::move(fallback));
-}
-inline Parameter points(std::string name, std::string doc, std::string fallback = "") {
-  return of(ArgumentKind::Points, std::move(name), std::move(doc), Rule::Any, std::move(fallback));
-}
+/// The first choice is the fallback.
 inline Parameter choice(std::string name, std::string doc, std::vector<std::string> choices) {
   std::string first = choices.front();
-  Parameter p = of(ArgumentKind::Choice, std::move(name), std::move(doc), Rule::Any, std::move(first));
-  p.choices = std::move(choices);
-  return p;
-}
-inline Parameter shape(std::string name, std::string doc) {
-  return of(ArgumentKind::Shape, std::move(name), std::move(doc), Rule::Any, "");
-}
-inline Parameter shapes(std::string name, std::string doc) {
-  return of(ArgumentKind::Shapes, std::move(name), std::move(doc), Rule::Any, "");
+  return {std::move(name), ArgumentKind::Choice, std::move(doc), Rule::Any, std::move(first),
+          false,           std::move(choices)};
 }
 /// The same parameter, absent (monostate) where it is not given.
 inline Parameter optional(Parameter p) {
