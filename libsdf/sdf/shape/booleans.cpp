@@ -20,8 +20,6 @@ struct Layer {
   Attributes surface;
 };
 
-double steeper(const Expr& a, const Expr& b) { return std::max(a.lipschitz(), b.lipschitz()); }
-
 // sign times the amount by which the blend differs from the hard minimum or maximum. For every kind but
 // Exponential it is h^n k / 2n with h = 1 - |a - b| / k and n = 1 (chamfer), 2, 3. Where a = b, min and max
 // show the gradient of their first argument, and abs that of what it is given: with these signs they add up
@@ -34,20 +32,18 @@ Expr difference(const Expr& a, const Expr& b, const Blend& blend, double sign) {
   return square(near) * (sign * 0.25 / k);
 }
 
-// The gradient of each smooth form is a weighted mean of the operands' gradients: the claim on the result.
-Expr lower(const Expr& a, const Expr& b, const Blend& blend) {
-  if (isHard(blend)) return min(a, b);
-  const Expr result = blend.kind == Kind::Chamfer ? min(min(a, b), (a + b - blend.k) * 0.5)
-                                                  : difference(a, b, blend, -1.0) + min(a, b);
-  return result.claimLipschitz(steeper(a, b));
+// The blended minimum (sign -1) or maximum (1). The gradient of each smooth form is a weighted mean of the
+// operands' gradients: the claim on the result.
+Expr extreme(const Expr& a, const Expr& b, const Blend& blend, double sign) {
+  const auto pick = [&](const Expr& u, const Expr& v) { return sign < 0.0 ? min(u, v) : max(u, v); };
+  if (isHard(blend)) return pick(a, b);
+  const Expr result = blend.kind == Kind::Chamfer
+                          ? pick(pick(a, b), (sign < 0.0 ? a + b - blend.k : a + b + blend.k) * 0.5)
+                          : difference(a, b, blend, sign) + pick(a, b);
+  return result.claimLipschitz(std::max(a.lipschitz(), b.lipschitz()));
 }
-
-Expr upper(const Expr& a, const Expr& b, const Blend& blend) {
-  if (isHard(blend)) return max(a, b);
-  const Expr result = blend.kind == Kind::Chamfer ? max(max(a, b), (a + b + blend.k) * 0.5)
-                                                  : difference(a, b, blend, 1.0) + max(a, b);
-  return result.claimLipschitz(steeper(a, b));
-}
+Expr lower(const Expr& a, const Expr& b, const Blend& blend) { return extreme(a, b, blend, -1.0); }
+Expr upper(const Expr& a, const Expr& b, const Blend& blend) { return extreme(a, b, blend, 1.0); }
 
 // Derivative of lower(a, b) by b.
 Expr weightOfSecond(const Expr& a, const Expr& b, const Blend& blend) {
@@ -68,32 +64,25 @@ Expr weightOfSecond(const Expr& a, const Expr& b, const Blend& blend) {
 // Attributes that both share stay the same node: painted alike costs nothing.
 Attributes mixSurfaces(const Layer& a, const Layer& b, const Blend& blend) {
   if (a.surface == b.surface) return a.surface;
-  const Expr second = lessEqual(b.distance, a.distance);
-  const bool hard = isHard(blend);
-  const Expr weight = hard ? second : weightOfSecond(a.distance, b.distance, blend);
-  Attributes mixed;
-  for (int i = 0; i < kAttributeCount; ++i) {
-    const bool whole = hard || i == static_cast<int>(Attribute::MaterialId);
-    mixed[i] = whole ? select(second, b.surface[i], a.surface[i]) : mix(a.surface[i], b.surface[i], weight);
-  }
-  return mixed;
+  std::optional<Expr> weight;
+  if (!isHard(blend)) weight = weightOfSecond(a.distance, b.distance, blend);
+  return mixed(a.surface, b.surface, lessEqual(b.distance, a.distance), weight);
 }
 
 Layer join(const Layer& a, const Layer& b, const Blend& blend) {
   return {lower(a.distance, b.distance, blend), mixSurfaces(a, b, blend)};
 }
 
-// Balanced, so that a region where one half wins drops the other half at once.
-Layer balancedUnion(std::span<const Layer> layers) {
-  if (layers.size() == 1) return layers[0];
-  const std::size_t half = layers.size() / 2;
-  return join(balancedUnion(layers.first(half)), balancedUnion(layers.subspan(half)), Blend::hard());
+// All joined in pairs of halves, so that a region where one half wins drops the other half at once.
+template <class T, class Join>
+T balanced(std::span<const T> all, Join joinTwo) {
+  if (all.size() == 1) return all[0];
+  const std::size_t half = all.size() / 2;
+  return joinTwo(balanced(all.first(half), joinTwo), balanced(all.subspan(half), joinTwo));
 }
 
-Expr balancedMax(std::span<const Expr> es) {
-  if (es.size() == 1) return es[0];
-  const std::size_t half = es.size() / 2;
-  return max(balancedMax(es.first(half)), balancedMax(es.subspan(half)));
+Layer balancedUnion(std::span<const Layer> layers) {
+  return balanced(layers, [](const Layer& a, const Layer& b) { return join(a, b, Blend::hard()); });
 }
 
 // min - k log sum exp((min - d_i) / k): no exponent is positive, so nothing overflows, and n operands need n
@@ -132,8 +121,7 @@ std::optional<Shape> refusal(const char* op, const std::vector<Shape>& shapes, c
         "shape " + std::to_string(flat + 1) + " is flat and others are solid; extrude or revolve it first");
   }
   if (!isHard(blend)) check.positive("k", blend.k);
-  if (check.ok()) return std::nullopt;
-  return check.failure();
+  return check.ok() ? std::nullopt : std::optional(check.failure());
 }
 
 Blend guarded(Blend blend) {
@@ -237,7 +225,8 @@ Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
     if (!isEverything(s.bounds)) result.claim.growth = std::max(result.claim.growth, growthOf(s.claim));
   }
   if (isHard(blend)) {
-    result.distance = balancedMax(distances);
+    result.distance =
+        balanced(std::span<const Expr>(distances), [](const Expr& a, const Expr& b) { return max(a, b); });
   } else {
     for (std::size_t i = 1; i < shapes.size(); ++i)
       result.distance = upper(result.distance, distances[i], blend);

@@ -100,10 +100,8 @@ void checkArgument(const Parameter& p, const Argument& a, Check& c) {
       c.number(p.name, Expr(std::get<int>(a)), p.rule);
       break;
     case ArgumentKind::Vector2:
-      c.vector(p.name, std::get<Vec3E>(a), p.rule, 2);
-      break;
     case ArgumentKind::Vector3:
-      c.vector(p.name, std::get<Vec3E>(a), p.rule, 3);
+      c.vector(p.name, std::get<Vec3E>(a), p.rule, p.kind == ArgumentKind::Vector2 ? 2 : 3);
       break;
     case ArgumentKind::Choice: {
       const int i = std::get<int>(a);

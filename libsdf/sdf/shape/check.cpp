@@ -35,14 +35,6 @@ bool keeps(Rule rule, double value) {
   return true;
 }
 
-namespace {
-
-std::string quoted(std::string_view name, std::string_view rest) {
-  return std::string(name) + std::string(rest);
-}
-
-}  // namespace
-
 std::string shown(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.6g", std::isnan(value) ? std::abs(value) : value);
@@ -56,56 +48,47 @@ std::string shown(const std::vector<std::string>& choices) {
   return text;
 }
 
-Check& Check::fail(const std::string& fault) {
-  if (!message_) message_ = subject_ + ": " + fault;
+Check& Check::that(bool holds, const std::string& fault) {
+  if (!holds && !message_) message_ = subject_ + ": " + fault;
   return *this;
 }
 
-Check& Check::that(bool holds, const std::string& fault) { return holds ? *this : fail(fault); }
-
-Check& Check::number(std::string_view name, const Expr& e, Rule rule) {
+Check& Check::number(const std::string& name, const Expr& e, Rule rule) {
   if (!ok()) return *this;
-  if (dependsOnSpace(e)) return fail(quoted(name, " must not depend on position"));
+  if (dependsOnSpace(e)) return that(false, name + " must not depend on position");
   const double value = uniformValue(e);
-  if (!std::isfinite(value))
-    return fail(quoted(name, " must be ") + wording(Rule::Any) + ", got " + shown(value));
-  if (!keeps(rule, value)) return fail(quoted(name, " must be ") + wording(rule) + ", got " + shown(value));
-  return *this;
+  const bool finite = std::isfinite(value);
+  if (finite && keeps(rule, value)) return *this;
+  return that(false, name + " must be " + wording(finite ? rule : Rule::Any) + ", got " + shown(value));
 }
 
-Check& Check::vector(std::string_view name, const Vec3E& v, Rule rule, int components) {
-  number(quoted(name, ".x"), v.x, rule).number(quoted(name, ".y"), v.y, rule);
-  return components > 2 ? number(quoted(name, ".z"), v.z, rule) : *this;
+Check& Check::vector(const std::string& name, const Vec3E& v, Rule rule, int components) {
+  number(name + ".x", v.x, rule).number(name + ".y", v.y, rule);
+  return components > 2 ? number(name + ".z", v.z, rule) : *this;
 }
 
-Check& Check::below(std::string_view name, const Expr& e, std::string_view what, const Expr& limit) {
+Check& Check::limited(const std::string& name, const Expr& e, const std::string& wanted, const Expr& limit,
+                      bool included) {
   if (!number(name, e, Rule::Any).ok()) return *this;
   const double value = uniformValue(e), most = uniformValue(limit);
-  return that(value < most, quoted(name, " must be less than ") + std::string(what) + ", " + shown(most) +
-                                ", got " + shown(value));
+  return that(included ? value <= most : value < most,
+              name + " must be " + wanted + ", " + shown(most) + ", got " + shown(value));
 }
 
-Check& Check::atMost(std::string_view name, const Expr& e, std::string_view what, const Expr& limit) {
-  if (!number(name, e, Rule::Any).ok()) return *this;
-  const double value = uniformValue(e), most = uniformValue(limit);
-  return that(value <= most, quoted(name, " must be at most ") + std::string(what) + ", " + shown(most) +
-                                 ", got " + shown(value));
-}
-
-Check& Check::angle(std::string_view name, const Expr& e, double limitDegrees, bool limitIncluded) {
+Check& Check::angle(const std::string& name, const Expr& e, double limitDegrees, bool limitIncluded) {
   if (!number(name, e, Rule::Any).ok()) return *this;
   // The catalog's conversion to radians may end an ulp above the limit.
   constexpr double kRounding = 1e-12;
   const double degrees = uniformValue(e) * (180.0 / std::numbers::pi);
   const bool within = degrees > 0.0 && (limitIncluded ? degrees <= limitDegrees * (1.0 + kRounding)
                                                       : degrees < limitDegrees * (1.0 - kRounding));
-  return that(within, quoted(name, " must be above 0 and ") + (limitIncluded ? "at most " : "below ") +
+  return that(within, name + " must be above 0 and " + (limitIncluded ? "at most " : "below ") +
                           shown(limitDegrees) + " degrees, got " + shown(degrees));
 }
 
-Check& Check::integerAtLeast(std::string_view name, int value, int least) {
+Check& Check::integerAtLeast(const std::string& name, int value, int least) {
   return that(value >= least,
-              quoted(name, " must be at least ") + std::to_string(least) + ", got " + std::to_string(value));
+              name + " must be at least " + std::to_string(least) + ", got " + std::to_string(value));
 }
 
 }  // namespace sdf

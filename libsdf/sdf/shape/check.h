@@ -3,7 +3,7 @@
 #pragma once
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 
 #include "sdf/shape/catalog.h"
 
@@ -18,30 +18,35 @@ namespace sdf {
 /// Every check first makes sure that the number does not depend on position and is finite at present.
 class Check {
  public:
-  explicit Check(std::string_view subject) : subject_(subject) {}
+  explicit Check(std::string subject) : subject_(std::move(subject)) {}
 
-  Check& number(std::string_view name, const Expr& e, Rule rule);
-  Check& vector(std::string_view name, const Vec3E& v, Rule rule, int components = 3);
-  Check& positive(std::string_view name, const Expr& e) { return number(name, e, Rule::Positive); }
-  Check& notNegative(std::string_view name, const Expr& e) { return number(name, e, Rule::NotNegative); }
-  Check& any(std::string_view name, const Expr& e) { return number(name, e, Rule::Any); }
+  Check& number(const std::string& name, const Expr& e, Rule rule);
+  Check& vector(const std::string& name, const Vec3E& v, Rule rule, int components = 3);
+  Check& positive(const std::string& name, const Expr& e) { return number(name, e, Rule::Positive); }
+  Check& notNegative(const std::string& name, const Expr& e) { return number(name, e, Rule::NotNegative); }
+  Check& any(const std::string& name, const Expr& e) { return number(name, e, Rule::Any); }
 
   /// e < limit and e <= limit; `what` names the limit: "radius must be at most the smallest half size, 1".
-  Check& below(std::string_view name, const Expr& e, std::string_view what, const Expr& limit);
-  Check& atMost(std::string_view name, const Expr& e, std::string_view what, const Expr& limit);
+  Check& below(const std::string& name, const Expr& e, const std::string& what, const Expr& limit) {
+    return limited(name, e, "less than " + what, limit, false);
+  }
+  Check& atMost(const std::string& name, const Expr& e, const std::string& what, const Expr& limit) {
+    return limited(name, e, "at most " + what, limit, true);
+  }
   /// An angle in radians, 0 < e < limit (or <=); the message speaks of degrees, as scene files do.
-  Check& angle(std::string_view name, const Expr& e, double limitDegrees, bool limitIncluded);
-  Check& integerAtLeast(std::string_view name, int value, int least);
+  Check& angle(const std::string& name, const Expr& e, double limitDegrees, bool limitIncluded);
+  Check& integerAtLeast(const std::string& name, int value, int least);
   /// Anything else: `fault` completes "subject: ".
   Check& that(bool holds, const std::string& fault);
 
   bool ok() const { return !message_; }
   /// The failed shape. Precondition: !ok().
   Shape failure() const { return Shape::failed(*message_); }
-  const std::optional<std::string>& message() const { return message_; }
 
  private:
-  Check& fail(const std::string& fault);
+  Check& limited(const std::string& name, const Expr& e, const std::string& wanted, const Expr& limit,
+                 bool included);
+
   std::string subject_;
   std::optional<std::string> message_;
 };

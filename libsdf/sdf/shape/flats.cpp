@@ -33,8 +33,7 @@ Shape roundedRectangle(const Expr& halfWidth, const Expr& halfHeight, const Expr
   Check c("rounded_rectangle");
   const Expr smaller = min(halfWidth, halfHeight);
   c.vector("half", {halfWidth, halfHeight, 0.0}, Rule::Positive, 2).notNegative("radius", radius);
-  if (c.ok()) c.atMost("radius", radius, "the smaller half size", smaller);
-  if (!c.ok()) return c.failure();
+  if (!c.atMost("radius", radius, "the smaller half size", smaller).ok()) return c.failure();
   const Vec3E p = abs(position());
   const Expr r = min(radius, smaller);
   const glm::dvec2 corner(upper(halfWidth), upper(halfHeight));
@@ -68,8 +67,7 @@ Shape regularPolygon(int sides, const Expr& radius) {
 Shape star(int points, const Expr& outer, const Expr& inner) {
   Check c("star");
   c.integerAtLeast("points", points, 3).positive("outer", outer).positive("inner", inner);
-  if (c.ok()) c.below("inner", inner, "outer", outer);
-  if (!c.ok()) return c.failure();
+  if (!c.below("inner", inner, "outer", outer).ok()) return c.failure();
   const Expr tip = positiveSize(outer), notch = min(positiveSize(inner), tip);
   const Wedge w = foldDihedral(position().y, position().x, points);
   // The one edge in the wedge, from the tip to the notch, and its frame.
@@ -87,20 +85,15 @@ Shape arc(const Expr& angle, const Expr& radius, const Expr& thickness) {
   c.angle("angle", angle, 180.0, true).positive("radius", radius).positive("thickness", thickness);
   if (!c.ok()) return c.failure();
   const Expr a = clamp(angle, 0.0, std::numbers::pi), half = 0.5 * thickness;
-  const double widest = upper(a), r = upper(half);
-  const double side = upper(radius) * (widest < std::numbers::pi / 2 ? std::sin(widest) : 1.0) + r;
-  const double end = std::cos(widest);
-  const double back = (end < 0.0 ? upper(radius) : std::max(lower(radius), 0.0)) * end - r;
-  return flat(arcDistance(position().y, position().x, radius, a) - half, {-side, back},
-              {side, upper(radius) + r},
-              r <= arcReach(radius, a) ? ClaimKind::Exact : ClaimKind::ExactOutside);
+  const auto [lo, hi] = arcBounds(radius, a, upper(half));
+  return flat(arcDistance(position().y, position().x, radius, a) - half, lo, hi,
+              tubeKind(half, arcReach(radius, a)));
 }
 
 Shape ring(const Expr& radius, const Expr& thickness) {
   Check c("ring");
   c.positive("radius", radius).positive("thickness", thickness);
-  if (c.ok()) c.below("thickness", thickness, "twice the radius", 2.0 * radius);
-  if (!c.ok()) return c.failure();
+  if (!c.below("thickness", thickness, "twice the radius", 2.0 * radius).ok()) return c.failure();
   const Expr half = min(0.5 * thickness, radius);
   return flat(abs(norm(position().x, position().y) - radius) - half, -both(radius + half),
               both(radius + half));

@@ -67,6 +67,17 @@ double arcReach(const Expr& radius, const Expr& angle) {
   return widest < std::numbers::pi ? smallest * std::sin(widest) : 0.0;
 }
 
+std::pair<glm::dvec2, glm::dvec2> arcBounds(const Expr& radius, const Expr& angle, double half) {
+  const double widest = upper(angle), most = upper(radius), end = std::cos(widest);
+  const double side = most * (widest < std::numbers::pi / 2 ? std::sin(widest) : 1.0) + half;
+  const double back = (end < 0.0 ? most : std::max(lower(radius), 0.0)) * end - half;
+  return {{-side, back}, {side, most + half}};
+}
+
+ClaimKind tubeKind(const Expr& radius, double reach) {
+  return upper(radius) <= reach ? ClaimKind::Exact : ClaimKind::ExactOutside;
+}
+
 Wedge foldDihedral(const Expr& along, const Expr& across, int sides) {
   Wedge w{along, abs(across)};
   // Angles [0, m pi / sides] are folded in half about a symmetry line until m = 1.

@@ -49,6 +49,11 @@ Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom
 Expr arcDistance(const Expr& along, const Expr& across, const Expr& radius, const Expr& angle);
 /// Up to which half thickness the band around that arc does not run into itself.
 double arcReach(const Expr& radius, const Expr& angle);
+/// Rectangle around that band: {min across, min along}, {max across, max along}.
+std::pair<glm::dvec2, glm::dvec2> arcBounds(const Expr& radius, const Expr& angle, double half);
+/// A tube of this radius, or a band of half this thickness, is exact while it does not run into itself, which
+/// it does beyond `reach`.
+ClaimKind tubeKind(const Expr& radius, double reach);
 
 /// The plane folded by its reflections in the symmetry lines of a regular polygon with a corner on the axis
 /// `along`: what is left is the wedge of angles [0, pi / sides] from that axis. An isometry on each piece.

@@ -71,8 +71,7 @@ std::vector<Expr> seenBy(const Axis& a, const Expr& x) {
 // window jumps, the parts do.
 Shape nearestCopy(const Shape& shape, const std::array<Axis, 3>& axes) {
   const Vec3E p = position();
-  bool jumps = false;
-  for (const Axis& a : axes) jumps = jumps || a.windowed();
+  const bool jumps = std::ranges::any_of(axes, &Axis::windowed);
   // |x - cell round(x / cell)| is a continuous zigzag of slope 1, and all that an even distance sees.
   const auto folded = [](const Axis& a, const Expr& x) {
     return a.repeated && a.even ? abs(x).claimLipschitz(1.0) : x;
@@ -119,7 +118,7 @@ Shape repeatGrid(const Shape& shape, const Vec3E& cell, const std::optional<glm:
 
   Shape result = nearestCopy(shape, axes);
   result.bounds = shape.bounds;
-  bool apart = true, jumps = false;
+  bool apart = true;
   for (int i = 0; i < 3; ++i) {
     const Axis& a = axes[i];
     if (!a.repeated) continue;
@@ -127,13 +126,11 @@ Shape repeatGrid(const Shape& shape, const Vec3E& cell, const std::optional<glm:
     result.bounds.min[i] -= reach;
     result.bounds.max[i] += reach;
     apart = apart && a.hi - a.lo < a.narrowest();
-    jumps = jumps || a.windowed();
   }
   const ClaimKind kind = shape.claim.kind;
   const double steepest = slopeOf(shape), cap = capOf(shape, axes);
-  result.claim = {apart ? kind : weaker(kind, ClaimKind::ExactOutside), steepest};
-  result.claim.growth = growthOf(shape.claim);
-  if (jumps && kind > ClaimKind::ExactOutside) {
+  result.claim = {apart ? kind : weaker(kind, ClaimKind::ExactOutside), steepest, growthOf(shape.claim)};
+  if (std::ranges::any_of(axes, &Axis::windowed) && kind > ClaimKind::ExactOutside) {
     const bool known = cap > 0.0 && std::isfinite(steepest);
     result.claim.lipschitz = known ? std::max(1.0, steepest) : kInfinity;
     result.claim.growth = std::max(1.0, result.claim.growth);

@@ -18,11 +18,10 @@ struct Phases {
 template <class Wave>
 Shape lattice(const char* name, const Expr& cell, const Expr& thickness, double steepest, double highest,
               Wave wave) {
+  const double fills = highest / (steepest * std::numbers::pi);
   Check c(name);
   c.positive("cell", cell).positive("thickness", thickness);
-  const double fills = highest / (steepest * std::numbers::pi);
-  if (c.ok()) c.below("thickness", thickness, shown(fills) + " cell", fills * cell);
-  if (!c.ok()) return c.failure();
+  if (!c.below("thickness", thickness, shown(fills) + " cell", fills * cell).ok()) return c.failure();
   const Expr frequency = 2.0 * std::numbers::pi / positiveSize(cell);
   const Vec3E p = position() * frequency;
   const Phases phases{{sin(p.x), sin(p.y), sin(p.z)}, {cos(p.x), cos(p.y), cos(p.z)}};

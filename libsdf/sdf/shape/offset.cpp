@@ -10,8 +10,7 @@ namespace sdf {
 namespace {
 
 bool dependsOnZ(const Expr& e) {
-  const auto order = topologicalOrder({&e, 1});
-  return std::any_of(order.begin(), order.end(), [](const Expr& n) {
+  return std::ranges::any_of(topologicalOrder({&e, 1}), [](const Expr& n) {
     return n.op() == Op::Variable && n.variableIndex() == Variable::Z;
   });
 }
@@ -30,8 +29,7 @@ Shape displaced(const Shape& shape, const Expr& offset, const Expr& slope) {
   if (known && std::isfinite(raised))
     result.distance = max(result.distance, (shape.distance - raised) * (1.0 / std::max(steepest, 1.0)));
   if (raised > 0.0) result.bounds = grow(shape.bounds, growth * raised);
-  result.claim = {ClaimKind::Field, known ? 1.0 : kInfinity};
-  result.claim.growth = known ? growth * sum.range().hi : growth;
+  result.claim = {ClaimKind::Field, known ? 1.0 : kInfinity, known ? growth * sum.range().hi : growth};
   return settled(std::move(result));
 }
 
@@ -53,16 +51,11 @@ Shape morph(const Shape& a, const Shape& b, const Expr& t) {
   const std::vector<Shape> both = numberedAlike({a, b});
   Shape result = both[0];
   result.distance = mix(a.distance, b.distance, share);
-  for (int i = 0; i < kAttributeCount; ++i) {
-    const bool id = i == static_cast<int>(Attribute::MaterialId);
-    const Expr &from = both[0].surface[i], &to = both[1].surface[i];
-    result.surface[i] = id ? select(lessEqual(0.5, share), to, from) : mix(from, to, share);
-  }
+  result.surface = mixed(both[0].surface, both[1].surface, lessEqual(0.5, share), share);
   // A mean that is at most c has an operand that is at most c.
   result.bounds = unite(a.bounds, b.bounds);
-  result.claim.kind = ClaimKind::Field;
-  result.claim.lipschitz = std::max(a.claim.lipschitz, b.claim.lipschitz);
-  result.claim.growth = std::max(growthOf(a.claim), growthOf(b.claim));
+  result.claim = {ClaimKind::Field, std::max(a.claim.lipschitz, b.claim.lipschitz),
+                  std::max(growthOf(a.claim), growthOf(b.claim))};
   return settled(std::move(result));
 }
 
@@ -118,9 +111,7 @@ Shape elongate(const Shape& shape, const Vec3E& half) {
   // general: where the gap is, the nearest point may lie beyond the cut.
   Shape result = movedTo(shape, at, 1.0);
   result.bounds = bounds;
-  result.claim = shape.claim;
-  result.claim.kind = weaker(shape.claim.kind, ClaimKind::Bound);
-  result.claim.growth = growthOf(shape.claim);
+  result.claim = weakened(shape.claim, ClaimKind::Bound);
   return settled(std::move(result));
 }
 

@@ -68,8 +68,8 @@ std::optional<Expr> outsideBox(const Box& b) {
 }
 
 bool isOneLipschitz(double lipschitz) {
-  constexpr double kRounding =
-      1e-12;  // of a chain of some thousand interval operations, each outward by an ulp
+  // Of a chain of some thousand interval operations, each outward by an ulp.
+  constexpr double kRounding = 1e-12;
   return lipschitz <= 1.0 + kRounding;
 }
 
@@ -95,6 +95,16 @@ bool isEven(const Expr& e, int axis) {
   Vec3E p = position();
   component(p, axis) = -component(p, axis);
   return remap(e, {p.x, p.y, p.z}, 1.0) == e;
+}
+
+Attributes mixed(const Attributes& a, const Attributes& b, const Expr& second,
+                 const std::optional<Expr>& weight) {
+  Attributes both;
+  for (int i = 0; i < kAttributeCount; ++i) {
+    const bool whole = !weight || i == static_cast<int>(Attribute::MaterialId);
+    both[i] = whole ? select(second, b[i], a[i]) : mix(a[i], b[i], *weight);
+  }
+  return both;
 }
 
 std::shared_ptr<const Union> mappedUnion(const Shape& shape,
@@ -138,7 +148,7 @@ std::vector<Shape> numberedAlike(std::vector<Shape> shapes) {
   for (Shape& s : shapes) {
     std::vector<double> places;
     for (const MaterialPtr& m : s.materials) {
-      const auto it = std::find(all.begin(), all.end(), m);
+      const auto it = std::ranges::find(all, m);
       places.push_back(static_cast<double>(it - all.begin()));
       if (it == all.end()) all.push_back(m);
     }

@@ -45,17 +45,26 @@ std::optional<Expr> outsideBox(const Box& b);
 /// Up to rounding, the distance changes no faster than the position: |f| then never exceeds the distance to
 /// its zero set.
 bool isOneLipschitz(double lipschitz);
+/// The claim at a kind that may be weaker.
+inline Claim weakened(const Claim& c, ClaimKind kind) {
+  return {weaker(c.kind, kind), c.lipschitz, growthOf(c)};
+}
 /// Makes claim and graph tell each other what they know: a global constant goes to the graph, a better
 /// derived one to the claim, and a field that is 1-Lipschitz everywhere is a bound. What was a list of
 /// operands is one shape.
 Shape settled(Shape s);
 
 /// The shape with its distance and attributes looked up at another position; `stretch` as in remap. Bounds
-/// and claim are left for the caller.
+/// and claim are still the shape's.
 Shape movedTo(const Shape& s, const Vec3E& position, double stretch);
 /// Does the expression keep its value when x, y or z changes sign, provably by the way it is written (as
 /// functions of |x| or x^2 do)?
 bool isEven(const Expr& e, int axis);
+/// Each attribute mixed by `weight`, or b's where `second` holds, a's elsewhere: so where no weight is given,
+/// and always the material's identity.
+Attributes mixed(const Attributes& a, const Attributes& b, const Expr& second,
+                 const std::optional<Expr>& weight);
+
 /// The list of a union with something done to each operand; nothing where the shape is no union.
 std::shared_ptr<const Union> mappedUnion(const Shape& shape,
                                          const std::function<Shape(const Shape&)>& operation);

@@ -59,22 +59,28 @@ double presentLength(const Vec3E& v) {
   return std::hypot(uniformValue(v.x), uniformValue(v.y), uniformValue(v.z));
 }
 
+// Heights of the box over the plane through the origin across n.
+Interval heightsOver(const Box& b, const Vec3E& n) {
+  double lo = 0.0, hi = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const Interval part = timesRange(component(n, i).range(), b.min[i], b.max[i]);
+    lo += part.lo;
+    hi += part.hi;
+  }
+  return {lo, hi};
+}
+
 // The box around the turned box. Where the matrix varies with a parameter, the sphere around the box is a
 // second bound.
 Box turnedBox(const Box& b, const Matrix& m) {
+  if (isEverything(b)) return b;
   Box result;
   bool fixed = true;
   for (int i = 0; i < 3; ++i) {
-    double lo = 0.0, hi = 0.0;
-    for (int j = 0; j < 3; ++j) {
-      const Expr& factor = component(m[i], j);
-      const Interval part = timesRange(factor.range(), b.min[j], b.max[j]);
-      lo += part.lo;
-      hi += part.hi;
-      fixed = fixed && factor.isConstant();
-    }
-    result.min[i] = lo;
-    result.max[i] = hi;
+    const Interval side = heightsOver(b, m[i]);
+    result.min[i] = side.lo;
+    result.max[i] = side.hi;
+    fixed = fixed && m[i].x.isConstant() && m[i].y.isConstant() && m[i].z.isConstant();
   }
   if (fixed) return result;
   return intersect(result, Box::centred(glm::dvec3(radiusOf(b))));
@@ -92,27 +98,20 @@ double turnedGrowth(const Matrix& m) {
   return std::min(most, std::sqrt(3.0));
 }
 
+// The shape as the isometry m leaves it; `from` is where its points come from.
+Shape mapped(const Shape& shape, const Matrix& m, const Vec3E& from) {
+  Shape result = movedTo(shape, from, 1.0);
+  result.bounds = turnedBox(shape.bounds, m);
+  result.claim.growth *= turnedGrowth(m);
+  return settled(std::move(result));
+}
+
 Shape turned(const Shape& shape, const Matrix& m) {
   const Matrix back = transposed(m);
   const Vec3E p = position();
-  Shape result = movedTo(shape, {weighted(p, back[0]), weighted(p, back[1]), weighted(p, back[2])}, 1.0);
-  result.bounds = isEverything(shape.bounds) ? shape.bounds : turnedBox(shape.bounds, m);
-  result.claim = shape.claim;
-  result.claim.growth = shape.claim.growth * turnedGrowth(m);
-  result = settled(std::move(result));
+  Shape result = mapped(shape, m, {weighted(p, back[0]), weighted(p, back[1]), weighted(p, back[2])});
   result.outer = mappedUnion(shape, [&](const Shape& operand) { return turned(operand, m); });
   return result;
-}
-
-// Heights of the box over the plane through the origin across n.
-Interval heightsOver(const Box& b, const Vec3E& n) {
-  double lo = 0.0, hi = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const Interval part = timesRange(component(n, i).range(), b.min[i], b.max[i]);
-    lo += part.lo;
-    hi += part.hi;
-  }
-  return {lo, hi};
 }
 
 // The position, reflected across the plane where it is not on the given side (1: n.p >= 0, -1: n.p <= 0, 0:
@@ -150,7 +149,6 @@ Shape translate(const Shape& shape, const Vec3E& offset) {
   Check check("translate");
   if (!check.vector("offset", offset, Rule::Any).ok()) return check.failure();
   Shape result = movedTo(shape, position() - offset, 1.0);
-  result.claim = shape.claim;
   for (int i = 0; i < 3; ++i) {
     const Interval& by = component(offset, i).range();
     result.bounds.min[i] += by.lo;
@@ -204,10 +202,10 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
     result.bounds.min[i] = side.lo;
     result.bounds.max[i] = side.hi;
   }
-  result.claim = shape.claim;
-  if (!uniform) result.claim.kind = weaker(shape.claim.kind, ClaimKind::Bound);
-  result.claim.growth =
-      uniform ? shape.claim.growth : growthOf(shape.claim) * most.range().hi / least.range().lo;
+  if (!uniform) {
+    result.claim = weakened(shape.claim, ClaimKind::Bound);
+    result.claim.growth = result.claim.growth * most.range().hi / least.range().lo;
+  }
   result = settled(std::move(result));
   if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard)
     result.outer = mappedUnion(shape, [&](const Shape& operand) { return scale(operand, factors); });
@@ -227,12 +225,7 @@ Shape mirror(const Shape& shape, const Vec3E& normal) {
   const Vec3E n = unit(normal);
   const Interval heights = heightsOver(shape.bounds, n);
   const int side = heights.lo >= 0.0 ? 1 : heights.hi <= 0.0 ? -1 : 0;
-  const Matrix across = reflection(n);
-  Shape image = movedTo(shape, reflected(n, side), 1.0);
-  image.bounds = isEverything(shape.bounds) ? shape.bounds : turnedBox(shape.bounds, across);
-  image.claim = shape.claim;
-  image.claim.growth = shape.claim.growth * turnedGrowth(across);
-  image = settled(std::move(image));
+  Shape image = mapped(shape, reflection(n), reflected(n, side));
   if (side == 0) return unite(shape, image);
   image.bounds = unite(shape.bounds, image.bounds);
   // Halves that touch share their inside, where an inner distance stops at a face that is none.

@@ -63,12 +63,9 @@ Shape windowOfCopies(const Shape& shape, double sector, double farEdge, int cand
   Expr x = p.x * c + p.z * s, z = p.z * c - p.x * s;
   std::vector<Shape> copies;
   for (int k = 0; k < candidates; ++k) {
-    if (k > 0) {
-      const double cosine = std::cos(sector * k), sine = std::sin(sector * k);
-      copies.push_back(movedTo(shape, {x * cosine + z * sine, p.y, z * cosine - x * sine}, kInfinity));
-    } else {
-      copies.push_back(movedTo(shape, {x, p.y, z}, kInfinity));
-    }
+    const double cosine = std::cos(sector * k), sine = std::sin(sector * k);
+    const Vec3E turned = k == 0 ? Vec3E(x, p.y, z) : Vec3E(x * cosine + z * sine, p.y, z * cosine - x * sine);
+    copies.push_back(movedTo(shape, turned, kInfinity));
     copies.back().claim = {ClaimKind::Field, kInfinity};
   }
   return unite(copies);
@@ -101,8 +98,8 @@ Shape polarRepeat(const Shape& shape, int count) {
   const double outer = radiusAbout(b, 1), inner = nearestToAxis(b);
   result.bounds = {{-outer, b.min.y, -outer}, {outer, b.max.y, outer}};
   const bool apart = seen.width() < sector;
-  result.claim = {apart ? kind : weaker(kind, ClaimKind::ExactOutside), steepest};
-  result.claim.growth = std::max(1.0, std::numbers::sqrt2 * growth);
+  result.claim = {apart ? kind : weaker(kind, ClaimKind::ExactOutside), steepest,
+                  std::max(1.0, std::numbers::sqrt2 * growth)};
   if (!even && !exact) {
     // As in a grid, but the window drops a copy half a sector beyond its bounds, which is less near the axis;
     // there the distance to the ring of copies takes over.

@@ -9,31 +9,21 @@ namespace sdf {
 MaterialPtr makeMaterial(Material material) { return std::make_shared<const Material>(std::move(material)); }
 
 const MaterialPtr& defaultMaterial() {
-  static const MaterialPtr grey = [] {
-    Material m;
-    m.name = "default";
-    return std::make_shared<const Material>(std::move(m));
-  }();
+  static const MaterialPtr grey = makeMaterial({.name = "default"});
   return grey;
 }
 
-Attributes attributesOf(const Material& material) {
-  Attributes a;
-  const auto set = [&a](Attribute which, const Expr& e) { a[static_cast<int>(which)] = e; };
-  const auto setColour = [&](Attribute first, const Vec3E& c) {
-    const int i = static_cast<int>(first);
-    a[i] = c.x, a[i + 1] = c.y, a[i + 2] = c.z;
-  };
-  setColour(Attribute::Red, material.color);
-  setColour(Attribute::AmbientRed, material.ambient.value_or(material.color));
-  setColour(Attribute::SpecularRed, material.specular);
-  setColour(Attribute::EmissionRed, material.emission);
-  set(Attribute::Shininess, material.shininess);
-  set(Attribute::Reflectivity, material.reflectivity);
-  set(Attribute::FresnelPower, material.fresnelPower);
-  set(Attribute::FresnelBias, material.fresnelBias);
-  set(Attribute::MaterialId, 0.0);
-  return a;
+Attributes attributesOf(const Material& m) {
+  const Vec3E ambient = m.ambient.value_or(m.color);
+  // clang-format off
+  return {m.color.x, m.color.y, m.color.z,
+          ambient.x, ambient.y, ambient.z,
+          m.specular.x, m.specular.y, m.specular.z,
+          m.shininess,
+          m.reflectivity, m.fresnelPower, m.fresnelBias,
+          m.emission.x, m.emission.y, m.emission.z,
+          0.0};
+  // clang-format on
 }
 
 Shape Shape::failed(std::string message) {

@@ -19,11 +19,6 @@ Expr smallest(const Vec3E& v) { return min(v.x, min(v.y, v.z)); }
 // Distance from the y axis.
 Expr radial(const Vec3E& p) { return norm(p.x, p.z); }
 
-// A tube of this radius about a curve, which is exact while it does not run into itself.
-ClaimKind tubeKind(const Expr& radius, double reach) {
-  return upper(radius) <= reach ? ClaimKind::Exact : ClaimKind::ExactOutside;
-}
-
 Box roundBounds(double radius, double bottom, double top) {
   return {{-radius, bottom, -radius}, {radius, top, radius}};
 }
@@ -45,8 +40,7 @@ Shape box(const Vec3E& half) {
 Shape roundBox(const Vec3E& half, const Expr& radius) {
   Check c("round_box");
   c.vector("half", half, Rule::Positive).notNegative("radius", radius);
-  if (c.ok()) c.atMost("radius", radius, "the smallest half size", smallest(half));
-  if (!c.ok()) return c.failure();
+  if (!c.atMost("radius", radius, "the smallest half size", smallest(half)).ok()) return c.failure();
   // Where the ranges would let the radius pass the smallest half size, it is held at it.
   const Expr r = min(radius, smallest(half));
   const Vec3E q = abs(position()) - (half - Vec3E(r));
@@ -56,8 +50,7 @@ Shape roundBox(const Vec3E& half, const Expr& radius) {
 Shape boxFrame(const Vec3E& half, const Expr& thickness) {
   Check c("box_frame");
   c.vector("half", half, Rule::Positive).positive("thickness", thickness);
-  if (c.ok()) c.atMost("thickness", thickness, "the smallest half size", smallest(half));
-  if (!c.ok()) return c.failure();
+  if (!c.atMost("thickness", thickness, "the smallest half size", smallest(half)).ok()) return c.failure();
   // Half of what the beams take of each half size. Beams as thick as that meet in the middle: there they are
   // one, for two that only touch would have a distance of 0 within the solid.
   const auto part = [&](const Expr& size) { return select(less(thickness, size), 0.5 * thickness, size); };
@@ -83,12 +76,10 @@ Shape cappedTorus(const Expr& angle, const Expr& major, const Expr& minor) {
   if (!c.ok()) return c.failure();
   const Vec3E p = position();
   const Expr a = clamp(angle, 0.0, std::numbers::pi);
-  const double r = upper(minor), widest = upper(a);
-  const double side = upper(major) * (widest < std::numbers::pi / 2 ? std::sin(widest) : 1.0) + r;
-  const double end = std::cos(widest);
-  const double back = (end < 0.0 ? upper(major) : std::max(lower(major), 0.0)) * end - r;
-  return solid(norm(arcDistance(p.z, p.x, major, a), p.y) - minor,
-               {{-side, -r, back}, {side, r, upper(major) + r}}, tubeKind(minor, arcReach(major, a)));
+  const double r = upper(minor);
+  const auto [lo, hi] = arcBounds(major, a, r);
+  return solid(norm(arcDistance(p.z, p.x, major, a), p.y) - minor, {{lo.x, -r, lo.y}, {hi.x, r, hi.y}},
+               tubeKind(minor, arcReach(major, a)));
 }
 
 Shape link(const Expr& halfLength, const Expr& major, const Expr& minor) {

@@ -23,7 +23,6 @@ Shape extrude(const Shape& flat, const Expr& halfHeight) {
   const Expr lid = abs(position().z) - h;
   Shape result = flat;
   result.dimension = 3;
-  result.claim = flat.claim;
   result.claim.lipschitz = std::max(1.0, slopeOf(flat));
   // side depends on x and y, lid on z: the length of the pair is no steeper than the steeper of the two.
   const Expr corner =
@@ -48,13 +47,11 @@ Shape revolve(const Shape& flat, const Expr& offset) {
   result.bounds = {{-right, flat.bounds.min.y, -right}, {right, flat.bounds.max.y, right}};
   // A flat shape across the axis, unless it is its own mirror image, may owe its nearest point to the side
   // that is dropped. One that touches the axis may have an edge there, which the solid has not.
-  result.claim = flat.claim;
   const bool even = offset.isConstant(0.0) && isEven(flat.distance, 0);
   const ClaimKind best = even || left > 0.0 ? ClaimKind::Exact
                          : left == 0.0      ? ClaimKind::ExactOutside
                                             : ClaimKind::Bound;
-  result.claim.kind = weaker(flat.claim.kind, best);
-  result.claim.growth = growthOf(flat.claim);
+  result.claim = weakened(flat.claim, best);
   return settled(std::move(result));
 }
 

@@ -35,8 +35,7 @@ Shape asField(Shape warped) {
 
 Shape withProvenBound(Shape warped, const Expr& distance, double growth) {
   warped.distance = distance;
-  warped.claim = {ClaimKind::Bound, 1.0};
-  warped.claim.growth = growth;
+  warped.claim = {ClaimKind::Bound, 1.0, growth};
   return settled(std::move(warped));
 }
 
