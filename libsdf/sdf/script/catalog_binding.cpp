@@ -1,10 +1,11 @@
-// The catalog in the scene language: one function for each entry, and the ways in which its arguments can be
-// written.
+// Shapes in the scene language: one function for each entry of the catalog, and the ways in which its
+// arguments can be written; and shapes that are written as formulas of the position.
 #include <algorithm>
 #include <lua.hpp>
 
 #include "sdf/script/library.h"
 #include "sdf/shape/deform.h"
+#include "sdf/shape/solids.h"
 
 namespace sdf {
 
@@ -23,10 +24,10 @@ class Call {
     gather();
     std::vector<Argument> values;
     for (const Parameter& p : entry_.parameters) values.push_back(valueOf(p));
-    if (next_ <= last_) tooMany();
-    Shape shape = build(entry_, std::move(values));
-    if (!shape.ok()) raise(L_, *shape.error);
-    return shape;
+    if (next_ <= last_)
+      raise(L_, entry_.name + ": too many arguments, the first one too many is " + describe(L_, next_) +
+                    "; write " + usageOf(entry_));
+    return build(entry_, std::move(values));
   }
 
  private:
@@ -37,7 +38,9 @@ class Call {
     const bool alone = last_ == 1 || (last_ == 2 && testShape(L_, 1));
     if (table && hasNamedField(L_, last_)) {
       options_ = last_--;
-      checkNames();
+      std::vector<std::string> known;
+      for (const Parameter& p : entry_.parameters) known.push_back(p.name);
+      checkNames(L_, options_, entry_.name, known);
     }
     if (!table || !alone) return;
     const int list = options_ ? options_ : last_--;
@@ -57,27 +60,14 @@ class Call {
     last_ += count;
   }
 
-  void checkNames() const {
-    std::vector<std::string> known;
-    for (const Parameter& p : entry_.parameters) known.push_back(p.name);
-    for (lua_pushnil(L_); lua_next(L_, options_); lua_pop(L_, 1)) {
-      if (lua_type(L_, -2) != LUA_TSTRING) continue;
-      const std::string name = lua_tostring(L_, -2);
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        unknownField(L_, entry_.name, name, known);
-    }
-  }
-
-  [[noreturn]] void tooMany() const {
-    raise(L_, entry_.name + ": too many arguments, the first one too many is " + describe(L_, next_) +
-                  "; write " + usageOf(entry_));
-  }
-
+  static int sizeOf(const Parameter& p) { return p.kind == ArgumentKind::Vector2 ? 2 : 3; }
   std::string what(const Parameter& p) const { return entry_.name + ": '" + p.name + "'"; }
 
   Argument valueOf(const Parameter& p) {
     if (options_ && lua_getfield(L_, options_, p.name.c_str()) != LUA_TNIL) {
-      if (next_ <= last_ && !laterCanTake(p)) raise(L_, what(p) + " is given twice, by place and by name");
+      // Unless p is the last, an argument in place may belong to a later parameter.
+      if (next_ <= last_ && &p == &entry_.parameters.back())
+        raise(L_, what(p) + " is given twice, by place and by name");
       const int at = lua_gettop(L_);
       Argument value = readOne(p, at);
       lua_settop(L_, options_);
@@ -92,9 +82,6 @@ class Call {
     return readRow(p);
   }
 
-  // Whether an argument in place may belong to a parameter after p, so that naming p is no contradiction.
-  bool laterCanTake(const Parameter& p) const { return &p != &entry_.parameters.back(); }
-
   Argument readOne(const Parameter& p, int at) {
     switch (p.kind) {
       case ArgumentKind::Number:
@@ -104,16 +91,15 @@ class Call {
       case ArgumentKind::Choice:
         return readChoice(L_, at, what(p), p.choices);
       case ArgumentKind::Vector2:
-        return readVector(L_, at, what(p), 2, Depends::OnParameters);
       case ArgumentKind::Vector3:
-        return readVector(L_, at, what(p), 3, Depends::OnParameters);
+        return readVector(L_, at, what(p), sizeOf(p), Depends::OnParameters);
       case ArgumentKind::Shape:
         return shapeAt(p, at);
       case ArgumentKind::Shapes:
         return readList<Shape>(p, at, "a list of shapes", [&](int i) { return shapeAt(p, i); });
       case ArgumentKind::Points:
         return readList<glm::dvec2>(p, at, "a list of points {{x, y}, …}",
-                                    [&](int i) { return pointAt(p, i); });
+                                    [&](int i) { return readPoint(L_, i, what(p), 2); });
     }
     return std::monostate{};
   }
@@ -122,16 +108,16 @@ class Call {
   Argument readRow(const Parameter& p) {
     switch (p.kind) {
       case ArgumentKind::Vector2:
-        return readSpreadVector(p, 2);
       case ArgumentKind::Vector3:
-        return readSpreadVector(p, 3);
+        return readSpreadVector(p, sizeOf(p));
       case ArgumentKind::Shapes:
         if (!testShape(L_, next_)) break;
         return takeWhile<Shape>([&] { return testShape(L_, next_) != nullptr; },
                                 [&](int i) { return shapeAt(p, i); });
       case ArgumentKind::Points:
         if (!isPoint(next_)) break;
-        return takeWhile<glm::dvec2>([&] { return isPoint(next_); }, [&](int i) { return pointAt(p, i); });
+        return takeWhile<glm::dvec2>([&] { return isPoint(next_); },
+                                     [&](int i) { return readPoint(L_, i, what(p), 2); });
       default:
         break;
     }
@@ -150,13 +136,6 @@ class Call {
     const bool numbers = lua_rawgeti(L_, at, 1) != LUA_TTABLE;
     lua_pop(L_, 1);
     return numbers;
-  }
-
-  glm::dvec2 pointAt(const Parameter& p, int at) const {
-    const Vec3E v = readVector(L_, at, what(p), 2, Depends::OnParameters);
-    if (!v.x.isConstant() || !v.y.isConstant())
-      raise(L_, what(p) + " must be plain numbers, got a formula; value(e) gives its present value");
-    return {v.x.constantValue(), v.y.constantValue()};
   }
 
   template <class T, class Test, class Read>
@@ -203,10 +182,14 @@ class Call {
   int options_ = 0;  // the table of named fields, or 0; what lies above it is scratch
 };
 
+int pushGood(lua_State* L, Shape shape) {
+  if (!shape.ok()) raise(L, *shape.error);
+  return pushShape(L, std::move(shape)), 1;
+}
+
 int callEntry(lua_State* L) {
   const auto* entry = static_cast<const CatalogEntry*>(lua_touserdata(L, lua_upvalueindex(1)));
-  pushShape(L, Call(L, *entry).run());
-  return 1;
+  return pushGood(L, Call(L, *entry).run());
 }
 
 // Some names mean a function of numbers as well, which is the second upvalue: round(2.5), round(shape, 0.1).
@@ -222,15 +205,12 @@ int callEntryOrNumberFunction(lua_State* L) {
 int callDisplace(lua_State* L) {
   const bool free = lua_isfunction(L, 2) || (isFormula(L, 2) && dependsOnSpace(exprAt(L, 2)));
   if (!testShape(L, 1) || lua_gettop(L) != 2 || !free) return callEntry(L);
-  Shape shape = displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula"));
-  if (!shape.ok()) raise(L, *shape.error);
-  return pushShape(L, std::move(shape)), 1;
+  return pushGood(L, displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula")));
 }
 
 void pushEntryFunction(lua_State* L, const CatalogEntry& entry) {
   const auto& numbers = formulaLibrary();
-  const auto same = [&](const FunctionInfo& f) { return f.name == entry.name; };
-  const bool shared = std::any_of(numbers.begin(), numbers.end(), same);
+  const bool shared = std::ranges::find(numbers, entry.name, &FunctionInfo::name) != numbers.end();
   lua_pushlightuserdata(L, const_cast<CatalogEntry*>(&entry));
   if (shared) lua_getglobal(L, entry.name.c_str());
   if (shared)
@@ -249,26 +229,27 @@ constexpr Sign kSigns[] = {{"__bor", "|", "union"},
                            {"__sub", "-", "difference"},
                            {"__bxor", "~", "xor"}};
 
-template <int kIndex>
 int applySign(lua_State* L) {
-  const Sign& s = kSigns[kIndex];
+  const auto& s = *static_cast<const Sign*>(lua_touserdata(L, lua_upvalueindex(1)));
   for (int i = 1; i <= 2; ++i)
     if (!testShape(L, i))
       raise(L, std::string("'") + s.sign + "' needs a shape on both sides, got " + describe(L, i));
-  pushShape(L, Call(L, *findEntry(s.entry)).run());
-  return 1;
+  return pushGood(L, Call(L, *findEntry(s.entry)).run());
 }
 
-template <int... kIndices>
-void setSigns(lua_State* L, std::integer_sequence<int, kIndices...>) {
-  ((lua_pushcfunction(L, guarded<applySign<kIndices>>), setShapeOperator(L, kSigns[kIndices].event)), ...);
+int freeForm(lua_State* L) {
+  expectArguments(L, 1, 2);
+  const FunctionInfo& f = runningFunction(L);
+  const Expr distance = readFormula(L, 1, f.name + ": the formula");
+  const FieldValues known = readFields(L, 2, f);
+  return pushGood(L, field(distance, valueOr(known, "bounds", Box::everything()),
+                           valueOr(known, "lipschitz", kInfinity)));
 }
 
 int notArithmetic(lua_State* L) {
   raise(L,
         "shapes are combined with | (union), & (intersection), - (difference) and ~ (xor); moved with "
-        "translate, "
-        "sized with scale");
+        "translate, sized with scale");
 }
 
 }  // namespace
@@ -277,9 +258,10 @@ void openCatalog(lua_State* L) {
   pushShapeMethods(L);
   for (const CatalogEntry& entry : catalog()) {
     pushEntryFunction(L, entry);
-    const bool method = !entry.parameters.empty() && (entry.parameters.front().kind == ArgumentKind::Shape ||
-                                                      entry.parameters.front().kind == ArgumentKind::Shapes);
-    if (method) {
+    const auto takesShapes = [](const Parameter& p) {
+      return p.kind == ArgumentKind::Shape || p.kind == ArgumentKind::Shapes;
+    };
+    if (!entry.parameters.empty() && takesShapes(entry.parameters.front())) {
       lua_pushvalue(L, -1);
       lua_setfield(L, -3, entry.name.c_str());
     }
@@ -288,11 +270,30 @@ void openCatalog(lua_State* L) {
   lua_getglobal(L, "paint");
   lua_setfield(L, -2, "paint");
   lua_pop(L, 1);
-  setSigns(L, std::make_integer_sequence<int, static_cast<int>(std::size(kSigns))>());
+  for (const Sign& s : kSigns) {
+    lua_pushlightuserdata(L, const_cast<Sign*>(&s));
+    lua_pushcclosure(L, guarded<applySign>, 1);
+    setShapeOperator(L, s.event);
+  }
   for (const char* event : {"__add", "__mul", "__div", "__unm", "__pow", "__mod", "__idiv"}) {
     lua_pushcfunction(L, guarded<notArithmetic>);
     setShapeOperator(L, event);
   }
 }
+
+// clang-format off
+const std::vector<FunctionInfo>& shapeLibrary() {
+  using enum SettingKind;
+  static const std::vector<FunctionInfo> library{
+      {"field",
+       "field(function(x, y, z) return … end, {bounds = {{x0, y0, z0}, {x1, y1, z1}}, lipschitz = 2})",
+       "solid where the formula is 0 or less",
+       {{"bounds", SettingKind::Box, "a box that holds the solid; trusted", Rule::Any, {}, "none"},
+        {"lipschitz", PlainNumber, "a bound on the formula's slope; trusted. Without one that is known or derived, the shape is slow to draw and to mesh", Rule::Positive, {}, "derived"}},
+       freeForm},
+  };
+  return library;
+}
+// clang-format on
 
 }  // namespace sdf

@@ -215,9 +215,8 @@ constexpr Sign kSigns[] = {{"__add", "+", plus},         {"__sub", "-", minus}, 
                            {"__div", "/", over},         {"__mod", "%", mod},   {"__pow", "^", power},
                            {"__idiv", "//", floorDivide}};
 
-template <int kIndex>
 int arithmetic(lua_State* L) {
-  const Sign& s = kSigns[kIndex];
+  const auto& s = *static_cast<const Sign*>(lua_touserdata(L, lua_upvalueindex(1)));
   pushExpr(L, s.apply(operand(L, 1, s.sign), operand(L, 2, s.sign)));
   return 1;
 }
@@ -227,21 +226,19 @@ int negate(lua_State* L) { return pushExpr(L, -exprAt(L, 1)), 1; }
 int compare(lua_State* L) {
   raise(L,
         "a formula's value is not known while the scene is built; use select(less(a, b), …) or less_equal or "
-        "equal, "
-        "or value(e) for the present value of a parameter");
+        "equal, or value(e) for the present value of a parameter");
 }
 
 int formulaText(lua_State* L) { return lua_pushliteral(L, "formula"), 1; }
 
-template <int... kIndices>
-void setArithmetic(lua_State* L, std::integer_sequence<int, kIndices...>) {
-  ((lua_pushcfunction(L, guarded<arithmetic<kIndices>>), setFormulaOperator(L, kSigns[kIndices].event)), ...);
-}
-
 }  // namespace
 
 void openFormulaOperators(lua_State* L) {
-  setArithmetic(L, std::make_integer_sequence<int, static_cast<int>(std::size(kSigns))>());
+  for (const Sign& s : kSigns) {
+    lua_pushlightuserdata(L, const_cast<Sign*>(&s));
+    lua_pushcclosure(L, guarded<arithmetic>, 1);
+    setFormulaOperator(L, s.event);
+  }
   lua_pushcfunction(L, guarded<negate>);
   setFormulaOperator(L, "__unm");
   for (const char* event : {"__lt", "__le", "__eq"}) {

@@ -31,11 +31,17 @@ std::string usageOf(const CatalogEntry& entry) {
   return text + ")";
 }
 
-void unknownField(lua_State* L, const std::string& function, const std::string& name,
-                  const std::vector<std::string>& known) {
-  const std::string near = suggestion(name, known);
-  raise(L,
-        function + ": unknown field '" + name + "'" + (near.empty() ? "; it takes " + listed(known) : near));
+void checkNames(lua_State* L, int index, const std::string& function, const std::vector<std::string>& known,
+                const std::string& usage) {
+  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
+    const bool named = lua_type(L, -2) == LUA_TSTRING;
+    if (!named && !usage.empty()) raise(L, function + ": every field needs a name; write " + usage);
+    const std::string name = named ? lua_tostring(L, -2) : "";
+    if (!named || std::ranges::find(known, name) != known.end()) continue;
+    const std::string near = suggestion(name, known);
+    raise(L, function + ": unknown field '" + name + "'" +
+                 (near.empty() ? "; it takes " + listed(known) : near));
+  }
 }
 
 namespace {
@@ -43,10 +49,7 @@ namespace {
 glm::dvec3 readCorner(lua_State* L, int index, const std::string& what) {
   if (!lua_istable(L, index))
     raise(L, what + " must be two corners {x0, y0, z0}, {x1, y1, z1}, got " + describe(L, index));
-  const Vec3E v = readVector(L, index, what, 3, Depends::OnParameters);
-  if (!v.x.isConstant() || !v.y.isConstant() || !v.z.isConstant())
-    raise(L, what + " must be plain numbers, got a formula; value(e) gives its present value");
-  return {v.x.constantValue(), v.y.constantValue(), v.z.constantValue()};
+  return readPoint(L, index, what, 3);
 }
 
 }  // namespace
@@ -58,13 +61,7 @@ FieldValues readFields(lua_State* L, int index, const FunctionInfo& function) {
                  function.usage);
   std::vector<std::string> known;
   for (const SettingInfo& field : function.fields) known.push_back(field.name);
-  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
-    if (lua_type(L, -2) != LUA_TSTRING)
-      raise(L, function.name + ": every field needs a name; write " + function.usage);
-    const std::string name = lua_tostring(L, -2);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      unknownField(L, function.name, name, known);
-  }
+  checkNames(L, index, function.name, known, function.usage);
   FieldValues values;
   luaL_checkstack(L, 4, nullptr);
   for (const SettingInfo& field : function.fields) {

@@ -43,9 +43,10 @@ int openLanguage(lua_State* L);
 
 /// "sphere(radius)".
 std::string usageOf(const CatalogEntry& entry);
-/// Raises that the function has no such field, with the nearest or all that it has.
-[[noreturn]] void unknownField(lua_State* L, const std::string& function, const std::string& name,
-                               const std::vector<std::string>& known);
+/// Raises for a name in the table at `index` that the function does not know, with the nearest or all that it
+/// knows; and for a value without a name, unless there is no usage to show.
+void checkNames(lua_State* L, int index, const std::string& function, const std::vector<std::string>& known,
+                const std::string& usage = "");
 
 /// A value of the field's kind: a box as two corners, in a table or at this place and the next.
 SettingValue readSetting(lua_State* L, int index, const std::string& what, const SettingInfo& field);

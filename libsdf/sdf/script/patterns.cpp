@@ -13,14 +13,18 @@ Vec3E colorArgument(lua_State* L, int i) {
   return readColor(L, i, runningFunction(L).name + ": colour " + std::to_string(i), Depends::OnPosition);
 }
 
+// The first three arguments.
+Vec3E numberArguments(lua_State* L, const std::string& what) {
+  const auto at = [&](int i) { return readNumber(L, i, what + std::to_string(i), Depends::OnPosition); };
+  return {at(1), at(2), at(3)};
+}
+
 int makeColor(lua_State* L) {
   expectArguments(L, 1, 3);
   const std::string what = runningFunction(L).name + ": argument ";
   if (lua_gettop(L) == 1) return pushVector(L, readColor(L, 1, what + "1", Depends::OnPosition)), 1;
   expectArguments(L, 3, 3);
-  std::array<Expr, 3> c;
-  for (int i = 0; i < 3; ++i) c[i] = readNumber(L, i + 1, what + std::to_string(i + 1), Depends::OnPosition);
-  return pushVector(L, {c[0], c[1], c[2]}), 1;
+  return pushVector(L, numberArguments(L, what)), 1;
 }
 
 int makeCheckerboard(lua_State* L) {
@@ -54,13 +58,11 @@ int makeVerticalGradient(lua_State* L) {
 
 int makeNoise(lua_State* L) {
   expectArguments(L, 3, 4);
-  std::array<Expr, 3> p;
-  for (int i = 0; i < 3; ++i)
-    p[i] = readNumber(L, i + 1, "noise: coordinate " + std::to_string(i + 1), Depends::OnPosition);
+  const Vec3E p = numberArguments(L, "noise: coordinate ");
   constexpr int kMostOctaves = 8;  // the ninth would be weaker than a step of an 8-bit colour
   const int octaves = valueOr(readFields(L, 4, runningFunction(L)), "octaves", 1);
   if (octaves > kMostOctaves) raise(L, "noise: 'octaves' must be 8 or less, got " + std::to_string(octaves));
-  return pushExpr(L, noise({p[0], p[1], p[2]}, octaves)), 1;
+  return pushExpr(L, noise(p, octaves)), 1;
 }
 
 int makeSky(lua_State* L) {

@@ -1,7 +1,6 @@
 #include "sdf/script/sandbox.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <lua.hpp>
@@ -13,12 +12,6 @@ namespace sdf {
 namespace {
 
 constexpr int kHookInterval = 1000;
-
-std::string millions(std::uint64_t count) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", static_cast<double>(count) / 1e6);
-  return text;
-}
 
 // --- limits ---
 
@@ -71,9 +64,7 @@ void checkTime(lua_State* L) {
   const ScriptContext& c = contextOf(L);
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - c.start;
   if (passed.count() <= c.options.timeLimit) return;
-  char limit[32];
-  std::snprintf(limit, sizeof limit, "%g", c.options.timeLimit);
-  endRun(L, std::string("ran longer than ") + limit + " seconds; look for a loop near line " +
+  endRun(L, "ran longer than " + shown(c.options.timeLimit) + " seconds; look for a loop near line " +
                 std::to_string(currentLine(L)));
 }
 
@@ -81,7 +72,7 @@ void countInstructions(lua_State* L, lua_Debug*) {
   ScriptContext& c = contextOf(L);
   c.instructions += kHookInterval;
   if (c.instructions > c.options.instructionLimit)
-    endRun(L, "ran more than " + millions(c.options.instructionLimit) +
+    endRun(L, "ran more than " + shown(static_cast<double>(c.options.instructionLimit) / 1e6) +
                   " million instructions; look for an endless loop near line " +
                   std::to_string(currentLine(L)));
   checkTime(L);
@@ -93,18 +84,14 @@ std::string placeOf(const std::string& file, int line) {
   return line > 0 ? file + ":" + std::to_string(line) : file;
 }
 
-bool startsWithPlace(const std::string& message, const std::string& name) {
-  return message.size() > name.size() && message.compare(0, name.size(), name) == 0 &&
-         message[name.size()] == ':';
-}
-
 // Runs where the error arose: gives it a place if it has none.
 int addPlace(lua_State* L) {
   const bool text = lua_type(L, 1) == LUA_TSTRING;
   std::string message = text ? lua_tostring(L, 1) : "error was given " + describe(L, 1) + "; give it a text";
   if (message.ends_with("stack overflow")) message += "; look for a function that calls itself without end";
   const ScriptContext& c = contextOf(L);
-  if (!startsWithPlace(message, c.shortName)) message = placeOf(c.shortName, currentLine(L)) + ": " + message;
+  if (!message.starts_with(c.shortName + ":"))
+    message = placeOf(c.shortName, currentLine(L)) + ": " + message;
   lua_pushlstring(L, message.data(), message.size());
   return 1;
 }
@@ -177,7 +164,7 @@ class Sandbox {
     if (status == LUA_ERRMEM || (context_.refused && message.ends_with("not enough memory")))
       return outOfMemory();
     const std::string& name = context_.shortName;
-    if (!startsWithPlace(message, name)) return error(0, message);
+    if (!message.starts_with(name + ":")) return error(0, message);
     return {ErrorKind::Scene, oneLine(context_.file + message.substr(name.size()))};
   }
 

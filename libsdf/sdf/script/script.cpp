@@ -1,5 +1,6 @@
 #include "sdf/script/script.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -26,9 +27,9 @@ std::string namesOf(const std::vector<ParameterInfo>& parameters) {
 // An override that no param() asked for is a slip of the pen.
 Status checkOverrides(const Scene& scene, const ScriptOptions& options, const std::string& name) {
   for (const auto& [key, value] : options.values) {
-    const auto asked = [&, &k = key](const ParameterInfo& p) { return p.name == k; };
-    if (std::any_of(scene.parameters.begin(), scene.parameters.end(), asked)) continue;
-    const std::string known = namesOf(scene.parameters);
+    const std::vector<ParameterInfo>& asked = scene.parameters;
+    if (std::ranges::find(asked, key, &ParameterInfo::name) != asked.end()) continue;
+    const std::string known = namesOf(asked);
     return sceneError(name, "-D " + key + ": the scene has no parameter '" + key + "' (it has " +
                                 (known.empty() ? "none" : known) + ")");
   }

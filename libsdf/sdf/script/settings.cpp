@@ -19,8 +19,7 @@ void once(lua_State* L) {
 
 template <class Owner>
 const Setting<Owner>& runningSetting(lua_State* L, const std::vector<Setting<Owner>>& settings) {
-  const std::string& name = runningFunction(L).name;
-  return *std::find_if(settings.begin(), settings.end(), [&](const auto& s) { return s.name == name; });
+  return *std::ranges::find(settings, runningFunction(L).name, &Setting<Owner>::name);
 }
 
 int makeSetting(lua_State* L) {
@@ -81,9 +80,8 @@ int addPart(lua_State* L) {
   const Shape& shape = readShape(L, 2, "part: the second argument");
   if (shape.dimension != 3) raise(L, "part '" + name + "' is flat; extrude or revolve it");
   Scene& scene = contextOf(L).scene;
-  const auto same = [&](const Part& p) { return p.name == name; };
   if (name.empty()) raise(L, "part: the name must not be empty");
-  if (std::any_of(scene.parts.begin(), scene.parts.end(), same))
+  if (std::ranges::find(scene.parts, name, &Part::name) != scene.parts.end())
     raise(L, "part '" + name + "' exists already; give each part a name of its own");
   scene.add(name, shape);
   lua_settop(L, 2);
@@ -110,11 +108,9 @@ int newParameter(lua_State* L) {
   if (!std::isfinite(p.value)) raise(L, what + " must be a finite number, got " + shown(p.value));
   const auto [earlier, fresh] = context.parameterDefaults.try_emplace(p.name, usual);
   auto& list = context.scene.parameters;
-  const auto same = [&](const ParameterInfo& other) { return other.name == p.name; };
-  const auto it = std::find_if(list.begin(), list.end(), same);
   if (fresh)
     list.push_back(p);
-  else if (!(*it == p) || earlier->second != usual)
+  else if (*std::ranges::find(list, p.name, &ParameterInfo::name) != p || earlier->second != usual)
     raise(L, what + " exists already with another default or range; use the same, or another name");
   return pushExpr(L, context.options.fixed ? Expr(p.value) : Expr::parameter(p)), 1;
 }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <lua.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
@@ -24,7 +25,7 @@ int sortedPairs(lua_State* L) {
     lua_rawseti(L, 2, ++count);
   }
   std::vector<lua_Integer> order(static_cast<std::size_t>(count));
-  for (lua_Integer i = 0; i < count; ++i) order[static_cast<std::size_t>(i)] = i + 1;
+  std::iota(order.begin(), order.end(), 1);
   const auto rank = [](int type) { return type == LUA_TNUMBER ? 0 : type == LUA_TSTRING ? 1 : 2; };
   std::stable_sort(order.begin(), order.end(), [&](lua_Integer a, lua_Integer b) {
     const int ra = rank(lua_rawgeti(L, 2, a)), rb = rank(lua_rawgeti(L, 2, b));
@@ -125,10 +126,12 @@ constexpr const char* kOutside[] = {"io",     "os",      "require",   "load",   
                                     "dofile", "package", "coroutine", "debug",     "collectgarbage",
                                     "warn",   "next",    "unpack",    "loadstring"};
 
+// In order.
 std::vector<std::string> textKeys(lua_State* L, int table) {
   std::vector<std::string> keys;
   for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1))
     if (lua_type(L, -2) == LUA_TSTRING) keys.emplace_back(lua_tostring(L, -2));
+  std::ranges::sort(keys);
   return keys;
 }
 
@@ -151,7 +154,7 @@ int unknownGlobal(lua_State* L) {
   const std::string name = keyText(L, 2);
   if (name == "time") return pushTime(L), 1;
   if (name == "next") raise(L, "unknown name 'next'; go through a table with pairs");
-  if (std::find(std::begin(kOutside), std::end(kOutside), name) != std::end(kOutside))
+  if (std::ranges::find(kOutside, name) != std::end(kOutside))
     raise(L, "unknown name '" + name + "'; a scene cannot reach files, the system or other code");
   std::vector<std::string> known = textKeys(L, 1);
   known.emplace_back("time");
@@ -165,31 +168,34 @@ int unknownGlobal(lua_State* L) {
 int unknownMember(lua_State* L) {
   const std::string library = lua_tostring(L, lua_upvalueindex(1)), name = keyText(L, 2);
   lua_pushvalue(L, lua_upvalueindex(2));
-  std::vector<std::string> known = textKeys(L, lua_gettop(L));
-  std::sort(known.begin(), known.end());
-  const std::string near = nearest(name, known);
+  const std::string near = nearest(name, textKeys(L, lua_gettop(L)));
   raise(L,
         "unknown name '" + library + "." + name + "'; " +
             (near.empty() ? "scenes have no such function" : "did you mean '" + library + "." + near + "'?"));
 }
 
-void protectLibrary(lua_State* L, const char* name) {
-  lua_getglobal(L, name);
+// Makes the function on the top of the stack answer for what the table below it lacks, and pops both.
+void answerForMissing(lua_State* L) {
   lua_newtable(L);
-  lua_pushstring(L, name);
-  lua_pushvalue(L, -3);
-  lua_pushcclosure(L, guarded<unknownMember>, 2);
+  lua_insert(L, -2);
   lua_setfield(L, -2, "__index");
-  lua_pushboolean(L, false);
-  lua_setfield(L, -2, "__metatable");
+  hideMetatable(L);
   lua_setmetatable(L, -2);
   lua_pop(L, 1);
+}
+
+void protectLibrary(lua_State* L, const char* name) {
+  lua_getglobal(L, name);
+  lua_pushstring(L, name);
+  lua_pushvalue(L, -2);
+  lua_pushcclosure(L, guarded<unknownMember>, 2);
+  answerForMissing(L);
 }
 
 // Leaves only the named members of the table on the top of the stack.
 void keepOnly(lua_State* L, const std::vector<std::string>& kept) {
   for (const std::string& key : textKeys(L, lua_gettop(L))) {
-    if (std::find(kept.begin(), kept.end(), key) != kept.end()) continue;
+    if (std::ranges::find(kept, key) != kept.end()) continue;
     lua_pushnil(L);
     lua_setfield(L, -2, key.c_str());
   }
@@ -204,8 +210,7 @@ void openStandard(lua_State* L) {
   keepOnly(L, {"byte", "char", "format", "len", "lower", "reverse", "sub", "upper"});
   lua_pushliteral(L, "");
   lua_getmetatable(L, -1);
-  lua_pushboolean(L, false);
-  lua_setfield(L, -2, "__metatable");
+  hideMetatable(L);
   lua_pop(L, 2);
   luaL_requiref(L, LUA_MATHLIBNAME, luaopen_math, 1);
   lua_getfield(L, -1, "randomseed");
@@ -252,12 +257,8 @@ int openLanguage(lua_State* L) {
   lua_setglobal(L, "pi");
   for (const char* library : {LUA_TABLIBNAME, LUA_STRLIBNAME, LUA_MATHLIBNAME}) protectLibrary(L, library);
   lua_pushglobaltable(L);
-  lua_newtable(L);
   lua_pushcfunction(L, guarded<unknownGlobal>);
-  lua_setfield(L, -2, "__index");
-  lua_pushboolean(L, false);
-  lua_setfield(L, -2, "__metatable");
-  lua_setmetatable(L, -2);
+  answerForMissing(L);
   return 0;
 }
 

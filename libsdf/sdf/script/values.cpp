@@ -32,12 +32,14 @@ void pushValue(lua_State* L, const char* type, T value) {
   luaL_setmetatable(L, type);
 }
 
-void makeType(lua_State* L, const char* type, lua_CFunction finish) {
+void makeType(lua_State* L, const char* type, lua_CFunction finish, lua_CFunction field) {
   luaL_newmetatable(L, type);
   lua_pushcfunction(L, finish);
   lua_setfield(L, -2, "__gc");
-  lua_pushboolean(L, false);
-  lua_setfield(L, -2, "__metatable");
+  lua_pushcfunction(L, field);
+  lua_setfield(L, -2, "__index");
+  hideMetatable(L);
+  lua_pop(L, 1);
 }
 
 // Fields of values that have none.
@@ -155,17 +157,16 @@ std::string listed(const std::vector<std::string>& words) {
 }
 
 void registerTypes(lua_State* L) {
-  makeType(L, kFormula, destroy<Expr>);
-  lua_pushcfunction(L, guarded<noField>);
-  lua_setfield(L, -2, "__index");
-  makeType(L, kMaterial, destroy<MaterialPtr>);
-  lua_pushcfunction(L, guarded<noField>);
-  lua_setfield(L, -2, "__index");
-  makeType(L, kShape, destroy<Shape>);
-  lua_pushcfunction(L, guarded<shapeField>);
-  lua_setfield(L, -2, "__index");
+  makeType(L, kFormula, destroy<Expr>, guarded<noField>);
+  makeType(L, kMaterial, destroy<MaterialPtr>, guarded<noField>);
+  makeType(L, kShape, destroy<Shape>, guarded<shapeField>);
   luaL_newmetatable(L, kShapeMethods);
-  lua_pop(L, 4);
+  lua_pop(L, 1);
+}
+
+void hideMetatable(lua_State* L) {
+  lua_pushboolean(L, false);
+  lua_setfield(L, -2, "__metatable");
 }
 
 void pushShapeMethods(lua_State* L) { luaL_getmetatable(L, kShapeMethods); }
@@ -267,7 +268,7 @@ std::string readText(lua_State* L, int index, const std::string& what) {
 
 int readChoice(lua_State* L, int index, const std::string& what, const std::vector<std::string>& choices) {
   if (lua_type(L, index) == LUA_TSTRING) {
-    const auto it = std::find(choices.begin(), choices.end(), lua_tostring(L, index));
+    const auto it = std::ranges::find(choices, lua_tostring(L, index));
     if (it != choices.end()) return static_cast<int>(it - choices.begin());
   }
   wrongType(L, index, what, "one of " + shown(choices));
@@ -309,14 +310,29 @@ Vec3E colorFromText(lua_State* L, const std::string& text, const std::string& wh
   return {c[0], c[1], c[2]};
 }
 
-// Calls the function with position and normal; its results are left on the stack.
-int callOnSurface(lua_State* L, int index) {
+// Calls the function with the position, or with all variables, the normal too; its results are left on the
+// stack.
+int callInSpace(lua_State* L, int index, int variables, int results) {
   const int before = lua_gettop(L);
   luaL_checkstack(L, 8, nullptr);
   lua_pushvalue(L, index);
-  for (int v = 0; v < kVariableCount; ++v) pushExpr(L, Expr::variable(static_cast<Variable>(v)));
-  lua_call(L, kVariableCount, LUA_MULTRET);
+  for (int v = 0; v < variables; ++v) pushExpr(L, Expr::variable(static_cast<Variable>(v)));
+  lua_call(L, variables, results);
   return lua_gettop(L) - before;
+}
+
+// A number, a formula, or the one number that a function returns.
+Expr readInSpace(lua_State* L, int index, const std::string& what, const char* wanted, int variables,
+                 int results) {
+  if (!lua_isfunction(L, index)) {
+    if (!isNumeric(L, index)) wrongType(L, index, what, wanted);
+    return readNumber(L, index, what, Depends::OnPosition);
+  }
+  const int count = callInSpace(L, index, variables, results);
+  if (count != 1) raise(L, what + " must return one number, returned " + std::to_string(count) + " values");
+  Expr e = readNumber(L, lua_gettop(L), "the result of " + what, Depends::OnPosition);
+  lua_pop(L, 1);
+  return e;
 }
 
 constexpr const char* kColorForms = "a colour (a number, {r, g, b}, \"#rrggbb\" or a function of x, y, z)";
@@ -334,16 +350,21 @@ Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Dep
           size == 3 ? component(L, index, 3, what, depends) : Expr(0.0)};
 }
 
+glm::dvec3 readPoint(lua_State* L, int index, const std::string& what, int size) {
+  const Vec3E v = readVector(L, index, what, size, Depends::OnParameters);
+  if (!v.x.isConstant() || !v.y.isConstant() || !v.z.isConstant())
+    raise(L, what + " must be plain numbers, got a formula; value(e) gives its present value");
+  return {v.x.constantValue(), v.y.constantValue(), v.z.constantValue()};
+}
+
 Vec3E readColor(lua_State* L, int index, const std::string& what, Depends depends) {
   if (isNumeric(L, index)) return readNumber(L, index, what, depends);
   if (lua_type(L, index) == LUA_TSTRING) return colorFromText(L, lua_tostring(L, index), what);
-  if (isList(L, index, 3))
-    return {component(L, index, 1, what, depends), component(L, index, 2, what, depends),
-            component(L, index, 3, what, depends)};
+  if (isList(L, index, 3)) return readVector(L, index, what, 3, depends);
   if (!lua_isfunction(L, index)) wrongType(L, index, what, kColorForms);
   if (depends == Depends::OnParameters)
     raise(L, what + " must not depend on the position; give a plain colour");
-  const int count = callOnSurface(L, index);
+  const int count = callInSpace(L, index, kVariableCount, LUA_MULTRET);
   const int first = lua_gettop(L) - count + 1;
   Vec3E color;
   if (count == 3)
@@ -360,31 +381,11 @@ Vec3E readColor(lua_State* L, int index, const std::string& what, Depends depend
 }
 
 Expr readSurfaceNumber(lua_State* L, int index, const std::string& what) {
-  if (!lua_isfunction(L, index)) {
-    if (!isNumeric(L, index)) wrongType(L, index, what, "a number or a function of x, y, z");
-    return readNumber(L, index, what, Depends::OnPosition);
-  }
-  const int count = callOnSurface(L, index);
-  if (count != 1) raise(L, what + " must return one number, returned " + std::to_string(count) + " values");
-  Expr e = readNumber(L, lua_gettop(L), "the result of " + what, Depends::OnPosition);
-  lua_pop(L, 1);
-  return e;
+  return readInSpace(L, index, what, "a number or a function of x, y, z", kVariableCount, LUA_MULTRET);
 }
 
 Expr readFormula(lua_State* L, int index, const std::string& what) {
-  if (!lua_isfunction(L, index)) {
-    if (!isNumeric(L, index)) wrongType(L, index, what, "a formula or a function of x, y, z");
-    return readNumber(L, index, what, Depends::OnPosition);
-  }
-  constexpr int kCoordinates = 3;
-  luaL_checkstack(L, kCoordinates + 2, nullptr);
-  lua_pushvalue(L, index);
-  const Vec3E p = position();
-  for (const Expr* e : {&p.x, &p.y, &p.z}) pushExpr(L, *e);
-  lua_call(L, kCoordinates, 1);
-  Expr e = readNumber(L, lua_gettop(L), "the result of " + what, Depends::OnPosition);
-  lua_pop(L, 1);
-  return e;
+  return readInSpace(L, index, what, "a formula or a function of x, y, z", 3, 1);
 }
 
 }  // namespace sdf

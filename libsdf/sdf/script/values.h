@@ -29,6 +29,8 @@ std::string listed(const std::vector<std::string>& words);
 
 /// Makes the types known to the state; call once.
 void registerTypes(lua_State* L);
+/// Keeps scripts from reading and replacing the metatable on the top of the stack.
+void hideMetatable(lua_State* L);
 /// Pushes the table of methods that shapes have.
 void pushShapeMethods(lua_State* L);
 /// Makes the function on the top of the stack the type's operator ("__add"), and pops it.
@@ -63,6 +65,8 @@ int readChoice(lua_State* L, int index, const std::string& what, const std::vect
 const Shape& readShape(lua_State* L, int index, const std::string& what);
 /// {x, y, z}, or one number for all. `size` is 2 or 3; the components beyond it are 0.
 Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Depends depends);
+/// The same of plain numbers only.
+glm::dvec3 readPoint(lua_State* L, int index, const std::string& what, int size);
 /// A number (grey), {r, g, b}, "#rgb" or "#rrggbb" in sRGB, or a function of position and normal.
 Vec3E readColor(lua_State* L, int index, const std::string& what, Depends depends);
 /// A number, a formula, or a function of position and normal.
