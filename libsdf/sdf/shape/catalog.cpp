@@ -17,29 +17,15 @@ std::vector<double> numbersIn(const std::string& text) {
   for (const char* at = text.c_str(); *at;) {
     char* end = nullptr;
     const double value = std::strtod(at, &end);
-    if (end == at) {
-      ++at;
-    } else {
-      numbers.push_back(value);
-      at = end;
-    }
+    if (end != at) numbers.push_back(value);
+    at = std::max<const char*>(end, at + 1);
   }
   return numbers;
 }
 
-Vec3E vectorOf(const std::vector<double>& n) {
-  const auto at = [&](std::size_t i) { return n.size() > i ? n[i] : 0.0; };
-  return {at(0), at(1), at(2)};
-}
-
-std::vector<glm::dvec2> pointsOf(const std::vector<double>& n) {
-  std::vector<glm::dvec2> points;
-  for (std::size_t i = 0; i + 1 < n.size(); i += 2) points.emplace_back(n[i], n[i + 1]);
-  return points;
-}
-
 Argument fallbackOf(const Parameter& p) {
-  const std::vector<double> numbers = numbersIn(p.fallback);
+  std::vector<double> numbers = numbersIn(p.fallback);
+  std::vector<glm::dvec2> points;
   switch (p.kind) {
     case ArgumentKind::Number:
       return Expr(numbers.at(0));
@@ -47,11 +33,13 @@ Argument fallbackOf(const Parameter& p) {
       return static_cast<int>(numbers.at(0));
     case ArgumentKind::Vector2:
     case ArgumentKind::Vector3:
-      return vectorOf(numbers);
+      numbers.resize(3);
+      return Vec3E(numbers[0], numbers[1], numbers[2]);
     case ArgumentKind::Choice:
       return static_cast<int>(std::ranges::find(p.choices, p.fallback) - p.choices.begin());
     case ArgumentKind::Points:
-      return pointsOf(numbers);
+      for (std::size_t i = 0; i < numbers.size(); i += 2) points.emplace_back(numbers[i], numbers[i + 1]);
+      return points;
     case ArgumentKind::Shape:
     case ArgumentKind::Shapes:
       break;

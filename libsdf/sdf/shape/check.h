@@ -19,6 +19,8 @@ namespace sdf {
 class Check {
  public:
   explicit Check(std::string subject) : subject_(std::move(subject)) {}
+  /// A failed operand's error goes before everything else, as it is.
+  Check(std::string subject, const Shape& operand) : subject_(std::move(subject)), message_(operand.error) {}
 
   Check& number(const std::string& name, const Expr& e, Rule rule);
   Check& vector(const std::string& name, const Vec3E& v, Rule rule, int components = 3);

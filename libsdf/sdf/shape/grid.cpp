@@ -102,8 +102,7 @@ double capOf(const Shape& shape, const std::array<Axis, 3>& axes) {
 }  // namespace
 
 Shape repeatGrid(const Shape& shape, const Vec3E& cell, const std::optional<glm::ivec3>& count) {
-  if (!shape.ok()) return shape;
-  Check check("repeat_grid");
+  Check check("repeat_grid", shape);
   std::array<Axis, 3> axes;
   bool any = false;
   for (int i = 0; i < shape.dimension && check.ok(); ++i) {

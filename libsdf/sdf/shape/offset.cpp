@@ -36,9 +36,7 @@ Shape displaced(const Shape& shape, const Expr& offset, const Expr& slope) {
 }  // namespace
 
 Shape morph(const Shape& a, const Shape& b, const Expr& t) {
-  if (!a.ok()) return a;
-  if (!b.ok()) return b;
-  Check check("morph");
+  Check check("morph", a.ok() ? b : a);
   check.that(a.dimension == b.dimension,
              "one shape is flat and the other solid; extrude or revolve the flat one first");
   if (check.any("t", t).ok()) {
@@ -60,8 +58,7 @@ Shape morph(const Shape& a, const Shape& b, const Expr& t) {
 }
 
 Shape round(const Shape& shape, const Expr& radius) {
-  if (!shape.ok()) return shape;
-  Check check("round");
+  Check check("round", shape);
   if (!check.notNegative("radius", radius).ok()) return check.failure();
   const Expr r = notNegative(radius);
   const double growth = growthOf(shape.claim);
@@ -78,8 +75,7 @@ Shape round(const Shape& shape, const Expr& radius) {
 }
 
 Shape shell(const Shape& shape, const Expr& thickness) {
-  if (!shape.ok()) return shape;
-  Check check("shell");
+  Check check("shell", shape);
   if (!check.positive("thickness", thickness).ok()) return check.failure();
   const Expr half = keptPositive(thickness) * 0.5;
   const double growth = growthOf(shape.claim);
@@ -93,8 +89,7 @@ Shape shell(const Shape& shape, const Expr& thickness) {
 }
 
 Shape elongate(const Shape& shape, const Vec3E& half) {
-  if (!shape.ok()) return shape;
-  Check check("elongate");
+  Check check("elongate", shape);
   const int axes = shape.dimension;
   if (!check.vector("half", half, Rule::NotNegative, axes).ok()) return check.failure();
   Vec3E at = position();
@@ -116,16 +111,14 @@ Shape elongate(const Shape& shape, const Vec3E& half) {
 }
 
 Shape displace(const Shape& shape, const Expr& offset) {
-  if (!shape.ok()) return shape;
-  Check check("displace");
+  Check check("displace", shape);
   check.that(shape.dimension == 3 || !dependsOnZ(offset), "the offset of a flat shape must not depend on z");
   if (!check.ok()) return check.failure();
   return displaced(shape, offset, offset.lipschitz());
 }
 
 Shape displace(const Shape& shape, const Expr& amplitude, const Expr& frequency) {
-  if (!shape.ok()) return shape;
-  Check check("displace");
+  Check check("displace", shape);
   check.any("amplitude", amplitude).any("frequency", frequency);
   if (!wantsSolid(check, shape).ok()) return check.failure();
   const Vec3E p = position();

@@ -145,8 +145,7 @@ Matrix reflection(const Vec3E& n) {
 }  // namespace
 
 Shape translate(const Shape& shape, const Vec3E& offset) {
-  if (!shape.ok()) return shape;
-  Check check("translate");
+  Check check("translate", shape);
   if (!check.vector("offset", offset, Rule::Any).ok()) return check.failure();
   Shape result = movedTo(shape, position() - offset, 1.0);
   for (int i = 0; i < 3; ++i) {
@@ -160,8 +159,7 @@ Shape translate(const Shape& shape, const Vec3E& offset) {
 }
 
 Shape rotate(const Shape& shape, const Vec3E& angles) {
-  if (!shape.ok()) return shape;
-  Check check("rotate");
+  Check check("rotate", shape);
   check.vector("angles", angles, Rule::Any);
   check.that(shape.dimension == 3 || (angles.x.isConstant(0.0) && angles.y.isConstant(0.0)),
              "a flat shape turns about z only; extrude or revolve it first");
@@ -170,8 +168,7 @@ Shape rotate(const Shape& shape, const Vec3E& angles) {
 }
 
 Shape rotateAbout(const Shape& shape, const Vec3E& axis, const Expr& angle) {
-  if (!shape.ok()) return shape;
-  Check check("rotate_about");
+  Check check("rotate_about", shape);
   check.vector("axis", axis, Rule::Any).any("angle", angle);
   if (check.ok()) check.that(presentLength(axis) > 0.0, "axis must not be {0, 0, 0}");
   check.that(shape.dimension == 3 || (axis.x.isConstant(0.0) && axis.y.isConstant(0.0)),
@@ -181,8 +178,7 @@ Shape rotateAbout(const Shape& shape, const Vec3E& axis, const Expr& angle) {
 }
 
 Shape scale(const Shape& shape, const Vec3E& factors) {
-  if (!shape.ok()) return shape;
-  Check check("scale");
+  Check check("scale", shape);
   const int axes = shape.dimension;
   if (!check.vector("factor", factors, Rule::NotZero, axes).ok()) return check.failure();
   Vec3E by{keptFromZero(factors.x), keptFromZero(factors.y), axes == 3 ? keptFromZero(factors.z) : Expr(1.0)};
@@ -215,8 +211,7 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
 Shape scale(const Shape& shape, const Expr& factor) { return scale(shape, Vec3E(factor)); }
 
 Shape mirror(const Shape& shape, const Vec3E& normal) {
-  if (!shape.ok()) return shape;
-  Check check("mirror");
+  Check check("mirror", shape);
   check.vector("normal", normal, Rule::Any);
   if (check.ok()) check.that(presentLength(normal) > 0.0, "normal must not be {0, 0, 0}");
   check.that(shape.dimension == 3 || normal.z.isConstant(0.0),

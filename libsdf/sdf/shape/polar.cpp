@@ -74,8 +74,7 @@ Shape windowOfCopies(const Shape& shape, double sector, double farEdge, int cand
 }  // namespace
 
 Shape polarRepeat(const Shape& shape, int count) {
-  if (!shape.ok()) return shape;
-  Check check("polar_repeat");
+  Check check("polar_repeat", shape);
   if (!wantsSolid(check, shape).integerAtLeast("count", count, 1).ok()) return check.failure();
   if (count == 1) return shape;
   const double sector = 2.0 * kPi / count;

@@ -15,8 +15,7 @@ Check& wantsFlat(Check& check, const Shape& shape) {
 }  // namespace
 
 Shape extrude(const Shape& flat, const Expr& halfHeight) {
-  if (!flat.ok()) return flat;
-  Check check("extrude");
+  Check check("extrude", flat);
   if (!wantsFlat(check, flat).positive("half_height", halfHeight).ok()) return check.failure();
   const Expr h = keptPositive(halfHeight);
   const Expr& side = flat.distance;
@@ -35,8 +34,7 @@ Shape extrude(const Shape& flat, const Expr& halfHeight) {
 }
 
 Shape revolve(const Shape& flat, const Expr& offset) {
-  if (!flat.ok()) return flat;
-  Check check("revolve");
+  Check check("revolve", flat);
   if (!wantsFlat(check, flat).any("offset", offset).ok()) return check.failure();
   const double left = flat.bounds.min.x + offset.range().lo, right = flat.bounds.max.x + offset.range().hi;
   check.that(!(right < 0.0), "the flat shape lies at x < 0 altogether; move it or give it an offset");
