@@ -34,6 +34,13 @@ struct Dual {
   T d[N];
 };
 
+template <class D>
+inline constexpr bool kIsDual = false;
+template <class T, int N>
+inline constexpr bool kIsDual<Dual<T, N>> = true;
+template <class D>
+concept AnyDual = kIsDual<D>;
+
 /// f(a) given the value and the derivative of f at a.v.
 template <class T, int N>
 Dual<T, N> chain(const Dual<T, N>& a, const T& value, const T& slope) {
@@ -60,10 +67,10 @@ T jump(const T& value, const T& first, const Slopes&... others) {
 }
 
 /// A value without a slope, or of unbounded slope where it jumps.
-template <class T, int N, class... Args>
-Dual<T, N> step(const T& value, const Args&... args) {
+template <class T, int N, class... Others>
+Dual<T, N> step(const T& value, const Dual<T, N>& first, const Others&... others) {
   Dual<T, N> r{value, {}};
-  for (int i = 0; i < N; ++i) r.d[i] = jump(value, args.d[i]...);
+  for (int i = 0; i < N; ++i) r.d[i] = jump(value, first.d[i], others.d[i]...);
   return r;
 }
 
@@ -101,18 +108,9 @@ Dual<T, N> sqrt(const Dual<T, N>& a) {
   const T root = sqrt(a.v);
   return chain(a, root, select(less(T(0.0), root), div(T(0.5), root), T(0.0)));
 }
-template <class T, int N>
-Dual<T, N> square(const Dual<T, N>& a) {
-  return chain(a, square(a.v), add(a.v, a.v));
-}
-template <class T, int N>
-Dual<T, N> sin(const Dual<T, N>& a) {
-  return chain(a, sin(a.v), cos(a.v));
-}
-template <class T, int N>
-Dual<T, N> cos(const Dual<T, N>& a) {
-  return chain(a, cos(a.v), neg(sin(a.v)));
-}
+auto square(const AnyDual auto& a) { return chain(a, square(a.v), add(a.v, a.v)); }
+auto sin(const AnyDual auto& a) { return chain(a, sin(a.v), cos(a.v)); }
+auto cos(const AnyDual auto& a) { return chain(a, cos(a.v), neg(sin(a.v))); }
 template <class T, int N>
 Dual<T, N> tan(const Dual<T, N>& a) {
   const T t = tan(a.v);
@@ -142,18 +140,9 @@ template <class T, int N>
 Dual<T, N> log(const Dual<T, N>& a) {
   return chain(a, log(a.v), div(T(1.0), a.v));
 }
-template <class T, int N>
-Dual<T, N> floor(const Dual<T, N>& a) {
-  return step<T, N>(floor(a.v), a);
-}
-template <class T, int N>
-Dual<T, N> ceil(const Dual<T, N>& a) {
-  return step<T, N>(ceil(a.v), a);
-}
-template <class T, int N>
-Dual<T, N> round(const Dual<T, N>& a) {
-  return step<T, N>(round(a.v), a);
-}
+auto floor(const AnyDual auto& a) { return step(floor(a.v), a); }
+auto ceil(const AnyDual auto& a) { return step(ceil(a.v), a); }
+auto round(const AnyDual auto& a) { return step(round(a.v), a); }
 template <class T, int N>
 Dual<T, N> add(const Dual<T, N>& a, const Dual<T, N>& b) {
   Dual<T, N> r{add(a.v, b.v), {}};
@@ -166,10 +155,7 @@ Dual<T, N> sub(const Dual<T, N>& a, const Dual<T, N>& b) {
   for (int i = 0; i < N; ++i) r.d[i] = sub(a.d[i], b.d[i]);
   return r;
 }
-template <class T, int N>
-Dual<T, N> mul(const Dual<T, N>& a, const Dual<T, N>& b) {
-  return chain(a, b, mul(a.v, b.v), b.v, a.v);
-}
+auto mul(const AnyDual auto& a, const AnyDual auto& b) { return chain(a, b, mul(a.v, b.v), b.v, a.v); }
 template <class T, int N>
 Dual<T, N> div(const Dual<T, N>& a, const Dual<T, N>& b) {
   const T q = div(a.v, b.v), inverse = div(T(1.0), b.v);
@@ -223,18 +209,9 @@ Dual<T, N> mod(const Dual<T, N>& a, const Dual<T, N>& b) {
   for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump(turns, a.d[i], b.d[i]));
   return r;
 }
-template <class T, int N>
-Dual<T, N> less(const Dual<T, N>& a, const Dual<T, N>& b) {
-  return step<T, N>(less(a.v, b.v), a, b);
-}
-template <class T, int N>
-Dual<T, N> lessEqual(const Dual<T, N>& a, const Dual<T, N>& b) {
-  return step<T, N>(lessEqual(a.v, b.v), a, b);
-}
-template <class T, int N>
-Dual<T, N> equal(const Dual<T, N>& a, const Dual<T, N>& b) {
-  return step<T, N>(equal(a.v, b.v), a, b);
-}
+auto less(const AnyDual auto& a, const AnyDual auto& b) { return step(less(a.v, b.v), a, b); }
+auto lessEqual(const AnyDual auto& a, const AnyDual auto& b) { return step(lessEqual(a.v, b.v), a, b); }
+auto equal(const AnyDual auto& a, const AnyDual auto& b) { return step(equal(a.v, b.v), a, b); }
 template <class T, int N>
 Dual<T, N> select(const Dual<T, N>& c, const Dual<T, N>& a, const Dual<T, N>& b) {
   Dual<T, N> r{select(c.v, a.v, b.v), {}};
@@ -243,10 +220,7 @@ Dual<T, N> select(const Dual<T, N>& c, const Dual<T, N>& a, const Dual<T, N>& b)
     r.d[i] = select(equal(c.d[i], T(0.0)), select(c.v, a.d[i], b.d[i]), choiceSlope(c.v, a.d[i], b.d[i]));
   return r;
 }
-template <class T, int N>
-Dual<T, N> mulAdd(const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c) {
-  return add(mul(a, b), c);
-}
+auto mulAdd(const AnyDual auto& a, const AnyDual auto& b, const AnyDual auto& c) { return add(mul(a, b), c); }
 template <class T, int N>
 Dual<T, N> squareAdd(const Dual<T, N>& a, const Dual<T, N>& c) {
   Dual<T, N> r = add(square(a), c);

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 namespace sdf {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kInf = std::numeric_limits<double>::infinity(), kPi = std::numbers::pi;
 constexpr int kLibraryUlps = 2;
 
 // The next double towards +infinity (Steele & Vigna's bit trick: doubles order as their bits do).
@@ -74,21 +74,21 @@ bool hasCrest(double lo, double hi, double crest) {
   return std::floor(b + slack) >= std::ceil(a - slack);
 }
 
-template <class F>
-Interval wave(const Interval& a, F f, double crest, double trough) {
+template <double (*F)(double)>
+Interval wave(const Interval& a, double crest, double trough) {
   // Beyond 1e9 the slack above outgrows its purpose; the range is all that is worth saying.
   if (touchesInfinity(a)) return {-1.0, 1.0, true};
   if (a.hi - a.lo >= 2.0 * kPi || std::abs(a.lo) > 1e9 || std::abs(a.hi) > 1e9) return {-1.0, 1.0, a.nan};
-  const double u = f(a.lo), v = f(a.hi);
+  const double u = F(a.lo), v = F(a.hi);
   Interval r = outward(std::min(u, v), std::max(u, v), a.nan, kLibraryUlps);
   if (hasCrest(a.lo, a.hi, crest)) r.hi = 1.0;
   if (hasCrest(a.lo, a.hi, trough)) r.lo = -1.0;
   return clampTo(r, -1.0, 1.0);
 }
 
-template <class F>
-Interval increasing(const Interval& a, F f) {
-  return outward(f(a.lo), f(a.hi), a.nan, kLibraryUlps);
+template <double (*F)(double)>
+Interval increasing(const Interval& a) {
+  return outward(F(a.lo), F(a.hi), a.nan, kLibraryUlps);
 }
 
 Interval truth(bool canBeFalse, bool canBeTrue) { return {canBeFalse ? 0.0 : 1.0, canBeTrue ? 1.0 : 0.0}; }
@@ -163,14 +163,8 @@ Interval square(const Interval& a) {
   return r;
 }
 
-Interval sin(const Interval& a) {
-  return wave(
-      a, [](double x) { return std::sin(x); }, kPi / 2, -kPi / 2);
-}
-Interval cos(const Interval& a) {
-  return wave(
-      a, [](double x) { return std::cos(x); }, 0.0, kPi);
-}
+Interval sin(const Interval& a) { return wave<std::sin>(a, kPi / 2, -kPi / 2); }
+Interval cos(const Interval& a) { return wave<std::cos>(a, 0.0, kPi); }
 
 Interval tan(const Interval& a) {
   if (touchesInfinity(a)) return Interval::everything();
@@ -178,12 +172,12 @@ Interval tan(const Interval& a) {
   const bool pole = a.hi - a.lo >= kPi || a.magnitude() > 1e9 || hasCrest(a.lo, a.hi, kPi / 2) ||
                     hasCrest(a.lo, a.hi, -kPi / 2);
   if (pole) return {-kInf, kInf, a.nan};
-  return increasing(a, [](double x) { return std::tan(x); });
+  return increasing<std::tan>(a);
 }
 
 Interval asin(const Interval& a) {
   if (a.hi < -1.0 || a.lo > 1.0) return {0.0, 0.0, true};
-  Interval r = increasing(clampTo(a, -1.0, 1.0), [](double x) { return std::asin(x); });
+  Interval r = increasing<std::asin>(clampTo(a, -1.0, 1.0));
   r.nan = a.nan || a.lo < -1.0 || a.hi > 1.0;
   return r;
 }
@@ -196,20 +190,17 @@ Interval acos(const Interval& a) {
   return r;
 }
 
-Interval atan(const Interval& a) {
-  return increasing(a, [](double x) { return std::atan(x); });
-}
+Interval atan(const Interval& a) { return increasing<std::atan>(a); }
 
 Interval exp(const Interval& a) {
-  Interval r = increasing(a, [](double x) { return std::exp(x); });
+  Interval r = increasing<std::exp>(a);
   r.lo = std::max(r.lo, 0.0);
   return r;
 }
 
 Interval log(const Interval& a) {
   if (a.hi < 0.0) return {0.0, 0.0, true};
-  const Interval c{std::max(a.lo, 0.0), a.hi, a.nan || a.lo < 0.0};
-  return increasing(c, [](double x) { return std::log(x); });
+  return increasing<std::log>({std::max(a.lo, 0.0), a.hi, a.nan || a.lo < 0.0});
 }
 
 Interval floor(const Interval& a) { return {std::floor(a.lo), std::floor(a.hi), a.nan}; }
