@@ -14,9 +14,6 @@ namespace {
 
 Error wrong(const std::string& what) { return {ErrorKind::Usage, "ambient occlusion: " + what}; }
 
-bool isPositive(double x) { return x > 0.0 && std::isfinite(x); }
-bool isNotNegative(double x) { return x >= 0.0 && std::isfinite(x); }
-
 Status checkRows(const Vectors& points, const Vectors& normals) {
   if (points.size() != normals.size()) return wrong("the rows of points and of normals differ in length");
   for (std::size_t i = 0; i < normals.size(); ++i)

@@ -16,10 +16,8 @@ Error wrongOption(const std::string& what) { return {ErrorKind::Usage, std::stri
 
 Status checkOptions(const MarchOptions& o) {
   const auto isIn = [](double x, double lo, double hi) { return lo <= x && x <= hi; };
-  if (!(o.epsilon > 0.0 && std::isfinite(o.epsilon)))
-    return wrongOption("epsilon must be positive and finite");
-  if (!(o.footprint >= 0.0 && std::isfinite(o.footprint)))
-    return wrongOption("footprint must be finite and at least 0");
+  if (!isPositive(o.epsilon)) return wrongOption("epsilon must be positive and finite");
+  if (!isNotNegative(o.footprint)) return wrongOption("footprint must be finite and at least 0");
   if (o.maxSteps < 1) return wrongOption("maxSteps must be at least 1");
   if (o.refinements < 0) return wrongOption("refinements must be at least 0");
   if (!isIn(o.overRelaxation, 1.0, 2.0) || o.overRelaxation == 2.0)

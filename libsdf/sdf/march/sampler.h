@@ -1,5 +1,6 @@
 // Values of a march's field at many points, and many rays marched together. Private to march/.
 #pragma once
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "sdf/march/field.h"
 
 namespace sdf {
+
+inline bool isPositive(double x) { return x > 0.0 && std::isfinite(x); }
+inline bool isNotNegative(double x) { return x >= 0.0 && std::isfinite(x); }
 
 /// Reads g = f / L in float, hundreds of points at once. A value so near 0 that float rounding could be most
 /// of it is read again in double: positions far from the origin still come within epsilon of the surface.
@@ -27,33 +31,25 @@ class Sampler {
 };
 
 /// Marches every ray, as many together as one pass of the batch reading takes. A ray that is done makes room
-/// for the next. Walker has a State with a member `at`, the t to be read next, and
+/// for the next. Walker has a State with members `ray`, its number, and `at`, the t to be read next, and
 ///   State start(ray)              where ray number `ray` begins;
 ///   bool advance(State&, double g) moves on, knowing g at `at`; false when the ray is done.
 template <class Walker>
 void marchTogether(const Rays& rays, Sampler& sampler, Walker& walker) {
   std::vector<typename Walker::State> active;
-  std::vector<std::size_t> ray;
   Vectors points;
   std::vector<double> g;
   std::size_t next = 0;
   while (true) {
-    for (; active.size() < kBatchPoints && next < rays.size(); ++next) {
-      active.push_back(walker.start(next));
-      ray.push_back(next);
-    }
+    while (active.size() < kBatchPoints && next < rays.size()) active.push_back(walker.start(next++));
     if (active.empty()) return;
     points.clear();
-    for (std::size_t k = 0; k < active.size(); ++k) points.add(rays.at(ray[k], active[k].at));
+    for (const auto& state : active) points.add(rays.at(state.ray, state.at));
     sampler.sample(points, g);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < active.size(); ++k)
-      if (walker.advance(active[k], g[k])) {
-        active[kept] = active[k];
-        ray[kept++] = ray[k];
-      }
+      if (walker.advance(active[k], g[k])) active[kept++] = active[k];
     active.resize(kept);
-    ray.resize(kept);
   }
 }
 

@@ -15,9 +15,8 @@ constexpr const char* kUser = "shadows";
 Error wrong(const std::string& what) { return {ErrorKind::Usage, std::string(kUser) + ": " + what}; }
 
 Status check(const Rays& rays, const ShadowOptions& o) {
-  if (!(o.sharpness > 0.0 && std::isfinite(o.sharpness)))
-    return wrong("sharpness must be positive and finite");
-  if (!(o.epsilon > 0.0 && std::isfinite(o.epsilon))) return wrong("epsilon must be positive and finite");
+  if (!isPositive(o.sharpness)) return wrong("sharpness must be positive and finite");
+  if (!isPositive(o.epsilon)) return wrong("epsilon must be positive and finite");
   if (o.maxSteps < 1) return wrong("maxSteps must be at least 1");
   if (const Status s = checkRays(rays, kUser); !s) return s.error();
   for (std::size_t i = 0; i < rays.size(); ++i)
