@@ -91,11 +91,8 @@ class DescriptorBuffer : public std::streambuf {
  protected:
   int_type overflow(int_type c) override {
     if (sync() != 0) return traits_type::eof();
-    if (!traits_type::eq_int_type(c, traits_type::eof())) {
-      *pptr() = traits_type::to_char_type(c);
-      pbump(1);
-    }
-    return traits_type::not_eof(c);
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    return sputc(traits_type::to_char_type(c));
   }
 
   std::streamsize xsputn(const char* data, std::streamsize count) override {

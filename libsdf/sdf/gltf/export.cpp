@@ -39,8 +39,7 @@ const Format* findFormat(const std::filesystem::path& target) {
   std::string extension = target.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
-                                  [&](const Format& format) { return format.extension == extension; });
+  const auto found = std::ranges::find(kFormats, extension, &Format::extension);
   return found == kFormats.end() ? nullptr : &*found;
 }
 

@@ -193,7 +193,7 @@ class GltfBuilder {
 
   void useExtension(const std::string& name) {
     std::vector<std::string>& used = model_.extensionsUsed;
-    if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+    if (std::ranges::find(used, name) == used.end()) used.push_back(name);
   }
 
   /// Makes room for all that a part's primitives will add, so that the data is never moved.
@@ -274,8 +274,8 @@ class GltfBuilder {
     const PbrMaterial pbr = toMetallicRoughness(material);
     const auto colorOf = [&](std::uint32_t vertex) { return pbr.baseColor(mesh.colors[vertex]); };
     const std::uint32_t first = primitive.vertices[0];
-    const bool plain = std::all_of(
-        primitive.vertices.begin(), primitive.vertices.end(),
+    const bool plain = std::ranges::all_of(
+        primitive.vertices,
         [&, color = quantized(colorOf(first))](std::uint32_t v) { return quantized(colorOf(v)) == color; });
 
     tinygltf::Primitive out;
@@ -307,7 +307,7 @@ class GltfBuilder {
           Value(Value::Object{{"emissiveStrength", Value(static_cast<double>(pbr.emissiveStrength))}});
       useExtension("KHR_materials_emissive_strength");
     }
-    const auto found = std::find(model_.materials.begin(), model_.materials.end(), material);
+    const auto found = std::ranges::find(model_.materials, material);
     if (found != model_.materials.end()) return static_cast<int>(found - model_.materials.begin());
     model_.materials.push_back(std::move(material));
     return static_cast<int>(model_.materials.size()) - 1;

@@ -8,12 +8,10 @@
 namespace sdf {
 
 void Scene::add(std::string name, Shape shape) {
-  const auto taken = [&](const std::string& candidate) {
-    return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == candidate; });
-  };
   for (std::size_t number = parts.size() + 1; name.empty(); ++number)
-    if (std::string candidate = "part " + std::to_string(number); !taken(candidate))
-      name = std::move(candidate);
+    if (std::string free = "part " + std::to_string(number);
+        std::ranges::find(parts, free, &Part::name) == parts.end())
+      name = std::move(free);
   parts.push_back({std::move(name), std::move(shape)});
 }
 

@@ -141,8 +141,7 @@ Status apply(const Setting<Owner>& setting, const std::map<std::string, SettingV
   };
   std::vector<std::pair<const SettingField<Owner>*, const SettingValue*>> given;
   for (const auto& [name, value] : values) {
-    const auto same = [&, &n = name](const SettingInfo& f) { return f.name == n; };
-    const auto field = std::find_if(setting.fields.begin(), setting.fields.end(), same);
+    const auto field = std::ranges::find(setting.fields, name, &SettingInfo::name);
     if (field == setting.fields.end()) return error(": unknown field '" + name + "'");
     const std::string why = objection(*field, value);
     if (!why.empty()) return error((setting.alone ? " " : ": '" + name + "' ") + why);
