@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "sdf/base/file.h"
 #include "sdf/gltf/formats.h"
@@ -12,28 +13,14 @@
 namespace sdf {
 namespace {
 
-using Encoder = Status (*)(std::ostream&, const Scene&, const std::vector<ExportPart>&);
-
-template <GltfContainer container>
-Status gltf(std::ostream& out, const Scene& scene, const std::vector<ExportPart>& parts) {
-  return encodeGltf(out, container, scene, parts);
-}
-
-template <PlainFormat format>
-Status plain(std::ostream& out, const Scene&, const std::vector<ExportPart>& parts) {
-  return encodePlain(out, format, parts);
-}
-
 struct Format {
   std::string_view extension;
-  Encoder encode;
+  std::variant<GltfContainer, PlainFormat> encoding;
 };
 
-constexpr std::array kFormats{
-    Format{".glb", gltf<GltfContainer::Binary>}, Format{".gltf", gltf<GltfContainer::Text>},
-    Format{".stl", plain<PlainFormat::Stl>},     Format{".ply", plain<PlainFormat::Ply>},
-    Format{".obj", plain<PlainFormat::Obj>},
-};
+constexpr std::array kFormats{Format{".glb", GltfContainer::Binary}, Format{".gltf", GltfContainer::Text},
+                              Format{".stl", PlainFormat::Stl}, Format{".ply", PlainFormat::Ply},
+                              Format{".obj", PlainFormat::Obj}};
 
 const Format* findFormat(const std::filesystem::path& target) {
   std::string extension = target.extension().string();
@@ -83,8 +70,11 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,
                    const std::vector<ExportPart>& parts) {
   if (Status known = checkExtension(target); !known) return known;
-  const Encoder encode = findFormat(target)->encode;
-  return writeFile(target, [&](std::ostream& out) { return encode(out, scene, parts); });
+  const auto& encoding = findFormat(target)->encoding;
+  return writeFile(target, [&](std::ostream& out) {
+    if (const auto* plain = std::get_if<PlainFormat>(&encoding)) return encodePlain(out, *plain, parts);
+    return encodeGltf(out, std::get<GltfContainer>(encoding), scene, parts);
+  });
 }
 
 }  // namespace sdf

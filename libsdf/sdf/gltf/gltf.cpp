@@ -2,6 +2,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
@@ -13,7 +14,6 @@
 
 #include "sdf/base/version.h"
 #include "sdf/gltf/formats.h"
-#include "sdf/gltf/glb.h"
 #include "sdf/gltf/pbr.h"
 #include "sdf/gltf/primitive.h"
 #include "sdf/gltf/view.h"
@@ -30,22 +30,20 @@ constexpr std::uint64_t kMostBinaryBytes = (1ull << 32) - (1ull << 26);
 
 /// JSON is UTF-8 (RFC 8259): bytes of a name that are not become U+FFFD.
 std::string utf8(const std::string& text) {
+  // Unicode, table 3-7: no over-long forms, no surrogates, nothing above U+10FFFF.
+  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // by length
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xC2 && lead < 0xE0 ? 2
-                               : lead >= 0xE0 && lead < 0xF0 ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                             : 0;
     const auto at = [&](std::size_t k) { return static_cast<unsigned char>(text[i + k]); };
-    bool valid = length > 0 && i + length <= text.size();
-    for (std::size_t k = 1; valid && k < length; ++k) valid = (at(k) & 0xC0) == 0x80;
-    // Unicode, table 3-7: no over-long forms, no surrogates, nothing above U+10FFFF.
-    if (valid && length >= 3) {
-      valid = !(lead == 0xE0 && at(1) < 0xA0) && !(lead == 0xED && at(1) >= 0xA0) &&
-              !(lead == 0xF0 && at(1) < 0x90) && !(lead == 0xF4 && at(1) >= 0x90);
+    const int ones = std::countl_one(at(0));
+    const std::size_t length = ones == 0 ? 1 : ones;
+    bool valid = ones != 1 && ones <= 4 && i + length <= text.size();
+    std::uint32_t code = ones == 0 ? at(0) : at(0) & (0x7F >> ones);
+    for (std::size_t k = 1; valid && k < length; ++k) {
+      valid = (at(k) & 0xC0) == 0x80;
+      code = code << 6 | (at(k) & 0x3F);
     }
+    valid = valid && code >= kLeast[length] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
     out += valid ? text.substr(i, length) : "\xEF\xBF\xBD";
     i += valid ? length : 1;
   }
@@ -79,6 +77,37 @@ using ColorValue = glm::vec<4, std::uint16_t>;
 ColorValue quantized(const glm::vec3& color) {
   constexpr float kMost = 65535.0f;
   return ColorValue(glm::round(color * kMost), 65535);
+}
+
+static_assert(std::endian::native == std::endian::little,
+              "glTF's numbers are little-endian, and written as they are");
+
+// 4.4: the .glb of a JSON chunk and, unless there is no data, a BIN chunk.
+constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr std::uint32_t kHeader = 12, kChunkHeader = 8;
+
+void put(std::ostream& out, std::uint32_t value) {
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::uint32_t padded(std::size_t size) { return static_cast<std::uint32_t>((size + 3) / 4 * 4); }
+
+void putChunk(std::ostream& out, std::uint32_t kind, const char* bytes, std::size_t size, char filler) {
+  put(out, padded(size));
+  put(out, kind);
+  out.write(bytes, static_cast<std::streamsize>(size));
+  for (std::size_t i = size; i < padded(size); ++i) out.put(filler);
+}
+
+void writeGlb(std::ostream& out, std::string_view json, const std::vector<unsigned char>& data) {
+  const std::uint32_t binary = data.empty() ? 0 : kChunkHeader + padded(data.size());
+  put(out, kMagic);
+  put(out, kVersion);
+  put(out, kHeader + kChunkHeader + padded(json.size()) + binary);
+  putChunk(out, kJsonChunk, json.data(), json.size(), ' ');
+  if (!data.empty())
+    putChunk(out, kBinaryChunk, reinterpret_cast<const char*>(data.data()), data.size(), '\0');
 }
 
 class GltfBuilder {

@@ -129,19 +129,17 @@ class Soup : public om::IO::BaseExporter {
 /// The writers log to OpenMesh's global streams; here every outcome is in the return value.
 class Silence {
  public:
-  Silence() : log_(omlog().is_enabled()), out_(omout().is_enabled()), err_(omerr().is_enabled()) {
-    omlog().disable();
-    omout().disable();
-    omerr().disable();
+  Silence() {
+    for (const auto& [stream, enabled] : streams_) stream->disable();
   }
   ~Silence() {
-    if (log_) omlog().enable();
-    if (out_) omout().enable();
-    if (err_) omerr().enable();
+    for (const auto& [stream, enabled] : streams_)
+      if (enabled) stream->enable();
   }
 
  private:
-  bool log_, out_, err_;
+  const std::pair<om::mostream*, bool> streams_[3]{
+      {&omlog(), omlog().is_enabled()}, {&omout(), omout().is_enabled()}, {&omerr(), omerr().is_enabled()}};
 };
 
 }  // namespace
