@@ -1,4 +1,5 @@
-// What one run of a scene script keeps: the scene so far, the limits, and what has been asked for.
+// One run of a scene script: what it can name, how much it may use, and what it keeps: the scene so far, the
+// limits, and what has been asked for.
 #pragma once
 #include <chrono>
 #include <cstddef>
@@ -43,6 +44,10 @@ struct ScriptContext {
 
 /// The context of the script that runs in this state.
 ScriptContext& contextOf(lua_State* L);
+
+/// Runs `text` with the scene language's functions in reach and nothing else, and fills context.scene. The
+/// error names file and line. Shapes that the script returns become unnamed parts.
+Status runInSandbox(ScriptContext& context, const std::string& text);
 
 /// Ends the run if it has taken too long; collects garbage when dropped graphs have piled up. Every library
 /// function calls it, for one call can do the work of many instructions.

@@ -1,4 +1,4 @@
-#include "sdf/script/sandbox.h"
+#include "sdf/script/context.h"
 
 #include <algorithm>
 #include <cstdlib>

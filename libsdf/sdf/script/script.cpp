@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "sdf/script/context.h"
-#include "sdf/script/sandbox.h"
 
 namespace sdf {
 

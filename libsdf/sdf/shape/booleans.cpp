@@ -81,6 +81,12 @@ T balanced(std::span<const T> all, Join joinTwo) {
   return joinTwo(balanced(all.first(half), joinTwo), balanced(all.subspan(half), joinTwo));
 }
 
+Expr least(std::span<const Expr> distances) {
+  return balanced(distances, [](const Expr& a, const Expr& b) { return min(a, b); });
+}
+Expr greatest(std::span<const Expr> distances) {
+  return balanced(distances, [](const Expr& a, const Expr& b) { return max(a, b); });
+}
 Layer balancedUnion(std::span<const Layer> layers) {
   return balanced(layers, [](const Layer& a, const Layer& b) { return join(a, b, Blend::hard()); });
 }
@@ -225,8 +231,7 @@ Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
     if (!isEverything(s.bounds)) result.claim.growth = std::max(result.claim.growth, growthOf(s.claim));
   }
   if (isHard(blend)) {
-    result.distance =
-        balanced(std::span<const Expr>(distances), [](const Expr& a, const Expr& b) { return max(a, b); });
+    result.distance = greatest(distances);
   } else {
     for (std::size_t i = 1; i < shapes.size(); ++i)
       result.distance = upper(result.distance, distances[i], blend);
@@ -240,14 +245,10 @@ Shape subtract(const std::vector<Shape>& shapes, const Blend& given) {
   const Blend blend = guarded(given);
   Shape result = combined(shapes, blend, ClaimKind::Bound);
   result.claim.growth = growthOf(shapes[0].claim);
-  if (isHard(blend)) {
-    std::vector<Layer> cutters = layersOf(shapes);
-    for (Layer& l : cutters) l.surface = shapes[0].surface;
-    result.distance = max(result.distance, -balancedUnion(std::span(cutters).subspan(1)).distance);
-  } else {
-    for (std::size_t i = 1; i < shapes.size(); ++i)
-      result.distance = upper(result.distance, -shapes[i].distance, blend);
-  }
+  std::vector<Expr> cutters;
+  for (const Shape& s : std::span(shapes).subspan(1)) cutters.push_back(s.distance);
+  if (isHard(blend)) cutters = {least(cutters)};
+  for (const Expr& cutter : cutters) result.distance = upper(result.distance, -cutter, blend);
   return settled(std::move(result));
 }
 
