@@ -15,19 +15,10 @@ constexpr int kHookInterval = 1000;
 
 // --- limits ---
 
-std::size_t graphBytes(const ScriptContext& c) {
-  return static_cast<std::size_t>(std::max<std::int64_t>(c.nodes.held(), 0)) * kNodeBytes;
-}
-
 struct Owner {
   ScriptContext* context;
   lua_State* state;
 };
-
-std::string memoryMessage(const ScriptContext& c) {
-  return "needed more than " + std::to_string(c.options.memoryLimit >> 20) +
-         " MiB of memory; look for what grows without end";
-}
 
 // Counts what Lua holds and refuses what goes past the limit; Lua then collects garbage and asks once more.
 void* allocate(void* owner, void* block, std::size_t oldSize, std::size_t newSize) {
@@ -39,7 +30,8 @@ void* allocate(void* owner, void* block, std::size_t oldSize, std::size_t newSiz
     return nullptr;
   }
   const std::size_t after = context->bytes - oldSize + newSize;
-  if (newSize > oldSize && after + graphBytes(*context) > context->options.memoryLimit) {
+  const auto graph = static_cast<std::size_t>(std::max<std::int64_t>(context->nodes.held(), 0)) * kNodeBytes;
+  if (newSize > oldSize && after + graph > context->options.memoryLimit) {
     context->refused = true;
     if (const int line = state ? currentLine(state) : 0) context->refusedLine = line;
     return nullptr;
@@ -154,7 +146,11 @@ class Sandbox {
   Error error(int line, const std::string& message) const {
     return {ErrorKind::Scene, oneLine(placeOf(context_.file, line) + ": " + message)};
   }
-  Error outOfMemory() const { return error(context_.refusedLine, memoryMessage(context_)); }
+  Error outOfMemory() const {
+    return error(context_.refusedLine, "needed more than " +
+                                           std::to_string(context_.options.memoryLimit >> 20) +
+                                           " MiB of memory; look for what grows without end");
+  }
 
   // The message on the top of the stack, or what is known better.
   Error failure(int status) const {

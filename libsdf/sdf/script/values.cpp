@@ -217,23 +217,19 @@ namespace {
   raise(L, what + " must be " + wanted + ", got " + describe(L, index));
 }
 
-// Refuses numbers that are not finite, and position where there is none.
-Expr checkedNumber(lua_State* L, const Expr& e, const std::string& what, Depends depends) {
-  const bool varies = !e.isConstant() && dependsOnSpace(e);
-  if (varies && depends == Depends::OnParameters)
-    raise(L, what + " must not depend on the position; it is one number for the whole scene");
-  if (varies) return e;
-  if (const double v = uniformValue(e); !std::isfinite(v))
-    raise(L, what + " must be a finite number, got " +
-                 (std::isnan(v) ? "NaN, which is not a number" : "infinity"));
-  return e;
-}
-
 }  // namespace
 
 Expr readNumber(lua_State* L, int index, const std::string& what, Depends depends) {
   if (!isNumeric(L, index)) wrongType(L, index, what, "a number");
-  return checkedNumber(L, exprAt(L, index), what, depends);
+  const Expr e = exprAt(L, index);
+  if (!e.isConstant() && dependsOnSpace(e)) {
+    if (depends == Depends::OnPosition) return e;
+    raise(L, what + " must not depend on the position; it is one number for the whole scene");
+  }
+  if (const double v = uniformValue(e); !std::isfinite(v))
+    raise(L, what + " must be a finite number, got " +
+                 (std::isnan(v) ? "NaN, which is not a number" : "infinity"));
+  return e;
 }
 
 double readPlainNumber(lua_State* L, int index, const std::string& what) {

@@ -17,14 +17,13 @@ std::vector<CatalogEntry> deformEntries();
 std::vector<CatalogEntry> placeEntries();
 std::vector<CatalogEntry> patternEntries();
 
-/// The argument as the type that a function of the library takes.
+/// The argument as the type that a function takes; a std::optional of it may be empty.
 template <class T>
-const T& argumentAs(const Argument& a, const T* /*type*/) {
-  return std::get<T>(a);
-}
-template <class T>
-std::optional<T> argumentAs(const Argument& a, const std::optional<T>* /*type*/) {
-  return a.index() == 0 ? std::optional<T>() : std::get<T>(a);
+decltype(auto) argumentAs(const Argument& a) {
+  if constexpr (requires(const T& t) { t.has_value(); })
+    return a.index() == 0 ? T() : T(std::get<typename T::value_type>(a));
+  else
+    return (std::get<T>(a));
 }
 
 /// The function with its arguments taken from a list.
@@ -32,7 +31,7 @@ template <class... T>
 std::function<Shape(const std::vector<Argument>&)> onList(std::function<Shape(T...)> make) {
   return [make](const std::vector<Argument>& a) {
     return [&]<std::size_t... i>(std::index_sequence<i...>) {
-      return make(argumentAs(a[i], static_cast<const std::decay_t<T>*>(nullptr))...);
+      return make(argumentAs<std::decay_t<T>>(a[i])...);
     }
     (std::index_sequence_for<T...>());
   };

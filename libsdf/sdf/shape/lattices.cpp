@@ -10,10 +10,6 @@ namespace sdf {
 
 namespace {
 
-struct Phases {
-  Vec3E sine, cosine;
-};
-
 // `steepest`: largest gradient of the wave per radian; `highest`: its largest value.
 template <class Wave>
 Shape lattice(const char* name, const Expr& cell, const Expr& thickness, double steepest, double highest,
@@ -24,8 +20,8 @@ Shape lattice(const char* name, const Expr& cell, const Expr& thickness, double 
   if (!c.below("thickness", thickness, shown(fills) + " cell", fills * cell).ok()) return c.failure();
   const Expr frequency = 2.0 * std::numbers::pi / positiveSize(cell);
   const Vec3E p = position() * frequency;
-  const Phases phases{{sin(p.x), sin(p.y), sin(p.z)}, {cos(p.x), cos(p.y), cos(p.z)}};
-  const Expr height = wave(phases) * (1.0 / (steepest * frequency));
+  const Vec3E sine{sin(p.x), sin(p.y), sin(p.z)}, cosine{cos(p.x), cos(p.y), cos(p.z)};
+  const Expr height = wave(sine, cosine) * (1.0 / (steepest * frequency));
   return solid(abs(height.claimLipschitz(1.0)) - 0.5 * thickness, Box::everything(), ClaimKind::Bound);
 }
 
@@ -34,23 +30,21 @@ Shape lattice(const char* name, const Expr& cell, const Expr& thickness, double 
 Shape gyroid(const Expr& cell, const Expr& thickness) {
   // d/dx = cos x cos y - sin x sin z, whose square is at most cos^2 y + sin^2 z (Cauchy, Schwarz); the three
   // add up to 3. Its largest value is 3/2, at x = y = z = pi / 4.
-  return lattice("gyroid", cell, thickness, std::numbers::sqrt3, 1.5, [](const Phases& w) {
-    return w.sine.x * w.cosine.y + w.sine.y * w.cosine.z + w.sine.z * w.cosine.x;
-  });
+  return lattice("gyroid", cell, thickness, std::numbers::sqrt3, 1.5,
+                 [](const Vec3E& s, const Vec3E& c) { return s.x * c.y + s.y * c.z + s.z * c.x; });
 }
 
 Shape schwarzP(const Expr& cell, const Expr& thickness) {
   return lattice("schwarz_p", cell, thickness, std::numbers::sqrt3, 3.0,
-                 [](const Phases& w) { return w.cosine.x + w.cosine.y + w.cosine.z; });
+                 [](const Vec3E&, const Vec3E& c) { return c.x + c.y + c.z; });
 }
 
 Shape schwarzD(const Expr& cell, const Expr& thickness) {
   // With X = cos 2x and so on and T = sin 2x sin 2y sin 2z, the squared gradient is (3 - XY - YZ - ZX + 3 T)
   // / 4. Let m = (X^2 + Y^2 + Z^2) / 3. Then -XY - YZ - ZX <= 3 m / 2, and T <= (1 - m)^(3/2) <= 1 - m by the
   // inequality of means, so the gradient is at most sqrt(6) / 2.
-  return lattice(
-      "schwarz_d", cell, thickness, std::numbers::sqrt2 * std::numbers::sqrt3 / 2.0, 1.0,
-      [](const Phases& w) { return w.cosine.x * w.cosine.y * w.cosine.z - w.sine.x * w.sine.y * w.sine.z; });
+  return lattice("schwarz_d", cell, thickness, std::numbers::sqrt2 * std::numbers::sqrt3 / 2.0, 1.0,
+                 [](const Vec3E& s, const Vec3E& c) { return c.x * c.y * c.z - s.x * s.y * s.z; });
 }
 
 }  // namespace sdf

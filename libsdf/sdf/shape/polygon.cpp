@@ -24,11 +24,10 @@ bool between(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
 
 bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
   const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
-  if (((abc > 0.0 && abd < 0.0) || (abc < 0.0 && abd > 0.0)) &&
-      ((cda > 0.0 && cdb < 0.0) || (cda < 0.0 && cdb > 0.0)))
-    return true;
-  return (abc == 0.0 && between(a, b, c)) || (abd == 0.0 && between(a, b, d)) ||
-         (cda == 0.0 && between(c, d, a)) || (cdb == 0.0 && between(c, d, b));
+  const auto opposite = [](double u, double v) { return (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0); };
+  return (opposite(abc, abd) && opposite(cda, cdb)) || (abc == 0.0 && between(a, b, c)) ||
+         (abd == 0.0 && between(a, b, d)) || (cda == 0.0 && between(c, d, a)) ||
+         (cdb == 0.0 && between(c, d, b));
 }
 
 // Does the edge into `corner` come straight back out of it?
