@@ -4,8 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <mutex>
@@ -14,6 +12,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace sdf {
 namespace {
@@ -95,42 +94,22 @@ class DescriptorBuffer : public std::streambuf {
     return sputc(traits_type::to_char_type(c));
   }
 
-  std::streamsize xsputn(const char* data, std::streamsize count) override {
-    if (count < epptr() - pptr()) {
-      traits_type::copy(pptr(), data, count);
-      pbump(static_cast<int>(count));
-      return count;
-    }
-    return sync() == 0 && put(data, count) ? count : 0;
-  }
-
   int sync() override {
-    const bool done = put(pbase(), pptr() - pbase());
+    for (const char* data = pbase(); data < pptr() && reason_ == 0;) {
+      if (abandoned_) reason_ = EINTR;
+      const ssize_t written = reason_ == 0 ? ::write(descriptor_, data, pptr() - data) : 0;
+      if (written < 0 && errno != EINTR) reason_ = errno;
+      if (written > 0) data += written;
+    }
     setp(buffer_.data(), buffer_.data() + buffer_.size());
-    return done ? 0 : -1;
+    return reason_ == 0 ? 0 : -1;
   }
 
  private:
-  // Large blocks go out in pieces, so that an interruption is noticed between them.
-  static constexpr std::streamsize kPiece = 1 << 20;
-
-  bool put(const char* data, std::streamsize count) {
-    while (count > 0 && reason_ == 0) {
-      if (abandoned_) reason_ = EINTR;
-      const ssize_t written = reason_ == 0 ? ::write(descriptor_, data, std::min(count, kPiece)) : 0;
-      if (written < 0 && errno != EINTR) reason_ = errno;
-      if (written > 0) {
-        data += written;
-        count -= written;
-      }
-    }
-    return reason_ == 0;
-  }
-
   int descriptor_;
   const std::atomic<bool>& abandoned_;
   int reason_ = 0;
-  std::array<char, 1 << 16> buffer_;
+  std::vector<char> buffer_ = std::vector<char>(1 << 20);  // an interruption is noticed each time it is full
 };
 
 /// A new file in the folder of `target`, with a name that nothing there has; removed unless it was renamed.
