@@ -74,6 +74,21 @@ Dual<T, N> step(const T& value, const Dual<T, N>& first, const Others&... others
   return r;
 }
 
+/// `smooth` with the slope of a step function of this value added.
+template <class T, int N, class... Args>
+Dual<T, N> withJumps(Dual<T, N> smooth, const T& value, const Args&... args) {
+  for (int i = 0; i < N; ++i) smooth.d[i] = add(smooth.d[i], jump(value, args.d[i]...));
+  return smooth;
+}
+
+/// The value, with a's slope where `first` holds and b's elsewhere.
+template <class T, int N>
+Dual<T, N> either(const T& value, const T& first, const Dual<T, N>& a, const Dual<T, N>& b) {
+  Dual<T, N> r{value, {}};
+  for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
+  return r;
+}
+
 /// 1 where the value is finite, 0 where it may be infinite (max takes NaN away).
 template <class T>
 T isFinite(const T& value) {
@@ -114,10 +129,8 @@ auto cos(const AnyDual auto& a) { return chain(a, cos(a.v), neg(sin(a.v))); }
 template <class T, int N>
 Dual<T, N> tan(const Dual<T, N>& a) {
   const T t = tan(a.v);
-  Dual<T, N> r = chain(a, t, add(T(1.0), square(t)));
   // Across a pole the value falls while the slope is positive on both sides.
-  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump(isFinite(t), a.d[i]));
-  return r;
+  return withJumps(chain(a, t, add(T(1.0), square(t))), isFinite(t), a);
 }
 template <class T, int N>
 Dual<T, N> asin(const Dual<T, N>& a) {
@@ -161,19 +174,11 @@ Dual<T, N> div(const Dual<T, N>& a, const Dual<T, N>& b) {
   const T q = div(a.v, b.v), inverse = div(T(1.0), b.v);
   return chain(a, b, q, inverse, neg(mul(q, inverse)));
 }
-template <class T, int N>
-Dual<T, N> min(const Dual<T, N>& a, const Dual<T, N>& b) {
-  const T first = lessEqual(a.v, b.v);
-  Dual<T, N> r{min(a.v, b.v), {}};
-  for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
-  return r;
+auto min(const AnyDual auto& a, const AnyDual auto& b) {
+  return either(min(a.v, b.v), lessEqual(a.v, b.v), a, b);
 }
-template <class T, int N>
-Dual<T, N> max(const Dual<T, N>& a, const Dual<T, N>& b) {
-  const T first = lessEqual(b.v, a.v);
-  Dual<T, N> r{max(a.v, b.v), {}};
-  for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
-  return r;
+auto max(const AnyDual auto& a, const AnyDual auto& b) {
+  return either(max(a.v, b.v), lessEqual(b.v, a.v), a, b);
 }
 template <class T, int N>
 Dual<T, N> pow(const Dual<T, N>& a, const Dual<T, N>& b) {
@@ -184,10 +189,8 @@ Dual<T, N> pow(const Dual<T, N>& a, const Dual<T, N>& b) {
   // d/db = p ln a. Where a <= 0 the exponent can only be a constant, and its slope does not count, but for
   // the step of pow(0, b) at b = 0.
   const T slopeB = select(less(T(0.0), a.v), mul(p, log(a.v)), stepSlope(less(T(0.0), b.v)));
-  Dual<T, N> r = chain(a, b, p, slopeA, slopeB);
   const T noPole = max(isFinite(p), lessEqual(T(0.0), b.v));
-  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump(noPole, a.d[i], b.d[i]));
-  return r;
+  return withJumps(chain(a, b, p, slopeA, slopeB), noPole, a, b);
 }
 template <class T, int N>
 Dual<T, N> atan2(const Dual<T, N>& y, const Dual<T, N>& x) {
@@ -198,16 +201,13 @@ Dual<T, N> atan2(const Dual<T, N>& y, const Dual<T, N>& x) {
   const T left = less(x.v, T(0.0)), away = less(T(0.0), square2);
   const T below = select(left, less(y.v, T(0.0)), T(0.0)),
           above = select(left, lessEqual(y.v, T(0.0)), T(0.0));
-  for (int i = 0; i < N; ++i)
-    for (const T& side : {away, below, above}) r.d[i] = add(r.d[i], jump(side, y.d[i], x.d[i]));
+  for (const T& side : {away, below, above}) r = withJumps(r, side, y, x);
   return r;
 }
 template <class T, int N>
 Dual<T, N> mod(const Dual<T, N>& a, const Dual<T, N>& b) {
   const T turns = floor(div(a.v, b.v));
-  Dual<T, N> r = chain(a, b, mod(a.v, b.v), T(1.0), neg(turns));
-  for (int i = 0; i < N; ++i) r.d[i] = add(r.d[i], jump(turns, a.d[i], b.d[i]));
-  return r;
+  return withJumps(chain(a, b, mod(a.v, b.v), T(1.0), neg(turns)), turns, a, b);
 }
 auto less(const AnyDual auto& a, const AnyDual auto& b) { return step(less(a.v, b.v), a, b); }
 auto lessEqual(const AnyDual auto& a, const AnyDual auto& b) { return step(lessEqual(a.v, b.v), a, b); }
