@@ -26,11 +26,10 @@ Status checkExtension(const std::filesystem::path& target);
 /// Writes all parts to `target`, whose extension picks the format. The file appears under its name only when
 /// complete.
 /// - .glb, .gltf: one file (the .gltf's buffer is embedded); a node for each part, a primitive for each
-/// material of it,
-///   materials by toMetallicRoughness (pbr.h), camera and lights as in view.h; measured errors in `extras`.
+///   material of it, materials by toMetallicRoughness (pbr.h), camera and lights as in view.h; measured
+///   errors in `extras`.
 /// - .stl, .ply (both binary), .obj: all parts in one body of welded triangles, Y up. PLY and OBJ carry
-/// normals and
-///   vertex colours, as sRGB; STL has neither.
+///   normals, PLY also vertex colours, as sRGB; STL has neither.
 /// The bytes depend on nothing but the arguments.
 /// Errors: Usage (unknown extension), Files (cannot be written), Limits (a .glb over 4 GiB), Interrupted.
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,

@@ -14,8 +14,8 @@ Status encodeGltf(std::ostream& out, GltfContainer container, const Scene& scene
                   const std::vector<ExportPart>& parts);
 
 enum class PlainFormat { Stl, Ply, Obj };
-/// All parts as one body of welded triangles: binary STL; binary PLY with normals and sRGB colours; OBJ
-/// likewise.
+/// All parts as one body of welded triangles: binary STL; binary PLY with normals and sRGB colours; OBJ with
+/// normals.
 Status encodePlain(std::ostream& out, PlainFormat format, const std::vector<ExportPart>& parts);
 
 }  // namespace sdf

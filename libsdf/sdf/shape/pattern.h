@@ -12,10 +12,10 @@
 namespace sdf {
 
 /// Copies at every multiple of `cell` (scene units, >= 0; 0: not repeated along that axis; not all 0),
-/// endlessly, or `count`
-/// (>= 1 along each axis) of them centred about the shape's own place. Exact distances stay exact (outside,
-/// where copies touch or overlap); other bounds are capped between the copies, so that they stay continuous.
-/// The shape must be bounded along the repeated axes and at most 3 cells long. On a flat shape z is ignored.
+/// endlessly, or `count` (>= 1 along each axis) of them centred about the shape's own place. Exact distances
+/// stay exact (outside, where copies touch or overlap); other bounds are capped between the copies, so that
+/// they stay continuous. The shape must be bounded along the repeated axes and at most 3 cells long. On a
+/// flat shape z is ignored.
 Shape repeatGrid(const Shape& shape, const Vec3E& cell, const std::optional<glm::ivec3>& count = {});
 
 /// `count` >= 1 copies evenly around the y axis, the first in place. Exact distances stay exact (outside,

@@ -15,7 +15,6 @@ namespace {
 using Matrix = std::array<Vec3E, 3>;  // rows
 
 Vec3E column(const Matrix& m, int i) { return {component(m[0], i), component(m[1], i), component(m[2], i)}; }
-Matrix transposed(const Matrix& m) { return {column(m, 0), column(m, 1), column(m, 2)}; }
 
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix m;
@@ -107,9 +106,10 @@ Shape mapped(const Shape& shape, const Matrix& m, const Vec3E& from) {
 }
 
 Shape turned(const Shape& shape, const Matrix& m) {
-  const Matrix back = transposed(m);
-  const Vec3E p = position();
-  Shape result = mapped(shape, m, {weighted(p, back[0]), weighted(p, back[1]), weighted(p, back[2])});
+  const auto back = [&](int i) {
+    return weighted(position(), column(m, i));
+  };  // by the inverse, m transposed
+  Shape result = mapped(shape, m, {back(0), back(1), back(2)});
   result.outer = mappedUnion(shape, [&](const Shape& operand) { return turned(operand, m); });
   return result;
 }
