@@ -10,10 +10,10 @@ namespace sdf::viewer {
 
 /// A Driver is what draws in a context, and how far it reaches.
 struct Driver {
-  std::string renderer, vendor;  ///< as the driver names them, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
-  int version = 0;               ///< of OpenGL: 45 for 4.5
-  int mostWidth = 0;             ///< pixels a row of a target may have
-  int mostHeight = 0;            ///< rows a target may have
+  std::string renderer;  ///< as the driver names it, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
+  int version = 0;       ///< of OpenGL: 45 for 4.5
+  int mostWidth = 0;     ///< pixels a row of a target may have
+  int mostHeight = 0;    ///< rows a target may have
 };
 
 /// Asks for the driver of the current context.
