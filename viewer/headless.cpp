@@ -9,7 +9,7 @@
 #include "sdf/base/file.h"
 #include "sdf/script/script.h"
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/png.h"
+#include "viewer/gpu/picture.h"
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {

@@ -15,7 +15,7 @@
 #include "viewer/app/window.h"
 #include "viewer/app_display.h"
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/png.h"
+#include "viewer/gpu/picture.h"
 
 namespace sdf::viewer {
 namespace {

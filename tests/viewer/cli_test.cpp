@@ -8,7 +8,7 @@
 
 #include "support/folder.h"
 #include "tools/command.h"
-#include "viewer/gpu/png.h"
+#include "viewer/gpu/picture.h"
 
 namespace sdf {
 namespace {

@@ -10,7 +10,7 @@
 #include "support/folder.h"
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/drawing.h"
-#include "viewer/gpu/png.h"
+#include "viewer/gpu/picture.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/shader_log.h"
 #include "viewer/gpu/target.h"

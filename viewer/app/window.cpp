@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/png.h"
+#include "viewer/gpu/picture.h"
 
 namespace sdf::viewer {
 namespace {

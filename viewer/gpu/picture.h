@@ -1,7 +1,10 @@
-// Pictures in main memory.
+// Pictures in main memory, and as PNG files of eight bits a channel.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <vector>
+
+#include "sdf/base/result.h"
 
 namespace sdf::viewer {
 
@@ -11,5 +14,12 @@ struct Picture {
   int channels = 0;  ///< 3: RGB, 4: RGBA (alpha not premultiplied)
   std::vector<std::uint8_t> bytes;
 };
+
+/// Writes the picture under the name, whole or not at all (see sdf/base/file.h). The picture must have
+/// width * height * channels bytes, at least one. Errors: those of writeFile; Limits if memory runs out.
+Status writePng(const std::filesystem::path& target, const Picture& picture);
+
+/// Reads any PNG as `channels` (3 or 4) bytes a pixel. Errors: Files.
+Result<Picture> readPng(const std::filesystem::path& source, int channels = 4);
 
 }  // namespace sdf::viewer

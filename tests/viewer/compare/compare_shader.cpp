@@ -15,7 +15,7 @@
 
 #include "sdf/script/script.h"
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/png.h"
+#include "viewer/gpu/picture.h"
 #include "viewer/psnr.h"
 #include "viewer/render/renderer.h"
 

@@ -1,4 +1,4 @@
-#include "viewer/gpu/png.h"
+#include "viewer/gpu/picture.h"
 
 #include <cassert>
 #include <memory>
