@@ -41,7 +41,8 @@ class StrictProgram : public testing::Test {
   }
   static Program program() {
     return Program::overScreen(
-               "#version 330 core\nuniform float a, b[2];\nout vec4 c;\nvoid main() { c = vec4(a); }\n")
+               "#version 330 core\nuniform float a;\nuniform vec4 b[2];\nout vec4 c;\nvoid main() { c = "
+               "vec4(a); }\n")
         .value();
   }
   std::unique_ptr<Context> context;
@@ -51,7 +52,7 @@ class StrictProgram : public testing::Test {
 TEST_F(StrictProgram, DrawsWithWhatItDeclares) {
   const Program p = program();
   p.set("a", 1.0f);
-  p.set("b", std::vector{1.0f, 2.0f});
+  p.set("b", std::vector{glm::vec4(1.0f), glm::vec4(2.0f)});
   EXPECT_TRUE(p.uniformFaults().empty());
   EXPECT_NO_THROW(p.draw());
 }
@@ -66,7 +67,7 @@ TEST_F(StrictProgram, RefusesAUniformThatIsNeverSet) {
 TEST_F(StrictProgram, RefusesAUniformThatNoShaderDeclares) {
   const Program p = program();
   p.set("a", 1.0f);
-  p.set("b", std::vector{1.0f, 2.0f});
+  p.set("b", std::vector{glm::vec4(1.0f), glm::vec4(2.0f)});
   p.set("typo", 1.0f);
   EXPECT_EQ(p.uniformFaults(), Lines{"the uniform typo is set but not declared"});
   EXPECT_THROW(p.draw(), std::logic_error);

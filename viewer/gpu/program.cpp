@@ -2,13 +2,14 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <glm/gtc/type_ptr.hpp>
 #include <regex>
 #include <stdexcept>
 
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/shader_log.h"
 
 namespace sdf::viewer {
 namespace {
@@ -44,34 +45,53 @@ void main() {
 }
 )";
 
-std::string shaderLog(GLuint shader) {
-  GLint length = 0;
-  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-  std::string log(std::size_t(length), '\0');
-  glGetShaderInfoLog(shader, length, nullptr, log.data());
-  return log;
+/// What OpenGL says of an object by this pair of functions.
+template <class GetNumber, class GetText>
+std::string textOf(GLuint object, GLenum length, GetNumber getNumber, GetText getText) {
+  GLint size = 0;
+  getNumber(object, length, &size);
+  std::string text(std::size_t(size), '\0');
+  getText(object, size, nullptr, text.data());
+  return text;
 }
 
-std::string programLog(GLuint program) {
-  GLint length = 0;
-  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  std::string log(std::size_t(length), '\0');
-  glGetProgramInfoLog(program, length, nullptr, log.data());
-  return log;
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks(" \t\r\n\0", 5);  // a log ends with a zero
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string_view> lines(std::string_view text) {
+  std::vector<std::string_view> found;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    found.push_back(trimmed(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return found;
+}
+
+/// A line of a log: "line N: WORDS in 'THAT LINE'" as far as it names a place; empty for a warning.
+std::string complaint(const std::string& text, const std::vector<std::string_view>& source) {
+  constexpr std::size_t kLongestQuote = 200;  // generated lines can be very long
+  for (const char* const place : {"%*d:%d(%*d): %n", "%*d(%d) : %n", "ERROR: %*d:%d: %n"}) {
+    int line = 0, length = -1;
+    if (std::sscanf(text.c_str(), place, &line, &length) != 1 || length < 0) continue;
+    const std::string words = text.substr(std::size_t(length));
+    if (words.starts_with("warning")) return "";
+    const bool known = line >= 1 && std::size_t(line) <= source.size();
+    const auto quoted = known ? source[std::size_t(line) - 1].substr(0, kLongestQuote) : std::string_view();
+    return (line > 0 ? "line " + std::to_string(line) + ": " : "") + words +
+           (quoted.empty() ? "" : " in '" + std::string(quoted) + "'");
+  }
+  return text.starts_with("warning") ? "" : text;
 }
 
 Error rejected(const std::string& what, const std::string& log, const std::string& source) {
-  const std::string words = describe(readShaderLog(log, source));
+  const std::string words = complaintsOf(log, source);
   return {ErrorKind::Graphics,
           "the driver rejects the " + what + ": " + (words.empty() ? "it does not say why" : words)};
-}
-
-std::string sourceOf(GLuint shader) {
-  GLint length = 0;
-  glGetShaderiv(shader, GL_SHADER_SOURCE_LENGTH, &length);
-  std::string source(std::size_t(length), '\0');
-  glGetShaderSource(shader, length, nullptr, source.data());
-  return source;
 }
 
 Result<Handle> compile(GLenum kind, const char* name, const std::string& source) {
@@ -81,11 +101,24 @@ Result<Handle> compile(GLenum kind, const char* name, const std::string& source)
   glCompileShader(shader.id());
   GLint compiled = GL_FALSE;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
-  if (compiled == GL_FALSE) return rejected(name, shaderLog(shader.id()), source);
+  if (compiled == GL_FALSE)
+    return rejected(name, textOf(shader.id(), GL_INFO_LOG_LENGTH, glGetShaderiv, glGetShaderInfoLog), source);
   return shader;
 }
 
 }  // namespace
+
+std::string complaintsOf(std::string_view log, std::string_view source) {
+  constexpr std::size_t kMost = 3;  // what follows the first is seldom news
+  const auto sourceLines = lines(source);
+  std::string all;
+  std::size_t count = 0;
+  for (const std::string_view line : lines(log)) {
+    const std::string words = complaint(std::string(line), sourceLines);
+    if (!words.empty() && ++count <= kMost) all += (count > 1 ? "; " : "") + words;
+  }
+  return count > kMost ? all + "; and " + std::to_string(count - kMost) + " more" : all;
+}
 
 std::set<std::string> declaredUniforms(const std::string& source) {
   static const std::regex declaration("(?:^|[;\\n])\\s*uniform\\s+\\w+\\s([^;]*)"), name("(\\w+)[^,]*");
@@ -119,7 +152,9 @@ Result<Program> Program::create(const std::string& vertex, const std::string& fr
   glLinkProgram(program.id());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
-  if (linked == GL_FALSE) return rejected("linked shaders", programLog(program.id()), fragment);
+  if (linked == GL_FALSE)
+    return rejected("linked shaders",
+                    textOf(program.id(), GL_INFO_LOG_LENGTH, glGetProgramiv, glGetProgramInfoLog), fragment);
 
   // A core context draws nothing without one, though it holds nothing here.
   GLuint vertexArray = 0;
@@ -134,9 +169,8 @@ Result<Program> Program::overScreen(const std::string& fragment) { return create
 
 Result<Program> Program::overTiles(const std::string& fragment) { return create(kOverTiles, fragment); }
 
-void Program::use() const { glUseProgram(program_.id()); }
-
 int Program::location(const std::string& name) const {
+  glUseProgram(program_.id());
   const auto [found, isNew] = locations_.try_emplace(name, -1);
   if (isNew) found->second = glGetUniformLocation(program_.id(), name.c_str());
   return found->second;
@@ -147,7 +181,9 @@ std::vector<std::string> Program::uniformFaults() const {
   GLsizei count = 0;
   glGetAttachedShaders(program_.id(), GLsizei(shaders.size()), &count, shaders.data());
   std::set<std::string> declared;
-  for (GLsizei i = 0; i < count; ++i) declared.merge(declaredUniforms(sourceOf(shaders[std::size_t(i)])));
+  for (GLsizei i = 0; i < count; ++i)
+    declared.merge(declaredUniforms(
+        textOf(shaders[std::size_t(i)], GL_SHADER_SOURCE_LENGTH, glGetShaderiv, glGetShaderSource)));
   std::vector<std::string> faults;
   for (const auto& [name, place] : locations_)
     if (!declared.contains(name)) faults.push_back("the uniform " + name + " is set but not declared");
@@ -157,47 +193,29 @@ std::vector<std::string> Program::uniformFaults() const {
 }
 
 void Program::refuseFaults() const {
+  if (!strict) return;
   if (const auto faults = uniformFaults(); !faults.empty()) throw std::logic_error(faults.front());
 }
 
-void Program::set(const std::string& name, int value) const {
-  use();
-  glUniform1i(location(name), value);
-}
+void Program::set(const std::string& name, int value) const { glUniform1i(location(name), value); }
 
-void Program::set(const std::string& name, float value) const {
-  use();
-  glUniform1f(location(name), value);
-}
+void Program::set(const std::string& name, float value) const { glUniform1f(location(name), value); }
 
 void Program::set(const std::string& name, const glm::vec2& value) const {
-  use();
   glUniform2fv(location(name), 1, glm::value_ptr(value));
 }
 
 void Program::set(const std::string& name, const glm::vec3& value) const {
-  use();
   glUniform3fv(location(name), 1, glm::value_ptr(value));
 }
 
-void Program::set(const std::string& name, const glm::vec4& value) const {
-  use();
-  glUniform4fv(location(name), 1, glm::value_ptr(value));
-}
-
-void Program::set(const std::string& name, std::span<const float> values) const {
-  use();
-  glUniform1fv(location(name), GLsizei(values.size()), values.data());
-}
-
 void Program::set(const std::string& name, std::span<const glm::vec4> values) const {
-  use();
   glUniform4fv(location(name), GLsizei(values.size()), reinterpret_cast<const float*>(values.data()));
 }
 
 void Program::draw() const {
-  if (strict) refuseFaults();
-  use();
+  refuseFaults();
+  glUseProgram(program_.id());
   glBindVertexArray(vertexArray_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -205,7 +223,7 @@ void Program::draw() const {
 void Program::drawTiles(int columns, int rows, int side) const {
   set("tileGrid", glm::vec2(columns, rows));
   set("tileSide", static_cast<float>(side));
-  if (strict) refuseFaults();
+  refuseFaults();
   glBindVertexArray(vertexArray_.id());
   // A point whose middle is outside the viewport is left out altogether.
   std::array<GLint, 4> viewport{};

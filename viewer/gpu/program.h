@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -14,6 +15,11 @@
 #include "viewer/gpu/handle.h"
 
 namespace sdf::viewer {
+
+/// Puts the first few lines of what a driver says of a source in one, warnings left out, each beside the line
+/// of the source that it speaks of. It knows the places of Mesa, "0:12(3): ", of NVIDIA, "0(12) : ", and of
+/// ANGLE and Apple, "ERROR: 0:12: ". A source may not use #line.
+std::string complaintsOf(std::string_view log, std::string_view source);
 
 /// Finds the names of the uniforms that a shader's source declares, arrays without their brackets.
 std::set<std::string> declaredUniforms(const std::string& source);
@@ -39,24 +45,15 @@ class Program {
   /// `lastCell` suffices. Errors: as create.
   static Result<Program> overTiles(const std::string& fragment);
 
-  /// Makes the program the one that draws.
-  void use() const;
-
-  /// Returns where a uniform is, or -1 if the shaders use none of that name. An array's name is its first
-  /// element's.
-  int location(const std::string& name) const;
-
   /// Returns what is wrong with the uniforms that were set so far: a line for each that no shader declares,
   /// and for each declared one that was not set. Cost: the length of the sources.
   std::vector<std::string> uniformFaults() const;
 
-  // These use() the program.
+  // These make the program the one that draws.
   void set(const std::string& name, int value) const;  ///< also a sampler's unit
   void set(const std::string& name, float value) const;
   void set(const std::string& name, const glm::vec2& value) const;
   void set(const std::string& name, const glm::vec3& value) const;
-  void set(const std::string& name, const glm::vec4& value) const;
-  void set(const std::string& name, std::span<const float> values) const;      ///< float[]
   void set(const std::string& name, std::span<const glm::vec4> values) const;  ///< vec4[]
 
   /// Covers the viewport with one triangle: three vertices without attributes, made from gl_VertexID by the
@@ -69,7 +66,8 @@ class Program {
 
  private:
   Program(Handle program, Handle vertexArray);
-  void refuseFaults() const;
+  int location(const std::string& name) const;  // -1 if there is none; the program is used from now on
+  void refuseFaults() const;                    // if strict
 
   Handle program_, vertexArray_;
   mutable std::unordered_map<std::string, int> locations_;  // of all that were set
