@@ -9,7 +9,6 @@
 
 #include "support/folder.h"
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/drawing.h"
 #include "viewer/gpu/picture.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
@@ -319,7 +318,7 @@ TEST_F(TargetTest, TheNearestFragmentWinsWhileAsked) {
   pixel.clear(0, glm::vec4(9));
   pixel.clearDepth();
   {
-    const NearestWins nearest;
+    const DrawingMode nearest = nearestWins();
     EXPECT_EQ(draw(0.5f), 0.5f);
     EXPECT_EQ(draw(0.75f), 0.5f);
     EXPECT_EQ(draw(0.25f), 0.25f);
@@ -336,8 +335,8 @@ TEST_F(TargetTest, FragmentsAddUpInOneLayerWhileAsked) {
   pixel.clear(0, glm::vec4(1));
   pixel.clear(1, glm::vec4(1));
   {
-    const OneLayer second(1);
-    const SumOfAll sum;
+    const DrawingMode second = oneLayer(1);
+    const DrawingMode sum = sumOfAll();
     program.draw();
     program.draw();
   }

@@ -12,17 +12,7 @@
 namespace sdf::viewer {
 namespace {
 
-GLint internalFormat(PixelFormat format) {
-  switch (format) {
-    case PixelFormat::Rgba8:
-      return GL_RGBA8;
-    case PixelFormat::Rg32f:
-      return GL_RG32F;
-    case PixelFormat::Rgba32f:
-      break;
-  }
-  return GL_RGBA32F;
-}
+constexpr GLint kInternalFormats[] = {GL_RGBA8, GL_RG32F, GL_RGBA32F};  // by PixelFormat
 
 std::string product(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
@@ -69,21 +59,17 @@ void flipRows(std::vector<T>& values, int height) {
 
 Result<Target> Target::create(int width, int height, const std::vector<PixelFormat>& layers, bool depth) {
   assert(!layers.empty());
-  const Status fits = checkSize(width, height);
-  if (!fits) return fits.error();
-
+  if (const Status fits = checkSize(width, height); !fits) return fits.error();
   const KeepBound bindings;
   Target target(width, height);
   GLuint framebuffer = 0;
   glGenFramebuffers(1, &framebuffer);
   target.framebuffer_ = Handle(framebuffer, [](unsigned id) { glDeleteFramebuffers(1, &id); });
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  for (const PixelFormat format : layers) {
-    const Status added = target.addLayer(format);
-    if (!added) return added.error();
-  }
+  for (const PixelFormat format : layers)
+    if (const Status added = target.addLayer(format); !added) return added.error();
   if (depth)
-    if (auto s = target.addDepth(); !s) return s.error();
+    if (const Status added = target.addDepth(); !added) return added.error();
   std::vector<GLenum> outputs;
   for (std::size_t i = 0; i < layers.size(); ++i) outputs.push_back(GL_COLOR_ATTACHMENT0 + GLenum(i));
   glDrawBuffers(GLsizei(outputs.size()), outputs.data());
@@ -100,7 +86,8 @@ Status Target::addLayer(PixelFormat format) {
   const GLenum place = GL_COLOR_ATTACHMENT0 + GLenum(textures_.size());
   textures_.emplace_back(texture, [](unsigned id) { glDeleteTextures(1, &id); });
   glBindTexture(GL_TEXTURE_2D, texture);
-  glTexImage2D(GL_TEXTURE_2D, 0, internalFormat(format), width_, height_, 0, GL_RGBA, GL_FLOAT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, kInternalFormats[static_cast<int>(format)], width_, height_, 0, GL_RGBA,
+               GL_FLOAT, nullptr);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -163,8 +150,7 @@ Status Target::read(int layer, unsigned type, void* rowsFromBottom) const {
 
 Result<std::vector<glm::vec4>> Target::pixels(int layer) const {
   std::vector<glm::vec4> rows(std::size_t(width_) * std::size_t(height_));
-  const Status done = read(layer, GL_FLOAT, rows.data());
-  if (!done) return done.error();
+  if (const Status done = read(layer, GL_FLOAT, rows.data()); !done) return done.error();
   flipRows(rows, height_);
   return rows;
 }
@@ -181,10 +167,36 @@ Result<Picture> Target::picture(int layer) const {
   constexpr int kChannels = 4;
   Picture picture{width_, height_, kChannels, {}};
   picture.bytes.resize(std::size_t(width_) * std::size_t(height_) * kChannels);
-  const Status done = read(layer, GL_UNSIGNED_BYTE, picture.bytes.data());
-  if (!done) return done.error();
+  if (const Status done = read(layer, GL_UNSIGNED_BYTE, picture.bytes.data()); !done) return done.error();
   flipRows(picture.bytes, height_);
   return picture;
+}
+
+Status ensure(std::optional<Target>& target, int width, int height, const std::vector<PixelFormat>& layers,
+              bool depth) {
+  if (target && target->width() == width && target->height() == height) return okStatus();
+  auto made = Target::create(width, height, layers, depth);
+  if (!made) return made.error();
+  target = std::move(*made);
+  return okStatus();
+}
+
+DrawingMode nearestWins() {
+  glEnable(GL_DEPTH_TEST);
+  return DrawingMode([] { glDisable(GL_DEPTH_TEST); });
+}
+
+DrawingMode sumOfAll() {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glBlendEquation(GL_FUNC_ADD);
+  return DrawingMode([] { glDisable(GL_BLEND); });
+}
+
+DrawingMode oneLayer(int layer) {
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glColorMaski(GLuint(layer), GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  return DrawingMode([] { glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE); });
 }
 
 }  // namespace sdf::viewer

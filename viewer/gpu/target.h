@@ -1,7 +1,8 @@
-// What is drawn into, when it is no window. All of it works in the current context, which must be the same
-// for one target's whole life.
+// What is drawn into, when it is no window, and how. All of it works in the current context, which must be
+// the same for one target's whole life.
 #pragma once
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "sdf/base/result.h"
@@ -62,5 +63,29 @@ class Target {
   Handle framebuffer_, depth_;
   std::vector<Handle> textures_;
 };
+
+/// Makes a target of this size and these layers, if it is not one already. Errors: as Target::create.
+Status ensure(std::optional<Target>& target, int width, int height, const std::vector<PixelFormat>& layers,
+              bool depth = false);
+
+/// A DrawingMode says how fragments that fall on one pixel are put together, while it lives. What counts
+/// otherwise is the last.
+class [[nodiscard]] DrawingMode {
+ public:
+  explicit DrawingMode(void (*end)()) : end_(end) {}
+  ~DrawingMode() { end_(); }
+  DrawingMode(const DrawingMode&) = delete;
+  DrawingMode& operator=(const DrawingMode&) = delete;
+
+ private:
+  void (*end_)();
+};
+
+/// Lets the fragment of the least depth win, in targets that have depth.
+DrawingMode nearestWins();
+/// Adds up the values of all fragments.
+DrawingMode sumOfAll();
+/// Lets fragments into one layer only; the others stay as they are.
+DrawingMode oneLayer(int layer);
 
 }  // namespace sdf::viewer

@@ -1,14 +1,32 @@
 #include "viewer/render/primary_hits.h"
 
 #include <cmath>
+#include <iterator>
 
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/drawing.h"
 
 namespace sdf::viewer {
 namespace {
 
-constexpr int kFine = 4;  // side of the smaller tiles, pixels
+constexpr int kTile = 16;       // side of the larger tiles, pixels: smaller ones cost more than they spare
+constexpr int kFine = 4;        // side of the smaller tiles
+constexpr int kStartsUnit = 7;  // the texture unit of a tile's starts, beyond those that the programs read
+
+/// How many tiles of this side cover so many pixels.
+int tiles(int pixels, int side) { return (pixels + side - 1) / side; }
+
+/// A layer that keeps hits, by the name of the output and the sampler in the parts.
+struct Layer {
+  const char* name;
+  PixelFormat format;
+  glm::vec4 nothing;  ///< what it holds where there is no hit
+};
+
+constexpr Layer kLayers[] = {
+    {"hitSurface", PixelFormat::Rgba32f, glm::vec4(0.0f, 0.0f, 0.0f, 1e30f)},
+    {"hitIdentity", PixelFormat::Rg32f, glm::vec4(0.0f)},
+};
+constexpr int kCounts = std::size(kLayers);  // the number of the layer of readings
 
 }  // namespace
 
@@ -56,7 +74,11 @@ Status PrimaryHits::makeTargets(const Shot& shot) {
     if (auto s = starts(coarse_, columns_, (cells_ + columns_ - 1) / columns_, kTile); !s) return s;
   if (isFine())
     if (auto s = starts(fine_, 1, 1, kFine); !s) return s;
-  return hasHits() ? target_.resize(shot.width(), shot.height(), counted_) : okStatus();
+  if (!hasHits()) return okStatus();
+  std::vector<PixelFormat> formats;
+  for (const Layer& layer : kLayers) formats.push_back(layer.format);
+  if (counted_) formats.push_back(PixelFormat::Rgba32f);
+  return ensure(hits_, shot.width(), shot.height(), formats, true);
 }
 
 void PrimaryHits::drawStarts(const Shot& shot) const {
@@ -75,7 +97,7 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
   }
 }
 
-void PrimaryHits::drawFineStarts(const Shot&) const {
+void PrimaryHits::drawFineStarts() const {
   const Program& cones = *passes_[draws_.front().pass].cones;
   fine_->bind();
   coarse_->bindTexture(0);
@@ -92,10 +114,24 @@ void PrimaryHits::giveStarts(const Program& program, int cell, const Shot& shot)
 }
 
 void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
-  if (hasHits())
-    target_.giveTo(picture);
-  else
-    giveStarts(picture, 0, shot);
+  if (!hasHits()) return giveStarts(picture, 0, shot);
+  for (int i = 0; i < kCounts; ++i) {
+    hits_->bindTexture(i, i);
+    picture.set(kLayers[i].name, i);
+  }
+}
+
+void PrimaryHits::drawTiles(const Program& program, const Shot& shot, int firstCell, int lastCell) const {
+  coarse_->bindTexture(kStartsUnit);
+  program.set("tiles", kStartsUnit);
+  program.set("tileLimit", static_cast<float>(shot.maxDistance()));
+  program.set("firstCell", firstCell);
+  program.set("lastCell", lastCell);
+  program.drawTiles(tiles(shot.width(), kTile), tiles(shot.height(), kTile), kTile);
+}
+
+void PrimaryHits::drawTiles(const Program& program, const Shot& shot) const {
+  drawTiles(program, shot, 0, cells_ - 1);
 }
 
 void PrimaryHits::drawHits(const Shot& shot) const {
@@ -106,7 +142,7 @@ void PrimaryHits::drawHits(const Shot& shot) const {
       hits.draw();
     } else {
       giveStarts(hits, draw.cell, shot);
-      drawTiles(hits, shot, {*coarse_, draw.cell, draw.cell});
+      drawTiles(hits, shot, draw.cell, draw.cell);
     }
   }
 }
@@ -118,28 +154,28 @@ void PrimaryHits::prepare(const Frame& frame) {
 Status PrimaryHits::begin(const Shot& shot) {
   if (auto s = makeTargets(shot); !s) return s;
   drawStarts(shot);
-  if (isFine()) drawFineStarts(shot);
+  if (isFine()) drawFineStarts();
   readings_ = 0.0;
   return check("draw where rays start");
 }
 
 Status PrimaryHits::drawSample(const Shot& shot) {
   if (!hasHits()) return okStatus();
-  target_.clear();
+  for (int i = 0; i < kCounts; ++i) hits_->clear(i, kLayers[i].nothing);
+  hits_->clearDepth();
   {
-    const NearestWins nearest;
+    const DrawingMode nearest = nearestWins();
     drawHits(shot);
   }
   if (counted_) {
-    target_.clearCounts();
+    hits_->clear(kCounts, glm::vec4(0.0f));
     {
-      const OneLayer counts(HitsTarget::kCounts);
-      const SumOfAll sum;
+      const DrawingMode counts = oneLayer(kCounts), sum = sumOfAll();
       drawHits(shot);
     }
-    const auto readings = target_.readings();
+    const auto readings = hits_->sum(kCounts);
     if (!readings) return readings.error();
-    readings_ += *readings;
+    readings_ += readings->x;
   }
   return check("draw what the rays hit");
 }

@@ -7,8 +7,6 @@
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
 #include "viewer/render/frame.h"
-#include "viewer/render/hits_target.h"
-#include "viewer/render/tiles.h"
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::viewer {
@@ -29,8 +27,9 @@ class PrimaryHits {
 
   /// Lets the picture's program read the hits of the sample drawn last or else the starts.
   void giveTo(const Program& picture, const Shot& shot) const;
-  /// Returns the starts of all tiles, the passes' cells beside one another.
-  Cells starts() const { return {*coarse_, 0, cells_ - 1}; }
+  /// Draws the tiles where some pass says that there is something to see, with a program that
+  /// Program::overTiles made.
+  void drawTiles(const Program& program, const Shot& shot) const;
 
   /// Return the readings that the primary rays took since begin, and those of the cones, as sums over all
   /// pixels. Both need `counted`. Errors: as Target::pixels.
@@ -50,8 +49,10 @@ class PrimaryHits {
   PrimaryHits(std::vector<Pass> passes, std::vector<Draw> draws, int cells, bool counted);
   Status makeTargets(const Shot& shot);
   void drawStarts(const Shot& shot) const;
-  void drawFineStarts(const Shot& shot) const;
+  void drawFineStarts() const;
   void drawHits(const Shot& shot) const;
+  /// Draws those where the starts of one of these cells say so.
+  void drawTiles(const Program& program, const Shot& shot, int firstCell, int lastCell) const;
   /// The corner of a cell.
   glm::ivec2 cornerOf(int cell, const Shot& shot) const;
   /// A cell that is alone has smaller tiles, too.
@@ -65,8 +66,9 @@ class PrimaryHits {
   int cells_, columns_;  // of the starts
   bool counted_;
   double readings_ = 0.0;
-  std::optional<Target> coarse_, fine_;  // starts
-  HitsTarget target_;
+  std::optional<Target> coarse_, fine_;  // starts, of all cells beside one another and of smaller tiles
+  std::optional<Target>
+      hits_;  // layers by the outputs of parts::kHits, one for readings if counted, and depth
 };
 
 }  // namespace sdf::viewer

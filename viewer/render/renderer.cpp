@@ -6,8 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/drawing.h"
-#include "viewer/render/tiles.h"
 
 namespace sdf::viewer {
 namespace {
@@ -112,7 +110,7 @@ void Renderer::drawPicture(const Frame& frame, const Shot& shot) const {
   setLook(*picture_, frame, shot);
   if (hits_) hits_->giveTo(*picture_, shot);
   if (background_)
-    drawTiles(*picture_, shot, hits_->starts());
+    hits_->drawTiles(*picture_, shot);
   else
     picture_->draw();
 }
@@ -139,8 +137,8 @@ Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& targe
     if (hits_)
       if (auto s = hits_->drawSample(shot); !s) return s;
     sums_->clearDepth();
-    const SumOfAll sum;
-    const NearestWins keep;  // the tiles' pixels from the background, which is as far away
+    const DrawingMode sum = sumOfAll();
+    const DrawingMode keep = nearestWins();  // the tiles' pixels from the background, which is as far away
     drawPicture(frame, shot);
     drawBackground(shot);
   }
