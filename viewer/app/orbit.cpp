@@ -16,15 +16,10 @@ const double kTurnOfHeight = glm::pi<double>();
 constexpr double kDolly = 0.9;
 constexpr double kNearest = 1e-6, kFarthest = 1e6;  // of a dolly, scene units
 
-/// The picture's own axes.
-struct Axes {
-  glm::dvec3 right, up, forward;
-};
-
-Axes axesOf(const Eye& eye) {
-  const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up));
-  return {eye.mirrored ? -right : right, glm::cross(right, forward), forward};
+Eye shifted(Eye eye, const glm::dvec3& shift) {
+  eye.from += shift;
+  eye.to += shift;
+  return eye;
 }
 
 /// The direction turned leftwards about `pole` and then raised towards it.
@@ -38,27 +33,6 @@ glm::dvec3 rotated(const glm::dvec3& direction, const glm::dvec3& up, double lef
 
 /// Radians to the left of an unmirrored camera.
 double leftOf(const Eye& eye, double right) { return eye.mirrored ? right : -right; }
-
-glm::dvec3 directionOf(Side side, const glm::dvec3& up) {
-  const glm::dvec3 pole = glm::normalize(up);
-  const glm::dvec3 across = std::abs(pole.x) > 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-  const glm::dvec3 front = glm::normalize(glm::cross(across, pole)), right = glm::cross(pole, front);
-  switch (side) {
-    case Side::Front:
-      return front;
-    case Side::Back:
-      return -front;
-    case Side::Left:
-      return -right;
-    case Side::Right:
-      return right;
-    case Side::Top:
-      return rotated(front, up, 0.0, kSteepest);
-    case Side::Bottom:
-      break;
-  }
-  return rotated(front, up, 0.0, -kSteepest);
-}
 
 }  // namespace
 
@@ -79,10 +53,7 @@ Eye turned(Eye eye, glm::dvec2 drag) {
 Eye panned(Eye eye, glm::dvec2 drag) {
   const Axes axes = axesOf(eye);
   const double height = 2.0 * std::tan(0.5 * glm::radians(eye.fov)) * glm::length(eye.to - eye.from);
-  const glm::dvec3 shift = -height * (drag.x * axes.right + drag.y * axes.up);
-  eye.from += shift;
-  eye.to += shift;
-  return eye;
+  return shifted(eye, -height * (drag.x * axes.right + drag.y * axes.up));
 }
 
 Eye dollied(Eye eye, double steps) {
@@ -94,15 +65,18 @@ Eye dollied(Eye eye, double steps) {
 
 Eye flown(Eye eye, const glm::dvec3& way) {
   const Axes axes = axesOf(eye);
-  const glm::dvec3 shift =
-      glm::length(eye.to - eye.from) * (way.x * axes.right + way.y * axes.up + way.z * axes.forward);
-  eye.from += shift;
-  eye.to += shift;
-  return eye;
+  return shifted(
+      eye, glm::length(eye.to - eye.from) * (way.x * axes.right + way.y * axes.up + way.z * axes.forward));
 }
 
 Eye seenFrom(Eye eye, Side side) {
-  eye.from = eye.to + glm::length(eye.from - eye.to) * directionOf(side, eye.up);
+  const glm::dvec3 pole = glm::normalize(eye.up);
+  const glm::dvec3 across = std::abs(pole.x) > 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+  const glm::dvec3 front = glm::normalize(glm::cross(across, pole)), right = glm::cross(pole, front);
+  const glm::dvec3 top = rotated(front, eye.up, 0.0, kSteepest);
+  const glm::dvec3 bottom = rotated(front, eye.up, 0.0, -kSteepest);
+  const glm::dvec3 sides[] = {front, -front, -right, right, top, bottom};
+  eye.from = eye.to + glm::length(eye.from - eye.to) * sides[static_cast<int>(side)];
   return eye;
 }
 

@@ -57,12 +57,9 @@ Extent::Extent(const Scene& scene) : maxDistance(scene.maxDistance) {
 Shot::Shot(const Frame& frame, int width, int height, const Extent& extent)
     : frame_(frame), width_(width), height_(height), extent_(extent) {
   const Eye& eye = frame.look.eye;
-  const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up));
-  right_ = eye.mirrored ? -right : right;
-  up_ = glm::cross(right, forward);
-  forward_ = forward / (2.0 * std::tan(0.5 * glm::radians(eye.fov)));
-  ahead_ = aheadOf(forward_, eye, extent_.bounds);
+  axes_ = axesOf(eye);
+  axes_.forward /= 2.0 * std::tan(0.5 * glm::radians(eye.fov));
+  ahead_ = aheadOf(axes_.forward, eye, extent_.bounds);
 }
 
 double Shot::pixelRadius() const { return std::tan(0.5 * glm::radians(frame_.look.eye.fov)) / height_; }
@@ -73,10 +70,10 @@ void Shot::set(const Program& program, const std::vector<glm::vec4>& values) con
   const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
   const Eye& eye = frame_.look.eye;
   program.set("size", glm::vec2(width_, height_));
-  program.set("from", glm::vec3(eye.from + ahead_ * forward_));
-  program.set("right", glm::vec3(right_));
-  program.set("up", glm::vec3(up_));
-  program.set("forward", glm::vec3(forward_));
+  program.set("from", glm::vec3(eye.from + ahead_ * axes_.forward));
+  program.set("right", glm::vec3(axes_.right));
+  program.set("up", glm::vec3(axes_.up));
+  program.set("forward", glm::vec3(axes_.forward));
   real("ahead", ahead_);
   real("maxDistance", extent_.maxDistance);
   real("pixelRadius", pixelRadius());

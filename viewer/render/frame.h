@@ -80,8 +80,8 @@ class Shot {
   const Frame& frame_;
   int width_, height_, sample_ = 0;
   Extent extent_;
-  glm::dvec3 right_, up_, forward_;  // forward as long as the picture plane is far away, in picture heights
-  double ahead_;                     // of the eye, where rays begin
+  Axes axes_;     // forward as long as the picture plane is far away, in picture heights
+  double ahead_;  // of the eye, where rays begin
 };
 
 }  // namespace sdf::viewer

@@ -7,7 +7,7 @@
 namespace sdf::viewer {
 namespace {
 
-// All of a look that is computed, in the order in which Reader takes it.
+// All of a look that is computed, in the order in which LookFunction::at takes it.
 std::vector<Expr> numbersOf(const Scene& scene) {
   std::vector<Expr> numbers;
   const auto add = [&](const Vec3E& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); };
@@ -21,28 +21,6 @@ std::vector<Expr> numbersOf(const Scene& scene) {
     numbers.push_back(light.intensity);
   }
   return numbers;
-}
-
-/// Takes one value after the other.
-class Reader {
- public:
-  explicit Reader(const std::vector<double>& values) : next_(values.begin()) {}
-  double number() { return *next_++; }
-  glm::dvec3 vector() {
-    const glm::dvec3 v(next_[0], next_[1], next_[2]);
-    next_ += 3;
-    return v;
-  }
-
- private:
-  std::vector<double>::const_iterator next_;
-};
-
-LookLight read(const Light& light, Reader& values) {
-  const glm::dvec3 vector = values.vector(), color = values.vector();
-  const bool point = light.kind == Light::Kind::Point;
-  return {glm::vec4(point ? vector : glm::normalize(vector), point ? 1.0 : 0.0),
-          glm::vec4(color * values.number(), light.castsShadow ? 1.0 : 0.0)};
 }
 
 std::string text(const glm::dvec3& v) {
@@ -61,25 +39,38 @@ Eye upright(Eye eye) {
   return eye;
 }
 
+Axes axesOf(const Eye& eye) {
+  const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up));
+  return {eye.mirrored ? -right : right, glm::cross(right, forward), forward};
+}
+
 LookFunction::LookFunction(const Scene& scene)
     : numbers_(numbersOf(scene)), lights_(scene.lights), mirrored_(scene.camera.mirrored) {}
 
 Look LookFunction::at(const Values& values) const {
   const std::vector<double> numbers = numbers_.uniform(values);
-  Reader next(numbers);
+  auto next = numbers.begin();
+  const auto number = [&] { return *next++; };
+  const auto vector = [&] { return glm::dvec3{number(), number(), number()}; };  // braces keep the order
   Look look;
-  look.eye.from = next.vector();
-  look.eye.to = next.vector();
-  look.eye.up = next.vector();
-  look.ambient = glm::vec3(next.vector());
-  look.fogColor = glm::vec3(next.vector());
-  look.eye.fov = next.number();
+  look.eye.from = vector();
+  look.eye.to = vector();
+  look.eye.up = vector();
+  look.ambient = glm::vec3(vector());
+  look.fogColor = glm::vec3(vector());
+  look.eye.fov = number();
   look.eye.mirrored = mirrored_;
   look.eye = upright(look.eye);
-  look.fogDensity = static_cast<float>(next.number());
-  look.sharpness = static_cast<float>(next.number());
-  look.occlusionStrength = static_cast<float>(next.number());
-  for (const Light& light : lights_) look.lights.push_back(read(light, next));
+  look.fogDensity = static_cast<float>(number());
+  look.sharpness = static_cast<float>(number());
+  look.occlusionStrength = static_cast<float>(number());
+  for (const Light& light : lights_) {
+    const bool point = light.kind == Light::Kind::Point;
+    const glm::dvec3 place = vector(), color = vector();
+    look.lights.push_back({glm::vec4(point ? place : glm::normalize(place), point ? 1.0 : 0.0),
+                           glm::vec4(color * number(), light.castsShadow ? 1.0 : 0.0)});
+  }
   return look;
 }
 

@@ -22,6 +22,12 @@ struct Eye {
 /// is no better; any other eye stays as it is.
 Eye upright(Eye eye);
 
+/// Axes are the picture's own, of length 1: `right` is the picture's right also where it is mirrored.
+struct Axes {
+  glm::dvec3 right, up, forward;
+};
+Axes axesOf(const Eye& eye);
+
 /// A LookLight is a light at one moment.
 struct LookLight {
   glm::vec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
