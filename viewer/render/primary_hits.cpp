@@ -31,9 +31,8 @@ constexpr int kCounts = std::size(kLayers);  // the number of the layer of readi
 }  // namespace
 
 Result<PrimaryHits> PrimaryHits::make(const std::vector<HitShaders>& shaders, bool counted) {
-  std::vector<Pass> passes;
-  std::vector<Draw> draws;
-  int cells = 0;
+  PrimaryHits made;
+  made.counted_ = counted;
   for (const HitShaders& shader : shaders) {
     Pass pass;
     if (!shader.cones.empty()) {
@@ -47,18 +46,12 @@ Result<PrimaryHits> PrimaryHits::make(const std::vector<HitShaders>& shaders, bo
       pass.hits = std::move(*hits);
     }
     for (const Function& uniforms : shader.uniforms)
-      draws.push_back({passes.size(), UniformValues(uniforms), pass.cones ? cells++ : -1});
-    passes.push_back(std::move(pass));
+      made.draws_.push_back({made.passes_.size(), UniformValues(uniforms), pass.cones ? made.cells_++ : -1});
+    made.passes_.push_back(std::move(pass));
   }
-  return PrimaryHits(std::move(passes), std::move(draws), cells, counted);
+  made.columns_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(made.cells_))));
+  return made;
 }
-
-PrimaryHits::PrimaryHits(std::vector<Pass> passes, std::vector<Draw> draws, int cells, bool counted)
-    : passes_(std::move(passes)),
-      draws_(std::move(draws)),
-      cells_(cells),
-      columns_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cells))))),
-      counted_(counted) {}
 
 glm::ivec2 PrimaryHits::cornerOf(int cell, const Shot& shot) const {
   return glm::ivec2(cell % columns_ * tiles(shot.width(), kTile),

@@ -46,7 +46,7 @@ class PrimaryHits {
     UniformValues values;
     int cell = -1;  // of the starts; none if all rays start at the eye
   };
-  PrimaryHits(std::vector<Pass> passes, std::vector<Draw> draws, int cells, bool counted);
+  PrimaryHits() = default;
   Status makeTargets(const Shot& shot);
   void drawStarts(const Shot& shot) const;
   void drawFineStarts() const;
@@ -63,8 +63,8 @@ class PrimaryHits {
 
   std::vector<Pass> passes_;
   std::vector<Draw> draws_;
-  int cells_, columns_;  // of the starts
-  bool counted_;
+  int cells_ = 0, columns_ = 0;  // of the starts
+  bool counted_ = false;
   double readings_ = 0.0;
   std::optional<Target> coarse_, fine_;  // starts, of all cells beside one another and of smaller tiles
   std::optional<Target>
