@@ -30,38 +30,16 @@ void Input::key(int key, int action, Session& session, Requests& requests) {
   if (action != GLFW_PRESS) return;
   if (ways().contains(key)) held_.insert(key);
   if (key == GLFW_KEY_TAB) panelsHidden_ = !panelsHidden_;
-  press(key, session, requests);
-}
-
-void Input::press(int key, Session& session, Requests& requests) {
   Controls& controls = session.controls;
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_6)
     controls.eye = seenFrom(session.eye(), static_cast<Side>(key - GLFW_KEY_1));
-  switch (key) {
-    case GLFW_KEY_0:
-      controls.eye.reset();
-      break;
-    case GLFW_KEY_SPACE:
-      session.playing = session.hasClock() && !session.playing;
-      break;
-    case GLFW_KEY_V:
-      controls.view = after(controls.view);
-      break;
-    case GLFW_KEY_P:
-      requests.savePicture = true;
-      break;
-    case GLFW_KEY_C:
-      requests.copyCamera = true;
-      break;
-    case GLFW_KEY_M:
-      requests.measure = true;
-      break;
-    case GLFW_KEY_ESCAPE:
-      requests.close = true;
-      break;
-    default:
-      break;
-  }
+  if (key == GLFW_KEY_0) controls.eye.reset();
+  if (key == GLFW_KEY_SPACE) session.playing = session.hasClock() && !session.playing;
+  if (key == GLFW_KEY_V) controls.view = after(controls.view);
+  requests.savePicture |= key == GLFW_KEY_P;
+  requests.copyCamera |= key == GLFW_KEY_C;
+  requests.measure |= key == GLFW_KEY_M;
+  requests.close |= key == GLFW_KEY_ESCAPE;
 }
 
 void Input::button(int button, int action, int modifiers) {

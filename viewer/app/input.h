@@ -30,7 +30,6 @@ class Input {
 
  private:
   enum class Drag { None, Orbit, Pan, Turn };
-  static void press(int key, Session& session, Requests& requests);
 
   Drag drag_ = Drag::None;
   int dragButton_ = 0;
