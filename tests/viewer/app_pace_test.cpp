@@ -1,7 +1,7 @@
 // Dynamic resolution.
 #include <gtest/gtest.h>
 
-#include "viewer/app/pace.h"
+#include "viewer/app/canvas.h"
 
 namespace sdf::viewer {
 namespace {

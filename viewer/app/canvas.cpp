@@ -28,6 +28,19 @@ Picture withoutAlpha(const Picture& picture) {
 
 }  // namespace
 
+// Slower frames count at once, so that one slow frame is followed by a fast one; faster ones by half, so that
+// the resolution does not jump about.
+void Pace::drew(double seconds, double rays) {
+  const double whole = seconds / rays;
+  wholeFrame_ = whole > wholeFrame_ ? whole : 0.5 * (wholeFrame_ + whole);
+}
+
+double Pace::scale() const {
+  if (wholeFrame_ <= kBudget) return 1.0;
+  const double halvings = std::ceil(std::log2(wholeFrame_ / kBudget));  // of the pixels
+  return std::max(std::exp2(-0.5 * halvings), kCoarsest);
+}
+
 Result<bool> Canvas::update(Session& session, int width, int height, double now) {
   if (width < 1 || height < 1) return false;
   const Shown wanted{session.controls, session.compilations(), width, height};
@@ -36,18 +49,15 @@ Result<bool> Canvas::update(Session& session, int width, int height, double now)
   if (!changed && (whole_ || now - lastChange_ < kStill)) return false;
   const bool moving = changed && !first;
   shown_ = wanted;
-  const Status drawn = draw(session, moving ? pace_.scale() : 1.0, moving ? 1 : session.controls.samples);
-  if (!drawn) return drawn.error();
+  if (const Status drawn = draw(session, moving ? pace_.scale() : 1.0, moving ? 1 : session.controls.samples);
+      !drawn)
+    return drawn.error();
   return true;
 }
 
 Status Canvas::draw(Session& session, double scale, int samples) {
   const int width = scaled(shown_->width, scale), height = scaled(shown_->height, scale);
-  if (!target_ || target_->width() != width || target_->height() != height) {
-    auto made = Target::create(width, height, {PixelFormat::Rgba8});
-    if (!made) return made.error();
-    target_ = std::move(*made);
-  }
+  if (const Status made = ensure(target_, width, height, {PixelFormat::Rgba8}); !made) return made;
   Frame frame = session.frame();
   frame.samples = samples;
   const double start = secondsNow();

@@ -2,7 +2,6 @@
 #pragma once
 #include <optional>
 
-#include "viewer/app/pace.h"
 #include "viewer/app/session.h"
 #include "viewer/gpu/target.h"
 
@@ -14,6 +13,27 @@ struct FrameStatistics {
   int samples = 1;                   ///< a side
   double seconds = 0.0;              ///< until it was finished
   std::optional<double> outOfSteps;  ///< share of pixels whose ray ran out of steps; of whole pictures only
+};
+
+/// A Pace learns from the frames that were drawn what share of the window's pixels can be drawn in time.
+class Pace {
+ public:
+  /// The seconds that a moving picture's frame may take: 20 frames a second, and a fifth to spare for the
+  /// panels.
+  static constexpr double kBudget = 0.04;
+  /// The share of each side that the coarsest picture has.
+  static constexpr double kCoarsest = 0.125;
+
+  /// Records that a frame took this long with that many rays, counted in rays of a whole picture with one a
+  /// pixel.
+  void drew(double seconds, double rays);
+
+  /// Returns the share of each side that the next frame may have: 1, or less by powers of the square root
+  /// of 2.
+  double scale() const;
+
+ private:
+  double wholeFrame_ = 0.0;  // seconds, by the frames so far
 };
 
 /// A Canvas keeps the picture that the window shows, in the context that is current, which must be the same
