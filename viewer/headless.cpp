@@ -151,10 +151,7 @@ class Headless {
 }  // namespace
 
 Status runHeadless(const Options& options, std::ostream& out) {
-  ScriptOptions script;
-  script.values = options.parameters;
-  script.time = options.time;
-  auto scene = loadScene(options.scene, script);
+  auto scene = loadScene(options.scene, {.values = options.parameters, .time = options.time});
   if (!scene) return scene.error();
   Headless headless(options, std::move(*scene));
   if (options.glsl)

@@ -14,10 +14,15 @@ int fail(const sdf::Error& error) {
 
 sdf::Status run(const sdf::viewer::Options& o) {
   if (o.picture || o.bench || o.glsl) return sdf::viewer::runHeadless(o, std::cout);
-  return sdf::viewer::runWindow(
-      {{o.scene, o.parameters, o.time, o.samples, o.maxSteps, o.shader.method, o.shader.view, o.eye},
-       o.width,
-       o.height});
+  sdf::viewer::Controls controls;
+  controls.parameters = o.parameters;
+  controls.eye = o.eye;
+  controls.time = o.time;
+  controls.view = o.shader.view;
+  controls.method = o.shader.method;
+  controls.samples = o.samples;
+  controls.maxSteps = o.maxSteps;
+  return sdf::viewer::runWindow({o.scene, controls, o.width, o.height});
 }
 
 }  // namespace

@@ -31,9 +31,7 @@ class GuiTest : public testing::Test {
   void TearDown() override { ImGui::DestroyContext(); }
 
   Session open(const std::filesystem::path& scene) {
-    SessionOptions options;
-    options.scene = scene;
-    auto session = Session::open(options);
+    auto session = Session::open(scene);
     if (!session) throw std::runtime_error(session.error().message);
     return std::move(*session);
   }

@@ -30,7 +30,6 @@ class SessionTest : public testing::Test {
     ASSERT_TRUE(opened) << opened.error().message;
     context = std::move(*opened);
     write(kBall);
-    options.scene = file();
   }
   std::filesystem::path file() const { return folder / "ball.lua"; }
 
@@ -43,7 +42,7 @@ class SessionTest : public testing::Test {
   }
 
   Session open() {
-    auto session = Session::open(options);
+    auto session = Session::open(file(), start);
     if (!session) throw std::runtime_error(session.error().message);
     return std::move(*session);
   }
@@ -65,7 +64,7 @@ class SessionTest : public testing::Test {
 
   const Folder folder;
   std::unique_ptr<Context> context;
-  SessionOptions options;
+  Controls start;
   int writes = 0;
 };
 using CanvasTest = SessionTest;
@@ -131,7 +130,7 @@ TEST_F(SessionTest, AnotherViewOrMethodCompilesOnce) {
 }
 
 TEST_F(SessionTest, TheClockRunsWhilePlaying) {
-  options.time = 1.5;
+  start.time = 1.5;
   Session session = open();
   EXPECT_TRUE(session.hasClock());
   session.advance(1.0);
@@ -142,13 +141,13 @@ TEST_F(SessionTest, TheClockRunsWhilePlaying) {
 }
 
 TEST_F(SessionTest, BeginsWithWhatItIsGiven) {
-  options.overrides = {{"x", 2.0}};
-  options.eye = Eye{{0.0, 0.0, 9.0}};
+  start.parameters = {{"x", 2.0}};
+  start.eye = Eye{{0.0, 0.0, 9.0}};
   Session session = open();
   EXPECT_EQ(session.frame().parameters.at("x"), 2.0);
   EXPECT_EQ(session.eye().from, glm::dvec3(0.0, 0.0, 9.0));
-  options.overrides = {{"y", 2.0}};
-  const auto refused = Session::open(options);
+  start.parameters = {{"y", 2.0}};
+  const auto refused = Session::open(file(), start);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::Scene);
 }
@@ -223,7 +222,7 @@ TEST_F(SessionTest, ResettingGivesTheFilesValues) {
   write(R"(local n = param("n", 1, {min = 1, max = 3})
 for i = 1, value(n) do part("ball " .. i, sphere(0.3):translate(i, 0, 0)) end
 )");
-  options.overrides = {{"n", 3.0}};
+  start.parameters = {{"n", 3.0}};
   Session session = open();
   EXPECT_EQ(session.scene().parts.size(), 3u);
   session.resetParameters();
@@ -282,7 +281,7 @@ TEST_F(MaterialsTest, WhatVariesOverAPartIsNoParameter) {
 }
 
 TEST_F(CanvasTest, AMovingPictureIsCoarseAndAStillOneWhole) {
-  options.samples = 2;
+  start.samples = 2;
   Session session = open();
   Canvas canvas;
   EXPECT_TRUE(*canvas.update(session, kSize, kSize, 0.0)) << "the first is whole";

@@ -62,7 +62,7 @@ class WindowTest : public testing::Test {
     if (!ensureDisplay()) GTEST_SKIP() << "Xvfb is not installed";
     write(kBall);
     xdotool("mousemove 500 700");  // away from the window
-    options.session.scene = folder / "ball.lua";
+    options.scene = folder / "ball.lua";
     options.width = kWidth;
     options.height = kHeight;
     open();
@@ -163,7 +163,7 @@ TEST_F(BareWindowTest, ShowsThePictureThatIsDrawnWithoutAWindow) {
   glfwMakeContextCurrent(nullptr);  // a thread has one
   auto context = Context::open(Way::Surfaceless);
   ASSERT_TRUE(context) << context.error().message;
-  auto session = Session::open(options.session);
+  auto session = Session::open(options.scene);
   Canvas canvas;
   ASSERT_TRUE(session && canvas.update(*session, kWidth, kHeight, 0.0));
   const auto expected = canvas.picture(*session);
@@ -323,8 +323,8 @@ TEST_F(BareWindowTest, SleepsWhileNothingChanges) {
 
 TEST_F(BareWindowTest, MovesAtTwentyFramesASecond) {
   window.reset();
-  options.session.scene = SDF_SOURCE_DIR "/samples/lighting_stack.lua";
-  options.session.samples = 3;
+  options.scene = SDF_SOURCE_DIR "/samples/lighting_stack.lua";
+  options.controls.samples = 3;
   options.width = 1024;
   options.height = 768;
   open();

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "viewer/app/canvas.h"
-#include "viewer/app/requests.h"
 #include "viewer/app/session.h"
 
 namespace sdf::viewer {

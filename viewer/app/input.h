@@ -3,7 +3,6 @@
 #include <glm/vec2.hpp>
 #include <set>
 
-#include "viewer/app/requests.h"
 #include "viewer/app/session.h"
 
 namespace sdf::viewer {

@@ -1,6 +1,7 @@
 #include "viewer/app/session.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "sdf/script/script.h"
@@ -20,50 +21,48 @@ Values kept(const Values& values, const Scene& scene) {
 
 /// The scene built for these values; those that it has no parameters for are dropped from them.
 Result<Scene> loadKeeping(const std::filesystem::path& file, Values& values, double time) {
-  ScriptOptions options;
-  options.time = time;
-  auto plain = loadScene(file, options);
+  auto plain = loadScene(file, {.values = {}, .time = time});
   if (!plain) return plain;
   values = kept(values, *plain);
-  if (values.empty()) return plain;
-  options.values = values;
-  return loadScene(file, options);
+  return values.empty() ? std::move(plain) : loadScene(file, {.values = values, .time = time});
 }
 
 }  // namespace
 
-Result<Session> Session::open(const SessionOptions& options) {
-  ScriptOptions script;
-  script.values = options.overrides;
-  script.time = options.time;
-  auto scene = loadScene(options.scene, script);
-  if (!scene) return scene.error();
-  auto renderer = build(*scene, {options.view, options.method, {}});
-  if (!renderer) return renderer.error();
-  return Session(options, std::move(*scene), std::move(*renderer));
+Watch::Watch(std::filesystem::path file) : file_(std::move(file)), last_(stamp()) {}
+
+bool Watch::written() {
+  const auto now = stamp();
+  if (!now || now == last_) return false;
+  last_ = now;
+  return true;
 }
 
-Session::Session(const SessionOptions& options, Scene scene, Renderer renderer)
-    : file_(options.scene),
+std::optional<Watch::Stamp> Watch::stamp() const {
+  std::error_code noTime, noSize;
+  const Stamp now(std::filesystem::last_write_time(file_, noTime), std::filesystem::file_size(file_, noSize));
+  return noTime || noSize ? std::nullopt : std::optional(now);
+}
+
+Result<Session> Session::open(const std::filesystem::path& file, Controls controls) {
+  auto scene = loadScene(file, {.values = controls.parameters, .time = controls.time});
+  if (!scene) return scene.error();
+  auto renderer = build(*scene, {controls.view, controls.method, {}});
+  if (!renderer) return renderer.error();
+  return Session(file, std::move(controls), std::move(*scene), std::move(*renderer));
+}
+
+Session::Session(std::filesystem::path file, Controls start, Scene scene, Renderer renderer)
+    : controls(std::move(start)),
+      file_(std::move(file)),
       watch_(file_),
       scene_(std::move(scene)),
       look_(scene_),
       renderer_(std::move(renderer)),
-      built_{options.view, options.method, {}} {
-  controls.parameters = options.overrides;
-  controls.eye = options.eye;
-  controls.time = options.time;
-  controls.view = options.view;
-  controls.method = options.method;
-  controls.samples = options.samples;
-  controls.maxSteps = options.maxSteps;
-}
+      built_{controls.view, controls.method, {}} {}
 
 Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool countReadings) {
-  ShaderOptions options;
-  options.view = wanted.view;
-  options.method = wanted.method;
-  options.countReadings = countReadings;
+  const ShaderOptions options{.view = wanted.view, .method = wanted.method, .countReadings = countReadings};
   return Renderer::make(withSurfaceParameters(scene, wanted.materials), options);
 }
 

@@ -1,26 +1,32 @@
 // What the window shows, without the window: the scene, what the user has changed, and the shaders for it.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
-#include "viewer/app/watch.h"
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {
 
-/// SessionOptions are what a session begins with.
-struct SessionOptions {
-  std::filesystem::path scene;
-  Values overrides;   ///< without "time"
-  double time = 0.0;  ///< seconds
-  int samples = 1;    ///< a side, of pictures that stand still
-  int maxSteps = Frame{}.maxSteps;
-  Method method = Method::AutoRelaxed;
-  View view = View::Picture;
-  std::optional<Eye> eye;  ///< none: the scene's camera
+/// A Watch looks at one file by its time of writing and its size. Scenes load no other files.
+class Watch {
+ public:
+  explicit Watch(std::filesystem::path file);
+
+  /// Whether the file has been written since this was last asked, or since the beginning. A file that is
+  /// missing, as while an editor replaces it, counts once it is back.
+  bool written();
+
+ private:
+  using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
+  std::optional<Stamp> stamp() const;
+
+  std::filesystem::path file_;
+  std::optional<Stamp> last_;
 };
 
 /// LookEdits are changes of the look; what is not here is as in the scene.
@@ -46,11 +52,19 @@ struct Controls {
   bool operator==(const Controls&) const = default;
 };
 
+/// Requests are what keys and panels ask the window to do at its next turn.
+struct Requests {
+  bool savePicture = false;  ///< as the file that the panel names
+  bool copyCamera = false;   ///< as scene text, to the clipboard
+  bool measure = false;      ///< readings a pixel
+  bool close = false;
+};
+
 /// A Session works in the context that is current, which must be the same for its whole life.
 class Session {
  public:
   /// Loads the scene and compiles its shaders. Errors: those of loadScene and of Renderer::make.
-  static Result<Session> open(const SessionOptions& options);
+  static Result<Session> open(const std::filesystem::path& file, Controls controls = {});
 
   /// The controls are for everyone to change; settle() then makes the picture fit them.
   Controls controls;
@@ -101,7 +115,7 @@ class Session {
     std::set<std::string> materials;
     bool operator==(const Built&) const = default;
   };
-  Session(const SessionOptions& options, Scene scene, Renderer renderer);
+  Session(std::filesystem::path file, Controls start, Scene scene, Renderer renderer);
   static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
   Status load();
   Built wanted() const { return {controls.view, controls.method, controls.editedMaterials}; }

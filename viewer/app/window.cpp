@@ -56,7 +56,7 @@ Result<Window::Handle> Window::create(const WindowOptions& options) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
-  const std::string title = options.session.scene.filename().string() + " - sdfview";
+  const std::string title = options.scene.filename().string() + " - sdfview";
   Handle window(glfwCreateWindow(options.width, options.height, title.c_str(), nullptr, nullptr),
                 glfwDestroyWindow);
   if (!window) return cannotOpen();
@@ -68,9 +68,9 @@ Result<Window::Handle> Window::create(const WindowOptions& options) {
 Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   auto window = create(options);
   if (!window) return window.error();
-  auto session = Session::open(options.session);
+  auto session = Session::open(options.scene, options.controls);
   if (!session) return session.error();
-  std::string picture = options.session.scene.stem().string() + ".png";
+  std::string picture = options.scene.stem().string() + ".png";
   return std::unique_ptr<Window>(new Window(std::move(*window), std::move(*session), std::move(picture)));
 }
 

@@ -12,7 +12,8 @@ namespace sdf::viewer {
 
 /// WindowOptions are what a window begins with.
 struct WindowOptions {
-  SessionOptions session;
+  std::filesystem::path scene;
+  Controls controls;
   int width = 1280, height = 720;
 };
 
