@@ -5,20 +5,11 @@
 namespace sdf::viewer {
 namespace {
 
-/// The largest value that a slider offers.
 double largest(Attribute attribute) {
-  switch (attribute) {
-    case Attribute::Shininess:
-      return 512.0;
-    case Attribute::FresnelPower:
-      return 10.0;
-    case Attribute::EmissionRed:
-    case Attribute::EmissionGreen:
-    case Attribute::EmissionBlue:
-      return 4.0;
-    default:
-      return 1.0;
-  }
+  double value = 1.0;
+  for (const SurfaceControl& control : kSurfaceControls)
+    if (attribute >= control.first) value = control.largest;
+  return value;
 }
 
 /// Where ambient light is answered like any other, editing the colour edits both.
