@@ -18,86 +18,48 @@ constexpr std::array kViews{"picture",  "normals",  "steps",     "slice",
 static_assert(kViews.size() == static_cast<std::size_t>(View::Count));
 constexpr std::array kMethods{"auto", "plain"};
 
-/// The command line's words, before they are looked at closer.
-struct Words {
-  std::string scene;
-  std::optional<std::string> picture, glsl, size, samples, steps, time, frames, fps, view, method, camera,
-      bench;
-  std::vector<std::string> parameters;
-};
-
-void declare(CLI::App& app, Words& words) {
-  app.add_option("SCENE", words.scene, "scene file (Lua)")->required()->type_name("");
-  const auto add = [&](const char* flag, auto& word, const char* value, const char* what) {
-    return app.add_option(flag, word, what)->type_name(value);
-  };
-  add("--render", words.picture, "OUT.png", "draw into this file, without a window");
-  add("--size", words.size, "WxH", "of the picture in pixels [1280x720]");
-  add("-t,--time", words.time, "T", "the scene's time in seconds [0]");
-  add("--samples", words.samples, "N", "samples a pixel: 1, 4, 9, ... [1]");
-  add("--steps", words.steps, "N", "readings of the distance that a ray may take [1024]");
-  add("--view", words.view, "NAME",
-      "picture, normals, steps, slice, gradient, material, occlusion or shadow");
-  add("--method", words.method, "NAME", "how rays are marched: auto (auto-relaxed) or plain");
-  add("-D", words.parameters, "name=value", "set a parameter of the scene; may be repeated")
-      ->allow_extra_args(false);
-  add("--camera", words.camera, "x,y,z,x,y,z[,fov]",
-      "where the camera stands and looks, and its field of view");
-  add("--frames", words.frames, "N", "draw N pictures, OUT_0001.png and so on, or wherever OUT has %04d");
-  add("--fps", words.fps, "F", "frames a second [24]");
-  add("--bench", words.bench, "N", "draw N frames and print as JSON what they cost");
-  add("--glsl", words.glsl, "OUT.glsl", "write the shader that draws the scene");
-  app.footer(
-      "Without --render, --bench and --glsl a window opens.\n"
-      "Exit status: 0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted.");
-}
-
 /// The place of a word in a list of names.
 template <class Enum, std::size_t n>
-Status choose(const char* flag, const std::optional<std::string>& word,
-              const std::array<const char*, n>& names, Enum& value) {
-  if (!word) return okStatus();
+Status choose(const char* flag, const std::string& word, const std::array<const char*, n>& names,
+              Enum& value) {
   std::string list;
   for (std::size_t i = 0; i < n; ++i) {
-    if (*word == names[i]) {
+    if (word == names[i]) {
       value = static_cast<Enum>(i);
       return okStatus();
     }
     list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + std::string(names[i]);
   }
-  return usage(std::string(flag) + " needs " + list + ", got '" + *word + "'");
+  return usage(std::string(flag) + " needs " + list + ", got '" + word + "'");
 }
 
-Status size(const std::optional<std::string>& word, int& width, int& height) {
-  if (!word) return okStatus();
-  const std::size_t cross = word->find('x');
+Status size(const std::string& word, Options& options) {
+  const std::size_t cross = word.find('x');
   const auto side = [](const std::optional<double>& v) {
     return v && *v >= 1.0 && *v <= 65536.0 && *v == std::floor(*v);
   };
-  const auto w = number(word->substr(0, cross));
-  const auto h = cross == std::string::npos ? std::nullopt : number(word->substr(cross + 1));
+  const auto w = number(word.substr(0, cross));
+  const auto h = cross == std::string::npos ? std::nullopt : number(word.substr(cross + 1));
   if (!side(w) || !side(h))
-    return usage("--size needs WIDTHxHEIGHT in whole pixels from 1, got '" + *word + "'");
-  width = static_cast<int>(*w);
-  height = static_cast<int>(*h);
+    return usage("--size needs WIDTHxHEIGHT in whole pixels from 1, got '" + word + "'");
+  options.width = static_cast<int>(*w);
+  options.height = static_cast<int>(*h);
   return okStatus();
 }
 
-Status samples(const std::optional<std::string>& word, int& side) {
-  if (!word) return okStatus();
-  const auto n = number(*word);
+Status samples(const std::string& word, int& side) {
+  const auto n = number(word);
   const double root = n ? std::sqrt(*n) : 0.0;
   if (!(root >= 1.0 && root <= 32.0 && root == std::floor(root)))
-    return usage("--samples needs a square from 1 to 1024 (1, 4, 9, ...), got '" + *word + "'");
+    return usage("--samples needs a square from 1 to 1024 (1, 4, 9, ...), got '" + word + "'");
   side = static_cast<int>(root);
   return okStatus();
 }
 
-Status camera(const std::optional<std::string>& word, std::optional<Eye>& eye) {
-  if (!word) return okStatus();
-  const std::vector<double> v = numbers(*word);
+Status camera(const std::string& word, std::optional<Eye>& eye) {
+  const std::vector<double> v = numbers(word);
   const auto wrong = [&](const std::string& needs) {
-    return usage("--camera needs " + needs + ", got '" + *word + "'");
+    return usage("--camera needs " + needs + ", got '" + word + "'");
   };
   if (v.size() != 6 && v.size() != 7)
     return wrong("six numbers x,y,z,x,y,z, or seven with the field of view");
@@ -111,41 +73,60 @@ Status camera(const std::optional<std::string>& word, std::optional<Eye>& eye) {
   return okStatus();
 }
 
-Status checkSequence(const Words& words) {
-  if (words.frames) {
-    if (!words.picture) return usage("--frames says how many pictures --render OUT.png draws; add --render");
-    return checkFrameName(*words.picture);
+Status checkSequence(const Options& options, bool hasRate) {
+  if (options.frames) {
+    if (!options.picture)
+      return usage("--frames says how many pictures --render OUT.png draws; add --render");
+    return checkFrameName(*options.picture);
   }
-  if (words.fps) return usage("--fps says how fast --frames N go by; add --frames or leave --fps out");
+  if (hasRate) return usage("--fps says how fast --frames N go by; add --frames or leave --fps out");
   return okStatus();
 }
 
-Result<Options> interpreted(const Words& words) {
-  Options options;
-  options.scene = words.scene;
-  options.picture = words.picture;
-  options.glsl = words.glsl;
-  const auto whole = [](const char* flag) {
-    return [flag](const std::string& text) { return count(flag, text); };
+/// Declares what fills the options; `sound` tells the first word that is wrong.
+void declare(CLI::App& app, Options& options, std::vector<std::string>& parameterWords, Status& sound) {
+  const auto add = [&](const char* flag, const char* value, const char* what, auto read) {
+    const auto readIfSound = [&sound, read](const std::string& word) {
+      if (sound) sound = read(word);
+    };
+    app.add_option_function<std::string>(flag, readIfSound, what)->type_name(value);
   };
-  const auto any = [](const std::string& text) {
-    return numberFor("--time", text, "a finite number of seconds", [](double) { return true; });
+  const auto whole = [&](const char* flag, auto& place, const char* what) {
+    add(flag, "N", what, [flag, &place](const std::string& word) {
+      return take<int>(word, place, [flag](const std::string& text) { return count(flag, text); });
+    });
   };
-  const auto rate = [](const std::string& text) { return positive("--fps", text); };
-  for (const Status& s :
-       {checkSequence(words), size(words.size, options.width, options.height),
-        samples(words.samples, options.samples), choose("--view", words.view, kViews, options.shader.view),
-        choose("--method", words.method, kMethods, options.shader.method), camera(words.camera, options.eye),
-        take<int>(words.steps, options.maxSteps, whole("--steps")),
-        take<double>(words.time, options.time, any),
-        take<int>(words.frames, options.frames, whole("--frames")),
-        take<double>(words.fps, options.framesPerSecond, rate),
-        take<int>(words.bench, options.bench, whole("--bench"))})
-    if (!s) return s.error();
-  Result<std::map<std::string, double>> values = parameters(words.parameters);
-  if (!values) return values.error();
-  options.parameters = std::move(*values);
-  return options;
+  app.add_option("SCENE", options.scene, "scene file (Lua)")->required()->type_name("");
+  app.add_option("--render", options.picture, "draw into this file, without a window")->type_name("OUT.png");
+  add("--size", "WxH", "of the picture in pixels [1280x720]",
+      [&](const std::string& word) { return size(word, options); });
+  add("-t,--time", "T", "the scene's time in seconds [0]", [&](const std::string& word) {
+    return take<double>(word, options.time, [](const std::string& text) {
+      return numberFor("--time", text, "a finite number of seconds", [](double) { return true; });
+    });
+  });
+  add("--samples", "N", "samples a pixel: 1, 4, 9, ... [1]",
+      [&](const std::string& word) { return samples(word, options.samples); });
+  whole("--steps", options.maxSteps, "readings of the distance that a ray may take [1024]");
+  add("--view", "NAME", "picture, normals, steps, slice, gradient, material, occlusion or shadow",
+      [&](const std::string& word) { return choose("--view", word, kViews, options.shader.view); });
+  add("--method", "NAME", "how rays are marched: auto (auto-relaxed) or plain",
+      [&](const std::string& word) { return choose("--method", word, kMethods, options.shader.method); });
+  app.add_option("-D", parameterWords, "set a parameter of the scene; may be repeated")
+      ->type_name("name=value")
+      ->allow_extra_args(false);
+  add("--camera", "x,y,z,x,y,z[,fov]", "where the camera stands and looks, and its field of view",
+      [&](const std::string& word) { return camera(word, options.eye); });
+  whole("--frames", options.frames, "draw N pictures, OUT_0001.png and so on, or wherever OUT has %04d");
+  add("--fps", "F", "frames a second [24]", [&](const std::string& word) {
+    return take<double>(word, options.framesPerSecond,
+                        [](const std::string& text) { return positive("--fps", text); });
+  });
+  whole("--bench", options.bench, "draw N frames and print as JSON what they cost");
+  app.add_option("--glsl", options.glsl, "write the shader that draws the scene")->type_name("OUT.glsl");
+  app.footer(
+      "Without --render, --bench and --glsl a window opens.\n"
+      "Exit status: 0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted.");
 }
 
 }  // namespace
@@ -154,14 +135,19 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   using Parsed = std::variant<Options, Answer>;
   CLI::App app("Shows a scene of signed distances, in a window or as a picture.", "sdfview");
   app.set_version_flag("--version", std::string("sdfview ") + version());
-  Words words;
-  declare(app, words);
+  Options options;
+  std::vector<std::string> parameterWords;
+  Status sound = okStatus();
+  declare(app, options, parameterWords, sound);
   Result<std::optional<Answer>> answer = parse(app, argc, argv);
   if (!answer) return answer.error();
   if (*answer) return Parsed(std::move(**answer));
-  Result<Options> options = interpreted(words);
-  if (!options) return options.error();
-  return Parsed(std::move(*options));
+  if (sound) sound = checkSequence(options, app.count("--fps") > 0);
+  if (!sound) return sound.error();
+  Result<Values> values = parameters(parameterWords);
+  if (!values) return values.error();
+  options.parameters = std::move(*values);
+  return Parsed(std::move(options));
 }
 
 }  // namespace sdf::viewer
