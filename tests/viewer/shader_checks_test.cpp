@@ -10,7 +10,6 @@
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
 #include "viewer/shaders/assemble.h"
-#include "viewer/shaders/parts.h"
 #include "viewer/shaders/source.h"
 
 namespace sdf::viewer {

@@ -2,8 +2,10 @@
 
 #include "viewer/shaders/filter.h"
 #include "viewer/shaders/hit_shaders.h"
-#include "viewer/shaders/parts.h"
+#include "viewer/shaders/light_parts.h"
+#include "viewer/shaders/ray_parts.h"
 #include "viewer/shaders/source.h"
+#include "viewer/shaders/view_parts.h"
 
 namespace sdf::viewer {
 namespace {

@@ -23,7 +23,7 @@ struct HitShaders {
   std::vector<Function> uniforms{};  ///< the pass is drawn once with the values of each
 };
 
-/// SceneShaders are the fragment shaders that draw a scene, one pass after the other; see parts.h for their
+/// SceneShaders are the fragment shaders that draw a scene, one pass after the other; see ray_parts.h for their
 /// uniforms.
 struct SceneShaders {
   Plan plan;

@@ -5,7 +5,7 @@
 
 #include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
-#include "viewer/shaders/parts.h"
+#include "viewer/shaders/ray_parts.h"
 
 namespace sdf::viewer {
 namespace {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <sstream>
 #include <stdexcept>
 
-#include "viewer/shaders/parts.h"
+#include "viewer/shaders/light_parts.h"
+#include "viewer/shaders/ray_parts.h"
+#include "viewer/shaders/view_parts.h"
 
 namespace sdf::viewer {
 namespace {
@@ -77,8 +80,18 @@ std::set<std::string> usedMacros(std::string_view source) {
 }
 
 std::vector<std::string> deadMacros(const Macros& macros) {
+  using namespace parts;
+  // clang-format off
+  static constexpr const char* kParts[] = {
+      kCamera, kHit, kField, kRest, kPlanes, kNoPlanes, kMarch, kGradient, kGradientByTaps, kNormal, kMeet,
+      kStarts, kHitCounts, kPictureCounts, kCones, kHits, kHitFromLayers, kFootprint, kShadowSpan,
+      kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kHardShadow, kSoftShadow,
+      kImprovedShadow, kSignedShadow, kOcclusionTaps, kOcclusionSteps, kLightSettings, kLights, kRadiance,
+      kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
+      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kPicture, kResolve};
+  // clang-format on
   std::set<std::string> used;
-  for (const char* const part : parts::all()) used.merge(usedMacros(part));
+  for (const char* const part : kParts) used.merge(usedMacros(part));
   for (const auto& [macro, value] : macros) used.merge(usedMacros(value));
   std::vector<std::string> dead;
   for (const auto& [macro, value] : macros)
@@ -87,21 +100,16 @@ std::vector<std::string> deadMacros(const Macros& macros) {
 }
 
 std::vector<std::string> macroFaults(std::string_view shader) {
-  const std::string text = withoutComments(shader);
+  constexpr std::string_view kDefine = "#define ";
+  std::istringstream lines(withoutComments(shader));
   std::string rest;  // without the names that are being defined
   std::set<std::string> defined;
-  for (std::size_t i = 0; i < text.size();) {
-    constexpr std::string_view kDefine = "#define ";
-    const std::size_t end = std::min(text.find('\n', i), text.size() - 1) + 1;
-    if (text.compare(i, kDefine.size(), kDefine) == 0) {
-      i += kDefine.size();
-      const std::size_t start = i;
-      while (isWord(text[i])) ++i;
-      defined.insert(text.substr(start, i - start));
+  for (std::string line; std::getline(lines, line); rest += line + '\n')
+    if (line.starts_with(kDefine)) {
+      const std::string name(wordsOf(line)[1]);
+      line.erase(0, kDefine.size() + name.size());
+      defined.insert(name);
     }
-    rest += text.substr(i, end - i);
-    i = end;
-  }
   const std::set<std::string> used = usedMacros(rest);
   std::vector<std::string> faults;
   for (const std::string& name : used)

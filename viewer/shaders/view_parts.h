@@ -1,13 +1,15 @@
-// The debug views among the parts.
-#include "viewer/shaders/parts.h"
+// The shaders' fixed parts of the debug views; see ray_parts.h.
+#pragma once
 
 namespace sdf::viewer::parts {
 
-const char* const kNothing = R"(
+/// Declares the colour of debug views where there is nothing.
+inline constexpr const char* kNothing = R"(
 const vec3 NOTHING = vec3(0.1);
 )";
 
-const char* const kHitColor = R"(
+/// Either defines colorOf(ray, spent): what shown(ray, hit) says of the primary hit, or the slice.
+inline constexpr const char* kHitColor = R"(
 vec3 colorOf(Ray ray, out bool spent) {
   const int bounce = 0;
   Hit hit;
@@ -18,22 +20,7 @@ vec3 colorOf(Ray ray, out bool spent) {
 }
 )";
 
-const char* const kNormalsView = R"(
-vec3 shown(Ray ray, Hit hit) {
-  if (hit.status == MISS) return NOTHING;
-  return 0.5 + 0.5 * hit.normal;
-}
-)";
-
-const char* const kStepsView = R"(
-vec3 shown(Ray ray, Hit hit) {
-  if (hit.status == BUDGET) return vec3(1.0, 0.0, 1.0);
-  float share = log2(1.0 + float(hit.readings)) / log2(1.0 + float(maxSteps));
-  return clamp(1.5 - abs(4.0 * share - vec3(3.0, 2.0, 1.0)), 0.0, 1.0);
-}
-)";
-
-const char* const kSliceView = R"(
+inline constexpr const char* kSliceView = R"(
 uniform vec3 slicePoint, sliceNormal;
 uniform float isolines;  // their spacing
 
@@ -50,7 +37,27 @@ vec3 colorOf(Ray ray, out bool spent) {
 }
 )";
 
-const char* const kGradientView = R"(
+/// Each defines shown(ray, hit), the colour of a debug view.
+inline constexpr const char* kHitsView = R"(
+vec3 shown(Ray ray, Hit hit) { return hit.status == MISS ? NOTHING : vec3(1.0); }
+)";
+
+inline constexpr const char* kNormalsView = R"(
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == MISS) return NOTHING;
+  return 0.5 + 0.5 * hit.normal;
+}
+)";
+
+inline constexpr const char* kStepsView = R"(
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == BUDGET) return vec3(1.0, 0.0, 1.0);
+  float share = log2(1.0 + float(hit.readings)) / log2(1.0 + float(maxSteps));
+  return clamp(1.5 - abs(4.0 * share - vec3(3.0, 2.0, 1.0)), 0.0, 1.0);
+}
+)";
+
+inline constexpr const char* kGradientView = R"(
 vec3 shown(Ray ray, Hit hit) {
   if (hit.status == MISS) return NOTHING;
   float off = clamp(length(gradientAt(ray.origin + hit.t * ray.direction)) - 1.0, -1.0, 1.0);
@@ -58,7 +65,7 @@ vec3 shown(Ray ray, Hit hit) {
 }
 )";
 
-const char* const kMaterialView = R"(
+inline constexpr const char* kMaterialView = R"(
 vec3 shown(Ray ray, Hit hit) {
   if (hit.status == MISS) return NOTHING;
   float t = hit.t;
@@ -71,7 +78,7 @@ vec3 shown(Ray ray, Hit hit) {
 }
 )";
 
-const char* const kOcclusionView = R"(
+inline constexpr const char* kOcclusionView = R"(
 vec3 shown(Ray ray, Hit hit) {
   if (hit.status == MISS) return NOTHING;
   vec3 p = ray.origin + hit.t * ray.direction, n = hit.normal;
@@ -79,7 +86,7 @@ vec3 shown(Ray ray, Hit hit) {
 }
 )";
 
-const char* const kShadowView = R"(
+inline constexpr const char* kShadowView = R"(
 vec3 shown(Ray ray, Hit hit) {
   if (hit.status == MISS) return NOTHING;
   vec3 p = ray.origin + hit.t * ray.direction;
@@ -94,10 +101,6 @@ vec3 shown(Ray ray, Hit hit) {
   }
   return vec3(asked > 0.0 ? arrives / asked : 1.0);
 }
-)";
-
-const char* const kHitsView = R"(
-vec3 shown(Ray ray, Hit hit) { return hit.status == MISS ? NOTHING : vec3(1.0); }
 )";
 
 }  // namespace sdf::viewer::parts

@@ -1,0 +1,261 @@
+// The shaders' fixed parts that shade what rays meet; see ray_parts.h.
+#pragma once
+
+namespace sdf::viewer::parts {
+
+/// Defines setFootprint(n, d, distance), which says what a pixel covers of a surface (filter.h).
+inline constexpr const char* kFootprint = R"(
+uniform float footprint;  // a sample's share of the picture, as wide as this at distance 1; 0: sharp patterns
+
+void setFootprint(vec3 n, vec3 d, float distance) {
+  float facing = dot(n, d);
+  pixelWay = d / (facing < 0.0 ? min(facing, -1e-4) : max(facing, 1e-4));
+  pixelSize = footprint * distance;
+}
+)";
+
+/// Either defines clip(p, l, widening, t, reach), which leaves the part of the way to a light that can be
+/// dimmed.
+/// Only what is nearer to the ray than t / k dims the light: within the rest's bounds grown by the most of
+/// that, and within a ball around them that grows with t, |p + t l - c| < R + t / k.
+inline constexpr const char* kShadowSpan = R"(
+void clip(vec3 p, vec3 l, float widening, inout float t, inout float reach) {
+  float grown = reach * widening;
+  vec3 low = (BOX_MIN - grown - p) / l, high = (BOX_MAX + grown - p) / l;
+  vec3 enter = min(low, high), leave = max(low, high);
+  vec3 away = p - 0.5 * (BOX_MIN + BOX_MAX);
+  float radius = 0.5 * length(BOX_MAX - BOX_MIN);
+  float a = 1.0 - widening * widening, b = dot(away, l) - radius * widening;
+  float root = b * b - a * (dot(away, away) - radius * radius);
+  reach = root > 0.0 ? min(min(reach, (sqrt(root) - b) / a), min(leave.x, min(leave.y, leave.z))) : 0.0;
+  t = max(max(t, (-sqrt(max(root, 0.0)) - b) / a), max(enter.x, max(enter.y, enter.z)));
+}
+)";
+
+inline constexpr const char* kNoShadowSpan = R"(
+void clip(vec3 p, vec3 l, float widening, inout float t, inout float reach) {}
+)";
+
+/// Either defines leastOfPlanes(p, l, reach), the least height over the half spaces by t along the way to a
+/// light.
+/// height / t falls with t, so it is least at the end; below 0 the light is behind the plane.
+inline constexpr const char* kPlanesLight = R"(
+float leastOfPlanes(vec3 p, vec3 l, float reach) {
+  float planes[PLANES], least = 1.0;
+  sdfPlanes(p, l, planes);
+  for (int i = 0; i < PLANES; i += 2) least = min(least, max(planes[i], 0.0) / reach + planes[i + 1]);
+  return least;
+}
+)";
+
+inline constexpr const char* kNoPlanesLight = R"(
+float leastOfPlanes(vec3 p, vec3 l, float reach) { return 1.0; }
+)";
+
+/// Declares the uniforms of all shadows, each of which defines shadow(p, l, reach), the share of a light that
+/// arrives.
+inline constexpr const char* kShadowSettings = R"(
+uniform float shadowStart, shadowReach, shadowHit, sharpness;
+uniform int shadowSteps;
+)";
+
+inline constexpr const char* kHardShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart;
+  if (leastOfPlanes(p, l, reach) <= 0.0) return 0.0;
+  clip(p, l, 0.0, t, reach);
+  for (int i = 0; i < shadowSteps && t < reach; ++i) {
+    float g = rest(p + t * l);
+    COUNT_SHADOW
+    if (g <= shadowHit) return 0.0;
+    t += g;
+  }
+  return 1.0;
+}
+)";
+
+inline constexpr const char* kSoftShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
+  if (light == 0.0) return 0.0;
+  clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
+  for (int i = 0; i < shadowSteps && t < reach; ++i) {
+    float g = rest(p + t * l);
+    COUNT_SHADOW
+    if (g <= shadowHit) return 0.0;
+    light = min(light, sharpness * g / t);
+    t += g;
+  }
+  return light;
+}
+)";
+
+inline constexpr const char* kImprovedShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart, light = 1.0, step = 0.0, before = 0.0;
+  for (int i = 0; i < shadowSteps; ++i) {
+    float g = field(p + t * l);
+    COUNT_SHADOW
+    if (g <= shadowHit) return 0.0;
+    float y = step > 0.0 ? (step * step + g * g - before * before) / (2.0 * step) : 0.0;
+    float d = step > 0.0 ? sqrt(max(0.0, g * g - y * y)) : g;
+    if (t - y > 0.0) light = min(light, sharpness * d / (t - y));
+    step = before = g;
+    t += g;
+    if (t >= reach) break;
+  }
+  return light;
+}
+)";
+
+inline constexpr const char* kSignedShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) {
+  float t = shadowStart, x = 1.0;
+  for (int i = 0; i < shadowSteps; ++i) {
+    float g = field(p + t * l);
+    COUNT_SHADOW
+    x = min(x, sharpness * g / t);
+    if (x <= -1.0) return 0.0;
+    t += max(abs(g), shadowHit);
+    if (t >= reach) break;
+  }
+  return 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x);
+}
+)";
+
+/// Defines occlusion(p, n), by taps along the normal.
+inline constexpr const char* kOcclusionTaps = R"(
+uniform float tapSpacing, tapStrength;
+
+float occlusion(vec3 p, vec3 n) {
+  float closed = 0.0;
+  for (int i = 1; i <= TAPS; ++i) {
+    float h = tapSpacing * float(i);
+    closed += (h - field(p + h * n)) / h;
+    COUNT_OCCLUSION
+  }
+  return clamp(1.0 - tapStrength * closed, 0.0, 1.0);
+}
+)";
+
+/// Declares the uniform of occlusion by steps.
+inline constexpr const char* kOcclusionSteps = R"(
+uniform float tapStrength;
+)";
+
+/// Declares the lights.
+inline constexpr const char* kLightSettings = R"(
+uniform vec4 lightVector[LIGHTS];  // xyz: towards the light, of length 1, if w is 0; its position if w is 1
+uniform vec4 lightColor[LIGHTS];   // times its intensity; w: 1 if it casts shadows
+)";
+
+/// Defines direct(p, n, d, s), Phong's light from the surface's attributes s[].
+inline constexpr const char* kLights = R"(
+vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
+  vec3 sum = vec3(0.0);
+  vec3 diffuse = vec3(s[RED], s[GREEN], s[BLUE]), specular = vec3(s[SPECULAR_RED], s[SPECULAR_GREEN], s[SPECULAR_BLUE]);
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 way = lightVector[i].xyz - lightVector[i].w * p;
+    float far = length(way), cosine = dot(n, way) / far;
+    vec3 l = way / far;
+    float gloss = max(dot(2.0 * cosine * n - l, -d), 0.0);
+    float highlight = gloss > 0.0 ? pow(gloss, s[SHININESS]) : (s[SHININESS] > 0.0 ? 0.0 : 1.0);
+    vec3 light = diffuse * max(cosine, 0.0) + specular * highlight;
+    if (light == vec3(0.0)) continue;
+    SHADE_LIGHT
+    sum += lightColor[i].rgb * light;
+  }
+  return sum;
+}
+)";
+
+/// Defines colorOf(ray, spent), what a pixel shows, and whether a ray ran out of steps: the whole stack along
+/// a ray and its reflections.
+inline constexpr const char* kRadiance = R"(
+uniform vec3 ambient;
+uniform vec3 fogColor;
+uniform float fogDensity;
+
+vec3 colorOf(Ray ray, out bool spent) {
+  vec3 total = vec3(0.0), through = vec3(1.0);
+  spent = false;
+  for (int bounce = 0; bounce <= BOUNCES; ++bounce) {
+    Hit hit;
+    FIND_HIT
+    COUNT_MARCH
+    if (hit.status == MISS) {
+      total += through * sdfBackground(ray.direction, vec3(0.0));
+      break;
+    }
+    if (hit.status == BUDGET) spent = true;
+    float t = hit.t;
+    vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = hit.normal;
+    float s[ATTRIBUTES];
+    FOOTPRINT
+    TAKE_OPERAND
+    sdfSurface(p, n, s);
+    vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
+    local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
+    local *= STEP_OCCLUSION;
+    float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t)), mirror = 0.0;
+#if BOUNCES > 0
+    if (bounce < BOUNCES && s[REFLECTIVITY] > 0.0) {
+      float edge = 1.0 - max(dot(-d, n), 0.0);
+      float rim = s[FRESNEL_POWER] == 0.0 ? 1.0 : pow(edge, s[FRESNEL_POWER]);
+      mirror = min(s[REFLECTIVITY] * (s[FRESNEL_BIAS] + rim), 1.0);
+    }
+#endif
+    total += through * mix(fogColor, (1.0 - mirror) * local, clear);
+    through *= clear * mirror;
+    if (max(through.r, max(through.g, through.b)) < 1.0 / 1024.0) break;
+    float off = 2.0 * hitDistance(ray, t);
+    ray = Ray(p + off * n, reflect(d, n), ray.before + t, 0.0, 1e30, maxDistance);
+  }
+  return total;
+}
+)";
+
+/// The same of the background alone.
+inline constexpr const char* kBackground = R"(
+vec3 colorOf(Ray ray, out bool spent) {
+  spent = false;
+  return sdfBackground(ray.direction, vec3(0.0));
+}
+)";
+
+/// Defines encode(c), the sRGB of linear colours.
+inline constexpr const char* kSrgb = R"(
+vec3 encode(vec3 c) {
+  c = clamp(c, 0.0, 1.0);
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+)";
+
+/// Defines main() of the picture: one sample of each pixel, encoded if it is the only one.
+inline constexpr const char* kPicture = R"(
+layout(location = 0) out vec4 color;  // alpha is 0 where a ray ran out of steps
+
+void main() {
+  sdfTakeValues();
+  Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
+  START_RAY
+  bool spent;
+  vec3 c = colorOf(ray, spent);
+  color = vec4(weight < 1.0 ? weight * c : ENCODE(c), spent ? 0.0 : weight);
+  STORE_COUNTS
+}
+)";
+
+/// Defines main() of the pass that encodes the samples' sums.
+inline constexpr const char* kResolve = R"(
+uniform sampler2D sums;
+uniform float weight;
+layout(location = 0) out vec4 color;
+
+void main() {
+  vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
+  color = vec4(ENCODE(sum.rgb), sum.a > 1.0 - 0.5 * weight ? 1.0 : 0.0);
+}
+)";
+
+}  // namespace sdf::viewer::parts

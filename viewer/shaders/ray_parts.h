@@ -1,0 +1,259 @@
+// The shaders' fixed parts that find what rays meet, in the order in which they are put together; those of
+// light and of the debug views follow. A part uses functions of those before it, uniforms that it or these
+// declare, and macros, which are the words in capitals.
+#pragma once
+
+namespace sdf::viewer::parts {
+
+/// Declares the frame's uniforms and a Ray, and defines rayThrough(pixel) and hitDistance(ray, t).
+/// A ray's t is counted from a plane `ahead` picture distances before the eye: far from the scene, positions
+/// near it would otherwise be rounded to steps of the eye's distance. `from` lies on that plane.
+inline constexpr const char* kCamera = R"(
+uniform vec2 size;            // of the picture, pixels
+uniform vec3 from, right, up;
+uniform vec3 forward;         // as long as the picture plane is far away, in picture heights
+uniform float ahead;          // of the eye, where t = 0: in lengths of `forward`
+uniform float maxDistance;    // from the eye
+uniform float pixelRadius;    // of a pixel's cone at distance 1
+uniform float epsilon;        // least distance that counts as a hit
+uniform float threshold;      // share of the pixel's cone that does
+uniform int maxSteps;
+uniform vec2 within;          // where in its pixel a sample is
+uniform float weight;         // its share of the pixel: less than 1 if linear colours are to be summed up
+
+struct Ray {
+  vec3 origin, direction;
+  float before;               // distance from the eye to t = 0
+  float start, end;           // t between which alone it may meet more than planes
+  float reach;                // t up to which it is followed
+};
+
+const int MISS = 0, HIT = 1, BUDGET = 2;  // what becomes of a ray
+
+Ray rayThrough(vec2 pixel) {
+  vec2 uv = (pixel - 0.5 * size) / size.y;
+  vec3 across = uv.x * right + uv.y * up, way = across + forward;
+  float far = length(way);
+  return Ray(from + ahead * across, way / far, ahead * far, 0.0, 1e30, maxDistance - ahead * far);
+}
+
+// How near a surface counts as hit at t.
+float hitDistance(Ray ray, float t) { return epsilon + threshold * pixelRadius * (ray.before + t); }
+)";
+
+/// Declares a Hit: what a ray meets. Every way to find it fills this struct, and every use of it reads it.
+inline constexpr const char* kHit = R"(
+// What a ray meets. Marching and the layers that hit passes write both fill it.
+struct Hit {
+  int status;     // MISS, HIT or BUDGET
+  float t;
+  vec3 normal;
+  float operand;  // number of the union's operand that is met
+  int readings;   // of the distance, by the march
+};
+)";
+
+/// Defines field(p), the radius of the ball around p that is free of the whole's surface.
+inline constexpr const char* kField = R"(
+float field(vec3 p) { return sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE; }
+)";
+
+/// Defines rest(p), the same for the scene without its half spaces.
+inline constexpr const char* kRest = R"(
+float rest(vec3 p) { return REST; }
+)";
+
+/// Either defines planesFrom(ray), the t at which a ray enters the first of the half spaces.
+inline constexpr const char* kPlanes = R"(
+// Where the ray enters the first of the half spaces.
+float planesFrom(Ray ray) {
+  float planes[PLANES], nearest = 1e30;
+  sdfPlanes(ray.origin, ray.direction, planes);
+  for (int i = 0; i < PLANES; i += 2) {
+    float height = planes[i], fall = -planes[i + 1];  // height falls by so much a unit
+    if (height <= 0.0) return 0.0;
+    if (fall > 0.0) nearest = min(nearest, height / fall);
+  }
+  return nearest;
+}
+)";
+
+inline constexpr const char* kNoPlanes = R"(
+float planesFrom(Ray ray) { return 1e30; }
+)";
+
+/// Defines march(ray, status, readings), the t at which a ray hits the rest or a half space.
+inline constexpr const char* kMarch = R"(
+float march(Ray ray, out int status, out int readings) {
+  float r = 0.0, z = 0.0, slope = -1.0, t = ray.start, plane = planesFrom(ray);
+  bool ends = plane < ray.reach;  // in a plane
+  float tMax = min(plane, ray.reach);
+  status = BUDGET;
+  readings = 0;
+  if (t >= tMax) {  // the cone pass saw nothing
+    status = ends ? HIT : MISS;
+    return tMax;
+  }
+  while (readings < maxSteps) {
+    float next = rest(ray.origin + (t + z) * ray.direction);
+    ++readings;
+    if (z > r && z > r + next) {  // the balls do not overlap: something may lie between
+      z = r;
+      slope = -1.0;
+      continue;
+    }
+    if (z > 0.0) slope += 0.3 * ((next - r) / z - slope);
+    t += z;
+    float near = hitDistance(ray, t);
+    if (next <= near) {
+      if (z > 0.0 && next < r) t += clamp(next * z / (r - next), -z, 4.0 * near);  // where the secant meets 0
+      status = HIT;
+      return t;
+    }
+    r = next;
+    if (t + r >= min(tMax, ray.end)) {
+      status = ends ? HIT : MISS;
+      return tMax;
+    }
+    z = STEP;
+  }
+  return t;
+}
+)";
+
+/// Either defines gradientAt(p): exactly, or by differences where the gradient is too long a program.
+inline constexpr const char* kGradient = R"(
+vec3 gradientAt(vec3 p) { return sdfGradient(p, vec3(0.0)); }
+)";
+
+/// Four corners of a cube: Evans 2006; written as a loop, so that the distance is inlined once.
+inline constexpr const char* kGradientByTaps = R"(
+vec3 gradientAt(vec3 p) {
+  float h = 1e-4 * max(1.0, max(abs(p.x), max(abs(p.y), abs(p.z))));
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    vec3 corner = vec3(float(((i + 3) >> 1) & 1), float((i >> 1) & 1), float(i & 1)) * 2.0 - 1.0;
+    sum += corner * sdfDistance(p + h * corner, vec3(0.0));
+  }
+  return 0.25 / h * sum;
+}
+)";
+
+/// Defines normalAt(p, d), where d is the direction of the ray.
+inline constexpr const char* kNormal = R"(
+vec3 normalAt(vec3 p, vec3 d) {
+  vec3 g = gradientAt(p);
+  float far = length(g);
+  return far > 0.0 ? g / far : -d;
+}
+)";
+
+/// Defines meet(ray), the Hit of a ray that is marched.
+inline constexpr const char* kMeet = R"(
+Hit meet(Ray ray) {
+  Hit hit;
+  hit.t = march(ray, hit.status, hit.readings);
+  vec3 p = ray.origin + hit.t * ray.direction;
+  hit.normal = normalAt(p, ray.direction);
+  hit.operand = OPERAND;
+  return hit;
+}
+)";
+
+/// Defines startRay(ray), which lets a primary ray start and end where the cone pass says.
+inline constexpr const char* kStarts = R"(
+uniform sampler2D starts;
+uniform vec2 corner;  // of this pass's starts, in their texture
+uniform float tile;   // that has one start, pixels
+
+void startRay(inout Ray ray) {
+  vec2 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0).rb;
+  ray.start = span.x;
+  ray.end = span.y;
+}
+)";
+
+/// Either declares the output of readings, of a hit pass or of the picture.
+inline constexpr const char* kHitCounts = R"(
+layout(location = 2) out vec4 counts;
+)";
+
+inline constexpr const char* kPictureCounts = R"(
+layout(location = 1) out vec4 counts;
+vec4 counted = vec4(0.0);
+)";
+
+/// Defines main() of the cone pass, beside farEnd(ray, spread, widening) from hit_shaders.cpp.
+/// Two rays through one tile are no farther apart at equal t than their pixels' distance times
+/// (ahead + t / |forward|): what the ball around the tile's middle ray leaves of that is free for both.
+inline constexpr const char* kCones = R"(
+uniform sampler2D coarser;  // starts of tiles four times as large; not read at the first level
+uniform bool first;
+uniform float tile;         // its side in pixels
+uniform vec2 corner;        // of the first tile, in the target
+layout(location = 0) out vec4 start;
+
+void main() {
+  sdfTakeValues();
+  Ray ray = rayThrough((floor(gl_FragCoord.xy - corner) + 0.5) * tile);
+  float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
+  vec3 span = first ? vec3(0.0, 0.0, farEnd(ray, spread, widening)) : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).rgb;
+  float t = span.x, end = span.z;
+  bool back = false;  // from the end
+  int readings = 0;
+  while (readings < 64) {
+    if (!back && t >= end) {
+      t = maxDistance;
+      break;
+    }
+    float at = back ? end : t, wide = spread * ahead + widening * at;
+    float free = rest(ray.origin + at * ray.direction) - wide;
+    ++readings;
+    if (free <= (1.0 + widening) * (0.25 * wide + epsilon)) {
+      if (back || !first) break;
+      back = true;
+    } else if (back) {
+      if (!(end - free > t)) break;  // something is at t: so far off this distance is not to be trusted
+      end -= free;
+    } else {
+      t += free / (1.0 + widening);
+    }
+  }
+  start = vec4(t, SHARE * float(readings), end, 0.0);
+}
+)";
+
+/// Declares the layers that keep hits, and defines main() of a hit pass, which fills them.
+inline constexpr const char* kHits = R"(
+layout(location = 0) out vec4 hitSurface;   // the normal, and t
+layout(location = 1) out vec2 hitIdentity;  // the operand, and the status
+
+// Of two operands that are hit at once the later shows: t less a hair that grows with the operand's number, within a
+// quarter of how far off a ray may be when it hits.
+float favoured(Ray ray, Hit hit) { return hit.t - 0.25 * hitDistance(ray, hit.t) * (hit.operand + 1.0) / OPERANDS; }
+
+void main() {
+  sdfTakeValues();
+  Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
+  START_RAY
+  Hit hit = meet(ray);
+  hitSurface = vec4(hit.normal, hit.t);
+  hitIdentity = vec2(hit.operand, float(hit.status));
+  gl_FragDepth = hit.status == MISS ? 1.0 : favoured(ray, hit) / maxDistance;
+  STORE_COUNTS
+}
+)";
+
+/// Defines primaryHit(), the Hit of this pixel as the layers keep it.
+inline constexpr const char* kHitFromLayers = R"(
+uniform sampler2D hitSurface, hitIdentity;
+
+Hit primaryHit() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 surface = texelFetch(hitSurface, pixel, 0);
+  vec2 identity = texelFetch(hitIdentity, pixel, 0).xy;
+  return Hit(int(identity.y), surface.w, surface.xyz, identity.x, 0);
+}
+)";
+
+}  // namespace sdf::viewer::parts
