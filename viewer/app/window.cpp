@@ -48,7 +48,7 @@ void startPanels(GLFWwindow* window) {
 
 }  // namespace
 
-Result<Window::Handle> Window::create(const WindowOptions& options) {
+Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   if (!glfwInit()) return cannotOpen();
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -62,16 +62,10 @@ Result<Window::Handle> Window::create(const WindowOptions& options) {
   if (!window) return cannotOpen();
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
-  return window;
-}
-
-Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
-  auto window = create(options);
-  if (!window) return window.error();
   auto session = Session::open(options.scene, options.controls);
   if (!session) return session.error();
-  std::string picture = options.scene.stem().string() + ".png";
-  return std::unique_ptr<Window>(new Window(std::move(*window), std::move(*session), std::move(picture)));
+  return std::unique_ptr<Window>(
+      new Window(std::move(window), std::move(*session), options.scene.stem().string() + ".png"));
 }
 
 Window::Window(Handle window, Session session, std::string pictureName)

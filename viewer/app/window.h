@@ -40,7 +40,6 @@ class Window {
  private:
   using Handle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
   Window(Handle window, Session session, std::string pictureName);
-  static Result<Handle> create(const WindowOptions& options);
   void listen();
   static Window& told(GLFWwindow* window);  // of an event, which the panels may answer
   void wait() const;
