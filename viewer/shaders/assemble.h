@@ -23,8 +23,8 @@ struct HitShaders {
   std::vector<Function> uniforms{};  ///< the pass is drawn once with the values of each
 };
 
-/// SceneShaders are the fragment shaders that draw a scene, one pass after the other; see ray_parts.h for their
-/// uniforms.
+/// SceneShaders are the fragment shaders that draw a scene, one pass after the other; see ray_parts.h for
+/// their uniforms.
 struct SceneShaders {
   Plan plan;
   /// One for each kind of groups and one for the half spaces, or one that has cones only, or none.

@@ -82,14 +82,11 @@ Obstacles obstaclesOf(const Plan& plan) {
   return result;
 }
 
-std::string gradients(const Expr& distance) {
-  const bool isLong = topologicalOrder(partsOf(gradientOf(distance))).size() > kLongProgram;
-  return isLong ? parts::kGradientByTaps : parts::kGradient;
-}
-
 std::string meeting(const Obstacles& obstacles) {
+  const auto gradient = topologicalOrder(partsOf(gradientOf(obstacles.whole.distance)));
   return std::string(parts::kRest) + (obstacles.planes.empty() ? parts::kNoPlanes : parts::kPlanes) +
-         parts::kMarch + gradients(obstacles.whole.distance) + parts::kNormal + parts::kMeet;
+         parts::kMarch + (gradient.size() > kLongProgram ? parts::kGradientByTaps : parts::kGradient) +
+         parts::kNormal + parts::kMeet;
 }
 
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {

@@ -23,9 +23,6 @@ Obstacles obstaclesOf(const Plan& plan);
 /// Returns the parts that define meet(ray).
 std::string meeting(const Obstacles& obstacles);
 
-/// Returns the parts that define gradientAt(p).
-std::string gradients(const Expr& distance);
-
 /// Returns the macros that these parts use, and parts::kField and parts::kRest.
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan);
 
