@@ -108,9 +108,7 @@ class Headless {
   Frame frame(double time) const {
     Values parameters = options_.parameters;
     parameters["time"] = time;
-    Frame f;
-    f.look = look_.at(parameters);
-    f.parameters = std::move(parameters);
+    Frame f = frameOf(look_, std::move(parameters));
     if (options_.eye) f.look.eye = *options_.eye;
     f.samples = options_.samples;
     f.maxSteps = options_.maxSteps;

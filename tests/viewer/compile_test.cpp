@@ -36,7 +36,7 @@ TEST(Compiling, TakesAThousandSpheresToTheirFirstFrameInFiveSeconds) {
   ASSERT_TRUE(renderer) << renderer.error().message;
   const auto target = Target::create(320, 180, {PixelFormat::Rgba8});
   ASSERT_TRUE(target);
-  ASSERT_TRUE(renderer->draw(frameOf(scene), *target));
+  ASSERT_TRUE(renderer->draw(frameOf(LookFunction(scene)), *target));
   ASSERT_TRUE(target->picture());  // waits until all is drawn
   EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, kPatience);
 }

@@ -89,7 +89,6 @@ class Session {
   void resetParameters();
 
   const Scene& scene() const { return scene_; }
-  const std::filesystem::path& file() const { return file_; }
   /// Says what is wrong with the file or else with what the controls last asked for; "" if all is well.
   const std::string& message() const { return fileMessage_.empty() ? buildMessage_ : fileMessage_; }
   Renderer& renderer() { return renderer_; }

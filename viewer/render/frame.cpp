@@ -21,9 +21,9 @@ double aheadOf(const glm::dvec3& forward, const Eye& eye, const std::optional<Bo
 
 }  // namespace
 
-Frame frameOf(const Scene& scene, Values parameters) {
+Frame frameOf(const LookFunction& look, Values parameters) {
   Frame frame;
-  frame.look = LookFunction(scene).at(parameters);
+  frame.look = look.at(parameters);
   frame.parameters = std::move(parameters);
   return frame;
 }

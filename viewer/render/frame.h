@@ -20,9 +20,8 @@ struct Frame {
   double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit, half of it for loose scenes
 };
 
-/// Makes the frame of the scene's own look at these values. Those who draw many frames keep the LookFunction
-/// instead.
-Frame frameOf(const Scene& scene, Values parameters = {});
+/// Makes the frame of a scene's own look at these values.
+Frame frameOf(const LookFunction& look, Values parameters = {});
 
 /// UniformValues are what a shader's uniform sdfValues holds in one frame after the other.
 class UniformValues {

@@ -87,7 +87,7 @@ class Comparison {
     Program theirs = program(found, 1);
     Renderer ours = must(Renderer::make(scene_));
     const Target target = must(Target::create(width_, height_, {PixelFormat::Rgba8}));
-    const Frame frame = frameOf(scene_, {{"time", options_.time}});
+    const Frame frame = frameOf(LookFunction(scene_), {{"time", options_.time}});
     const auto drawTheirs = [&] {
       target.bind();
       theirs.draw();
@@ -173,7 +173,7 @@ class Comparison {
   // Our scene, marched closely and without what makes it fast, 64 samples a pixel.
   Colors reference(const Target& target) const {
     Renderer plain = must(Renderer::make(scene_, {.method = Method::Plain}));
-    Frame frame = frameOf(scene_, {{"time", options_.time}});
+    Frame frame = frameOf(LookFunction(scene_), {{"time", options_.time}});
     frame.samples = 8;
     frame.maxSteps = 500;
     frame.epsilon = 1e-5;
