@@ -144,9 +144,7 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   if (*answer) return Parsed(std::move(**answer));
   if (sound) sound = checkSequence(options, app.count("--fps") > 0);
   if (!sound) return sound.error();
-  Result<Values> values = parameters(parameterWords);
-  if (!values) return values.error();
-  options.parameters = std::move(*values);
+  if (auto s = keep(parameters(parameterWords), options.parameters); !s) return s.error();
   return Parsed(std::move(options));
 }
 

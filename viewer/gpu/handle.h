@@ -12,6 +12,8 @@ class Handle {
 
   Handle() = default;
   Handle(unsigned id, Delete remove) : id_(id), delete_(remove) {}
+  /// Owns an object that one of OpenGL's glGen... functions makes.
+  Handle(void (*generate)(int count, unsigned* ids), Delete remove) : delete_(remove) { generate(1, &id_); }
   ~Handle() {
     if (id_ != 0) delete_(id_);
   }

@@ -157,12 +157,9 @@ Result<Program> Program::create(const std::string& vertex, const std::string& fr
                     textOf(program.id(), GL_INFO_LOG_LENGTH, glGetProgramiv, glGetProgramInfoLog), fragment);
 
   // A core context draws nothing without one, though it holds nothing here.
-  GLuint vertexArray = 0;
-  glGenVertexArrays(1, &vertexArray);
-  Handle owned(vertexArray, [](unsigned id) { glDeleteVertexArrays(1, &id); });
-  const Status made = check("make a shader program");
-  if (!made) return made.error();
-  return Program(std::move(program), std::move(owned));
+  Handle vertexArray(glGenVertexArrays, [](unsigned id) { glDeleteVertexArrays(1, &id); });
+  if (const Status made = check("make a shader program"); !made) return made.error();
+  return Program(std::move(program), std::move(vertexArray));
 }
 
 Result<Program> Program::overScreen(const std::string& fragment) { return create(kOverScreen, fragment); }

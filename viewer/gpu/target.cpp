@@ -62,10 +62,8 @@ Result<Target> Target::create(int width, int height, const std::vector<PixelForm
   if (const Status fits = checkSize(width, height); !fits) return fits.error();
   const KeepBound bindings;
   Target target(width, height);
-  GLuint framebuffer = 0;
-  glGenFramebuffers(1, &framebuffer);
-  target.framebuffer_ = Handle(framebuffer, [](unsigned id) { glDeleteFramebuffers(1, &id); });
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  target.framebuffer_ = Handle(glGenFramebuffers, [](unsigned id) { glDeleteFramebuffers(1, &id); });
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer_.id());
   for (const PixelFormat format : layers)
     if (const Status added = target.addLayer(format); !added) return added.error();
   if (depth)
@@ -81,10 +79,9 @@ Result<Target> Target::create(int width, int height, const std::vector<PixelForm
 }
 
 Status Target::addLayer(PixelFormat format) {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
   const GLenum place = GL_COLOR_ATTACHMENT0 + GLenum(textures_.size());
-  textures_.emplace_back(texture, [](unsigned id) { glDeleteTextures(1, &id); });
+  textures_.emplace_back(glGenTextures, [](unsigned id) { glDeleteTextures(1, &id); });
+  const GLuint texture = textures_.back().id();
   glBindTexture(GL_TEXTURE_2D, texture);
   glTexImage2D(GL_TEXTURE_2D, 0, kInternalFormats[static_cast<int>(format)], width_, height_, 0, GL_RGBA,
                GL_FLOAT, nullptr);
@@ -97,12 +94,10 @@ Status Target::addLayer(PixelFormat format) {
 }
 
 Status Target::addDepth() {
-  GLuint buffer = 0;
-  glGenRenderbuffers(1, &buffer);
-  depth_ = Handle(buffer, [](unsigned id) { glDeleteRenderbuffers(1, &id); });
-  glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+  depth_ = Handle(glGenRenderbuffers, [](unsigned id) { glDeleteRenderbuffers(1, &id); });
+  glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width_, height_);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffer);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
   return check("make depths for " + product(width_, height_) + " pixels");
 }
 
@@ -175,10 +170,7 @@ Result<Picture> Target::picture(int layer) const {
 Status ensure(std::optional<Target>& target, int width, int height, const std::vector<PixelFormat>& layers,
               bool depth) {
   if (target && target->width() == width && target->height() == height) return okStatus();
-  auto made = Target::create(width, height, layers, depth);
-  if (!made) return made.error();
-  target = std::move(*made);
-  return okStatus();
+  return keep(Target::create(width, height, layers, depth), target);
 }
 
 DrawingMode nearestWins() {

@@ -35,16 +35,11 @@ Result<PrimaryHits> PrimaryHits::make(const std::vector<HitShaders>& shaders, bo
   made.counted_ = counted;
   for (const HitShaders& shader : shaders) {
     Pass pass;
-    if (!shader.cones.empty()) {
-      auto cones = Program::overScreen(shader.cones);
-      if (!cones) return cones.error();
-      pass.cones = std::move(*cones);
-    }
-    if (!shader.hits.empty()) {
-      auto hits = pass.cones ? Program::overTiles(shader.hits) : Program::overScreen(shader.hits);
-      if (!hits) return hits.error();
-      pass.hits = std::move(*hits);
-    }
+    if (!shader.cones.empty())
+      if (auto s = keep(Program::overScreen(shader.cones), pass.cones); !s) return s.error();
+    const auto drawn = pass.cones ? Program::overTiles : Program::overScreen;
+    if (!shader.hits.empty())
+      if (auto s = keep(drawn(shader.hits), pass.hits); !s) return s.error();
     for (const Function& uniforms : shader.uniforms)
       made.draws_.push_back({made.passes_.size(), UniformValues(uniforms), pass.cones ? made.cells_++ : -1});
     made.passes_.push_back(std::move(pass));

@@ -51,21 +51,14 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
 
 Status Renderer::compile() {
   const Plan& plan = shaders_.plan;
-  if (!shaders_.hits.empty()) {
-    auto hits = PrimaryHits::make(shaders_.hits, plan.options.countReadings);
-    if (!hits) return hits.error();
-    hits_ = std::move(*hits);
-  }
+  if (!shaders_.hits.empty())
+    if (auto s = keep(PrimaryHits::make(shaders_.hits, plan.options.countReadings), hits_); !s) return s;
   const std::string& text = shaders_.picture.text;
-  auto picture = plan.tiled ? Program::overTiles(text) : Program::overScreen(text);
-  if (!picture) return picture.error();
-  picture_ = std::move(*picture);
+  if (auto s = keep(plan.tiled ? Program::overTiles(text) : Program::overScreen(text), picture_); !s)
+    return s;
   if (!plan.tiled) return okStatus();
-  auto background = Program::overScreen(shaders_.background->text);
-  if (!background) return background.error();
-  background_ = std::move(*background);
   backgroundValues_ = UniformValues(shaders_.background->uniforms);
-  return okStatus();
+  return keep(Program::overScreen(shaders_.background->text), background_);
 }
 
 // Sets what the parts in use declare, which follows from the plan.
@@ -124,11 +117,8 @@ void Renderer::drawBackground(const Shot& shot) const {
 // One after the other, so that one program serves any number of samples, and hit passes do, too. A loop in
 // the shader takes up to a fifth less time.
 Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& target) {
-  if (!resolve_) {
-    auto resolve = Program::overScreen(shaders_.resolve);
-    if (!resolve) return resolve.error();
-    resolve_ = std::move(*resolve);
-  }
+  if (!resolve_)
+    if (auto s = keep(Program::overScreen(shaders_.resolve), resolve_); !s) return s;
   const std::vector layers(shaders_.plan.options.countReadings ? 2 : 1, PixelFormat::Rgba32f);
   if (auto s = ensure(sums_, shot.width(), shot.height(), layers, true); !s) return s;
   for (std::size_t i = 0; i < layers.size(); ++i) sums_->clear(static_cast<int>(i), glm::vec4(0.0f));

@@ -75,11 +75,9 @@ void planSurface(const Shape& whole, Plan& plan) {
 
 Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   const Shape whole = scene.whole();
-  auto wholeMarched = marched(whole);
-  if (!wholeMarched) return wholeMarched.error();
   Plan plan;
   plan.options = options;
-  plan.whole = std::move(*wholeMarched);
+  if (auto s = keep(marched(whole), plan.whole); !s) return s.error();
   // Occlusion by steps counts the readings of the whole.
   const bool stepsCount = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps;
   const bool isPicture = options.view == View::Picture;
@@ -89,9 +87,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (plan.planes.empty()) {
     plan.rest = plan.whole;
   } else if (!parts.others.empty()) {
-    auto marchedRest = marched(rest);
-    if (!marchedRest) return marchedRest.error();
-    plan.rest = std::move(*marchedRest);
+    if (auto s = keep(marched(rest), plan.rest); !s) return s.error();
   }
   plan.cones = options.method == Method::AutoRelaxed && !stepsCount;
   plan.tiled = plan.cones && isPicture && plan.planes.empty();

@@ -53,4 +53,12 @@ class [[nodiscard]] Result {
 using Status = Result<std::monostate>;
 inline Status okStatus() { return std::monostate{}; }
 
+/// Moves the result's value to its place, or returns the error that stood in its way.
+template <class T, class Place>
+Status keep(Result<T> result, Place& place) {
+  if (!result) return result.error();
+  place = std::move(*result);
+  return okStatus();
+}
+
 }  // namespace sdf
