@@ -83,9 +83,7 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
     cones.set("corner", glm::vec2(corner));
     cones.draw();
   }
-}
-
-void PrimaryHits::drawFineStarts() const {
+  if (!isFine()) return;
   const Program& cones = *passes_[draws_.front().pass].cones;
   fine_->bind();
   coarse_->bindTexture(0);
@@ -109,17 +107,13 @@ void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
   }
 }
 
-void PrimaryHits::drawTiles(const Program& program, const Shot& shot, int firstCell, int lastCell) const {
+void PrimaryHits::drawTiles(const Program& program, const Shot& shot, std::optional<int> cell) const {
   coarse_->bindTexture(kStartsUnit);
   program.set("tiles", kStartsUnit);
   program.set("tileLimit", static_cast<float>(shot.maxDistance()));
-  program.set("firstCell", firstCell);
-  program.set("lastCell", lastCell);
+  program.set("firstCell", cell.value_or(0));
+  program.set("lastCell", cell.value_or(cells_ - 1));
   program.drawTiles(tiles(shot.width(), kTile), tiles(shot.height(), kTile), kTile);
-}
-
-void PrimaryHits::drawTiles(const Program& program, const Shot& shot) const {
-  drawTiles(program, shot, 0, cells_ - 1);
 }
 
 void PrimaryHits::drawHits(const Shot& shot) const {
@@ -130,7 +124,7 @@ void PrimaryHits::drawHits(const Shot& shot) const {
       hits.draw();
     } else {
       giveStarts(hits, draw.cell, shot);
-      drawTiles(hits, shot, draw.cell, draw.cell);
+      drawTiles(hits, shot, draw.cell);
     }
   }
 }
@@ -142,7 +136,6 @@ void PrimaryHits::prepare(const Frame& frame) {
 Status PrimaryHits::begin(const Shot& shot) {
   if (auto s = makeTargets(shot); !s) return s;
   drawStarts(shot);
-  if (isFine()) drawFineStarts();
   readings_ = 0.0;
   return check("draw where rays start");
 }

@@ -27,9 +27,9 @@ class PrimaryHits {
 
   /// Lets the picture's program read the hits of the sample drawn last or else the starts.
   void giveTo(const Program& picture, const Shot& shot) const;
-  /// Draws the tiles where some pass says that there is something to see, with a program that
-  /// Program::overTiles made.
-  void drawTiles(const Program& program, const Shot& shot) const;
+  /// Draws the tiles where the starts of this cell, or of any, say that there is something to see, with a
+  /// program that Program::overTiles made.
+  void drawTiles(const Program& program, const Shot& shot, std::optional<int> cell = {}) const;
 
   /// Return the readings that the primary rays took since begin, and those of the cones, as sums over all
   /// pixels. Both need `counted`. Errors: as Target::pixels.
@@ -49,10 +49,7 @@ class PrimaryHits {
   PrimaryHits() = default;
   Status makeTargets(const Shot& shot);
   void drawStarts(const Shot& shot) const;
-  void drawFineStarts() const;
   void drawHits(const Shot& shot) const;
-  /// Draws those where the starts of one of these cells say so.
-  void drawTiles(const Program& program, const Shot& shot, int firstCell, int lastCell) const;
   /// The corner of a cell.
   glm::ivec2 cornerOf(int cell, const Shot& shot) const;
   /// A cell that is alone has smaller tiles, too.
@@ -67,8 +64,7 @@ class PrimaryHits {
   bool counted_ = false;
   double readings_ = 0.0;
   std::optional<Target> coarse_, fine_;  // starts, of all cells beside one another and of smaller tiles
-  std::optional<Target>
-      hits_;  // layers by the outputs of parts::kHits, one for readings if counted, and depth
+  std::optional<Target> hits_;           // outputs of parts::kHits, readings if counted, and depth
 };
 
 }  // namespace sdf::viewer

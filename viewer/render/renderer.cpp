@@ -140,15 +140,6 @@ Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& targe
   return okStatus();
 }
 
-Status Renderer::drawSample(const Frame& frame, const Shot& shot, const Target& target) {
-  if (hits_)
-    if (auto s = hits_->drawSample(shot); !s) return s;
-  target.bind();
-  drawBackground(shot);
-  drawPicture(frame, shot);
-  return okStatus();
-}
-
 void Renderer::prepare(const Frame& frame) {
   values_.move(frame.parameters);
   if (backgroundValues_) backgroundValues_->move(frame.parameters);
@@ -161,8 +152,15 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
   samples_ = shot.samples();
   if (hits_)
     if (auto s = hits_->begin(shot); !s) return s;
-  if (auto s = samples_ > 1 ? drawSamples(frame, shot, target) : drawSample(frame, shot, target); !s)
-    return s;
+  if (samples_ > 1) {
+    if (auto s = drawSamples(frame, shot, target); !s) return s;
+  } else {
+    if (hits_)
+      if (auto s = hits_->drawSample(shot); !s) return s;
+    target.bind();
+    drawBackground(shot);
+    drawPicture(frame, shot);
+  }
   return check("draw the scene");
 }
 

@@ -47,7 +47,6 @@ class Renderer {
   void setLook(const Program& program, const Frame& frame, const Shot& shot) const;
   void drawPicture(const Frame& frame, const Shot& shot) const;
   void drawBackground(const Shot& shot) const;
-  Status drawSample(const Frame& frame, const Shot& shot, const Target& target);
   Status drawSamples(const Frame& frame, Shot& shot, const Target& target);
 
   SceneShaders shaders_;
