@@ -41,14 +41,6 @@ std::string encoder(const Scene& scene, const Plan& plan) {
   return encoding(scene, plan) == "encode(c)" ? parts::kSrgb : "";
 }
 
-Macros countingMacros(bool counted) {
-  const auto count = [&](const std::string& what) { return counted ? what : ""; };
-  return {{"COUNT_MARCH", count("counted[bounce == 0 ? 0 : 3] += float(hit.readings);")},
-          {"COUNT_SHADOW", count("counted[1] += 1.0;")},
-          {"COUNT_OCCLUSION", count("counted[2] += 1.0;")},
-          {"STORE_COUNTS", count("counts = weight * counted;")}};
-}
-
 // The primary rays are marched by the picture's shader, from where the cones say.
 bool startsHere(const Plan& plan) {
   return plan.cones && plan.groups.empty() && plan.options.view != View::Slice;
@@ -64,7 +56,12 @@ const Box& boundsOfRest(const Plan& plan) { return plan.rest ? plan.rest->bounds
 Macros pictureMacros(const Scene& scene, const Plan& plan) {
   const bool taps = plan.occlusion == OcclusionKind::Taps, steps = plan.occlusion == OcclusionKind::Steps;
   const Box& bounds = boundsOfRest(plan);
-  Macros macros = countingMacros(plan.options.countReadings);
+  const auto count = [&](const char* what) { return plan.options.countReadings ? what : ""; };
+  Macros macros;
+  macros["COUNT_MARCH"] = count("counted[bounce == 0 ? 0 : 3] += float(hit.readings);");
+  macros["COUNT_SHADOW"] = count("counted[1] += 1.0;");
+  macros["COUNT_OCCLUSION"] = count("counted[2] += 1.0;");
+  macros["STORE_COUNTS"] = count("counts = weight * counted;");
   macros["ENCODE(c)"] = encoding(scene, plan);
   macros["BOX_MIN"] = vector(bounds.min);
   macros["BOX_MAX"] = vector(bounds.max);

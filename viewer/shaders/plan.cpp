@@ -52,15 +52,6 @@ Result<Marched> marched(const Shape& shape) {
       "lipschitz constant"};
 }
 
-bool showsLight(View view) { return view == View::Picture || view == View::Shadow; }
-bool showsSurface(View view) { return view == View::Picture || view == View::Material; }
-bool showsOcclusion(View view) { return view == View::Picture || view == View::Occlusion; }
-
-bool mirrors(const Scene& scene, const Shape& whole) {
-  return scene.reflectionBounces > 0 &&
-         !whole.surface[static_cast<int>(Attribute::Reflectivity)].isConstant(0.0);
-}
-
 void planSurface(const Shape& whole, Plan& plan) {
   const Attributes byNumber = surfaceOf(whole, Expr::parameter({hidden("operand"), 0.0, 0.0, kInfinity}));
   if (byNumber != whole.surface) plan.operands = operandsOf(whole);
@@ -80,7 +71,9 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (auto s = keep(marched(whole), plan.whole); !s) return s.error();
   // Occlusion by steps counts the readings of the whole.
   const bool stepsCount = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps;
-  const bool isPicture = options.view == View::Picture;
+  const View view = options.view;
+  const bool isPicture = view == View::Picture;
+  const bool mirrors = !whole.surface[static_cast<int>(Attribute::Reflectivity)].isConstant(0.0);
   Split parts = split(scene, !stepsCount);
   plan.planes = std::move(parts.planes);
   const Shape rest = plan.planes.empty() || parts.others.empty() ? whole : unite(parts.others);
@@ -92,11 +85,11 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   plan.cones = options.method == Method::AutoRelaxed && !stepsCount;
   plan.tiled = plan.cones && isPicture && plan.planes.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
-  plan.lights = showsLight(options.view) && !scene.lights.empty();
+  plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
   if (plan.lights) plan.shadow = scene.shadow.kind;
-  if (showsOcclusion(options.view)) plan.occlusion = scene.ambientOcclusion.kind;
-  if (isPicture && mirrors(scene, whole)) plan.bounces = scene.reflectionBounces;
-  if (showsSurface(options.view)) planSurface(whole, plan);
+  if (isPicture || view == View::Occlusion) plan.occlusion = scene.ambientOcclusion.kind;
+  if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
+  if (isPicture || view == View::Material) planSurface(whole, plan);
   // A group is read without what marchable() adds where a slope is known near the bounds only.
   if (options.grouped && plan.cones && isPicture && slopeOf(rest) < kInfinity)
     plan.groups = groupsOf(parts.operands);

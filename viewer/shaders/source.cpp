@@ -53,12 +53,13 @@ std::set<std::string> constantsOf(const std::string& text) {
   return result;
 }
 
-}  // namespace
-
+/// The line with the version, and the precision where it must be stated.
 std::string header(bool es) {
   return es ? "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
             : "#version 330 core\n";
 }
+
+}  // namespace
 
 std::string number(double v) {
   char text[32];

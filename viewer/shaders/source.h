@@ -14,9 +14,6 @@
 
 namespace sdf::viewer {
 
-/// Returns the line with the version, and the precision where it must be stated.
-std::string header(bool es);
-
 /// Writes the number as a GLSL term.
 std::string number(double v);
 
