@@ -31,6 +31,7 @@ void choice(const char* label, Enum& value, const char* const (&names)[N]) {
 constexpr double kWidest = 1e6, kLargest = 1e300;
 
 constexpr ImGuiSliderFlags kClamped = ImGuiSliderFlags_AlwaysClamp;
+constexpr ImGuiSliderFlags kLogarithmic = kClamped | ImGuiSliderFlags_Logarithmic;
 constexpr ImGuiColorEditFlags kColor = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR;
 
 /// A slider, or where the range is too wide for one, a number to drag. The name is shown as it is, whatever
@@ -58,8 +59,7 @@ bool coloredLight(glm::vec4& product) {
   // Not quite to 0, where the colour would be lost.
   constexpr float kLeast = 0.001f, kMost = 10.0f;
   bool moved = ImGui::ColorEdit3("colour", glm::value_ptr(color), kColor);
-  moved |= ImGui::SliderFloat("intensity", &intensity, kLeast, kMost, "%.3f",
-                              kClamped | ImGuiSliderFlags_Logarithmic);
+  moved |= ImGui::SliderFloat("intensity", &intensity, kLeast, kMost, "%.3f", kLogarithmic);
   if (moved) product = glm::vec4(intensity * color, product.w);
   return moved;
 }
@@ -123,8 +123,7 @@ void lightPanel(Session& session) {
   }
   if (ImGui::ColorEdit3("ambient", glm::value_ptr(look.ambient), kColor)) edits.ambient = look.ambient;
   if (ImGui::ColorEdit3("fog", glm::value_ptr(look.fogColor), kColor)) edits.fogColor = look.fogColor;
-  if (ImGui::SliderFloat("fog density", &look.fogDensity, 0.0f, 1.0f, "%.4f",
-                         kClamped | ImGuiSliderFlags_Logarithmic))
+  if (ImGui::SliderFloat("fog density", &look.fogDensity, 0.0f, 1.0f, "%.4f", kLogarithmic))
     edits.fogDensity = look.fogDensity;
   if (ImGui::Button("As in the file##light")) edits = {};
 }
@@ -157,15 +156,14 @@ void clock(Session& session) {
   constexpr double kLeast = 0.0, kMost = 1e6;
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::DragScalar("##time", ImGuiDataType_Double, &session.controls.time, 0.02f, &kLeast, &kMost, "%.2f s",
-                    ImGuiSliderFlags_AlwaysClamp);
+                    kClamped);
 }
 
 void marching(Controls& controls) {
   choice("view", controls.view, kViews);
   choice("method", controls.method, kMethods);
-  ImGui::SliderInt("steps", &controls.maxSteps, kFewestSteps, kMostSteps, "at most %d",
-                   ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-  ImGui::SliderInt("samples", &controls.samples, 1, kMostSamples, "%d a side", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderInt("steps", &controls.maxSteps, kFewestSteps, kMostSteps, "at most %d", kLogarithmic);
+  ImGui::SliderInt("samples", &controls.samples, 1, kMostSamples, "%d a side", kClamped);
 }
 
 void camera(Session& session, Requests& requests) {
