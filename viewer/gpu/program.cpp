@@ -196,7 +196,9 @@ void Program::refuseFaults() const {
 
 void Program::set(const std::string& name, int value) const { glUniform1i(location(name), value); }
 
-void Program::set(const std::string& name, float value) const { glUniform1f(location(name), value); }
+void Program::set(const std::string& name, double value) const {
+  glUniform1f(location(name), static_cast<float>(value));
+}
 
 void Program::set(const std::string& name, const glm::vec2& value) const {
   glUniform2fv(location(name), 1, glm::value_ptr(value));
@@ -219,7 +221,7 @@ void Program::draw() const {
 
 void Program::drawTiles(int columns, int rows, int side) const {
   set("tileGrid", glm::vec2(columns, rows));
-  set("tileSide", static_cast<float>(side));
+  set("tileSide", static_cast<double>(side));
   refuseFaults();
   glBindVertexArray(vertexArray_.id());
   // A point whose middle is outside the viewport is left out altogether.

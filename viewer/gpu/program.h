@@ -50,8 +50,8 @@ class Program {
   std::vector<std::string> uniformFaults() const;
 
   // These make the program the one that draws.
-  void set(const std::string& name, int value) const;  ///< also a sampler's unit
-  void set(const std::string& name, float value) const;
+  void set(const std::string& name, int value) const;     ///< also a sampler's unit
+  void set(const std::string& name, double value) const;  ///< a float
   void set(const std::string& name, const glm::vec2& value) const;
   void set(const std::string& name, const glm::vec3& value) const;
   void set(const std::string& name, std::span<const glm::vec4> values) const;  ///< vec4[]

@@ -38,8 +38,7 @@ void UniformValues::move(const Values& inputs) {
   Values own;
   for (const std::string& name : inputs_)
     if (const auto value = inputs.find(name); value != inputs.end()) own.insert(*value);
-  if (computed_ && own == last_) return;
-  computed_ = true;
+  if (own == last_) return;
   const std::vector<double> values = numbers_.uniform(own);
   for (std::size_t i = 0; i < values.size(); ++i)
     vectors_[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
@@ -67,22 +66,21 @@ double Shot::pixelRadius() const { return std::tan(0.5 * glm::radians(frame_.loo
 double Shot::footprint() const { return frame_.filter ? 2.0 * pixelRadius() / frame_.samples : 0.0; }
 
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
-  const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
   const Eye& eye = frame_.look.eye;
   program.set("size", glm::vec2(width_, height_));
   program.set("from", glm::vec3(eye.from + ahead_ * axes_.forward));
   program.set("right", glm::vec3(axes_.right));
   program.set("up", glm::vec3(axes_.up));
   program.set("forward", glm::vec3(axes_.forward));
-  real("ahead", ahead_);
-  real("maxDistance", extent_.maxDistance);
-  real("pixelRadius", pixelRadius());
-  real("epsilon", frame_.epsilon);
-  real("threshold", extent_.loose ? 0.5 * frame_.threshold : frame_.threshold);
+  program.set("ahead", ahead_);
+  program.set("maxDistance", extent_.maxDistance);
+  program.set("pixelRadius", pixelRadius());
+  program.set("epsilon", frame_.epsilon);
+  program.set("threshold", extent_.loose ? 0.5 * frame_.threshold : frame_.threshold);
   program.set("maxSteps", frame_.maxSteps);
   const int side = frame_.samples;
   program.set("within", glm::vec2(sample_ % side + 0.5, sample_ / side + 0.5) / static_cast<float>(side));
-  real("weight", weight());
+  program.set("weight", weight());
   if (!values.empty()) program.set("sdfValues", values);
 }
 

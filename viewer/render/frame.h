@@ -37,9 +37,8 @@ class UniformValues {
  private:
   Function numbers_;
   std::vector<std::string> inputs_;  // those that a frame can move
-  Values last_;
+  std::optional<Values> last_;
   std::vector<glm::vec4> vectors_;
-  bool computed_ = false;
 };
 
 /// An Extent is what rays need to know of a scene.

@@ -79,7 +79,7 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
     shot.set(cones, draw.values.vectors());
     cones.set("coarser", 0);
     cones.set("first", 1);
-    cones.set("tile", static_cast<float>(kTile));
+    cones.set("tile", static_cast<double>(kTile));
     cones.set("corner", glm::vec2(corner));
     cones.draw();
   }
@@ -88,14 +88,14 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
   fine_->bind();
   coarse_->bindTexture(0);
   cones.set("first", 0);
-  cones.set("tile", static_cast<float>(kFine));
+  cones.set("tile", static_cast<double>(kFine));
   cones.draw();
 }
 
 void PrimaryHits::giveStarts(const Program& program, int cell, const Shot& shot) const {
   (isFine() ? fine_ : coarse_)->bindTexture(0);
   program.set("starts", 0);
-  program.set("tile", static_cast<float>(isFine() ? kFine : kTile));
+  program.set("tile", static_cast<double>(isFine() ? kFine : kTile));
   program.set("corner", glm::vec2(cornerOf(cell, shot)));
 }
 
@@ -110,7 +110,7 @@ void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
 void PrimaryHits::drawTiles(const Program& program, const Shot& shot, std::optional<int> cell) const {
   coarse_->bindTexture(kStartsUnit);
   program.set("tiles", kStartsUnit);
-  program.set("tileLimit", static_cast<float>(shot.maxDistance()));
+  program.set("tileLimit", shot.maxDistance());
   program.set("firstCell", cell.value_or(0));
   program.set("lastCell", cell.value_or(cells_ - 1));
   program.drawTiles(tiles(shot.width(), kTile), tiles(shot.height(), kTile), kTile);

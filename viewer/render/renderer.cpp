@@ -66,7 +66,6 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
   const Look& look = frame.look;
   const Plan& plan = shaders_.plan;
   const View view = plan.options.view;
-  const auto real = [&](const char* name, double v) { program.set(name, static_cast<float>(v)); };
   if (plan.lights) {
     std::vector<glm::vec4> vectors, colors;
     for (const LookLight& light : look.lights) {
@@ -79,22 +78,22 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
   if (view == View::Picture) {
     program.set("ambient", look.ambient);
     program.set("fogColor", look.fogColor);
-    real("fogDensity", look.fogDensity);
+    program.set("fogDensity", look.fogDensity);
   }
   if (plan.shadow != Shadow::Kind::None) {
-    real("shadowStart", shadow_.start);
-    real("shadowReach", shadow_.reach);
-    real("shadowHit", std::min(1e-3, 0.5 * shadow_.start));
-    real("sharpness", look.sharpness);
+    program.set("shadowStart", shadow_.start);
+    program.set("shadowReach", shadow_.reach);
+    program.set("shadowHit", std::min(1e-3, 0.5 * shadow_.start));
+    program.set("sharpness", look.sharpness);
     program.set("shadowSteps", shadow_.steps);
   }
-  if (plan.occlusion != AmbientOcclusion::Kind::None) real("tapStrength", look.occlusionStrength);
-  if (plan.occlusion == AmbientOcclusion::Kind::Taps) real("tapSpacing", tapSpacing_);
-  if (plan.filters) real("footprint", shot.footprint());
+  if (plan.occlusion != AmbientOcclusion::Kind::None) program.set("tapStrength", look.occlusionStrength);
+  if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", tapSpacing_);
+  if (plan.filters) program.set("footprint", shot.footprint());
   if (view == View::Slice) {
     program.set("slicePoint", glm::vec3(look.eye.to));
     program.set("sliceNormal", axisOf(look.eye));
-    real("isolines", isolines(look.eye));
+    program.set("isolines", isolines(look.eye));
   }
 }
 
@@ -135,7 +134,7 @@ Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& targe
   target.bind();
   sums_->bindTexture(0);
   resolve_->set("sums", 0);
-  resolve_->set("weight", static_cast<float>(shot.weight()));
+  resolve_->set("weight", shot.weight());
   resolve_->draw();
   return okStatus();
 }
