@@ -18,18 +18,13 @@
 #include <stb_image.h>
 
 namespace sdf::viewer {
-namespace {
-
-void append(void* stream, void* data, int size) {
-  static_cast<std::ostream*>(stream)->write(static_cast<const char*>(data), size);
-}
-
-}  // namespace
-
 Status writePng(const std::filesystem::path& target, const Picture& picture) {
   const int width = picture.width, height = picture.height, channels = picture.channels;
   assert(width > 0 && height > 0 && (channels == 3 || channels == 4));
   assert(picture.bytes.size() == std::size_t(width) * std::size_t(height) * std::size_t(channels));
+  const auto append = [](void* stream, void* data, int size) {
+    static_cast<std::ostream*>(stream)->write(static_cast<const char*>(data), size);
+  };
   return writeFile(target, [&](std::ostream& out) -> Status {
     const auto* const bytes = picture.bytes.data();
     if (stbi_write_png_to_func(append, &out, width, height, channels, bytes, width * channels) == 0)

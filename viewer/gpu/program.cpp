@@ -137,9 +137,6 @@ bool Program::strict = false;
 bool Program::strict = true;
 #endif
 
-Program::Program(Handle program, Handle vertexArray)
-    : program_(std::move(program)), vertexArray_(std::move(vertexArray)) {}
-
 Result<Program> Program::create(const std::string& vertex, const std::string& fragment) {
   const auto vertexShader = compile(GL_VERTEX_SHADER, "vertex shader", vertex);
   if (!vertexShader) return vertexShader.error();

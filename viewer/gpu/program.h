@@ -65,7 +65,8 @@ class Program {
   void drawTiles(int columns, int rows, int side) const;
 
  private:
-  Program(Handle program, Handle vertexArray);
+  Program(Handle program, Handle vertexArray)
+      : program_(std::move(program)), vertexArray_(std::move(vertexArray)) {}
   int location(const std::string& name) const;  // -1 if there is none; the program is used from now on
   void refuseFaults() const;                    // if strict
 
