@@ -21,7 +21,7 @@ T evaluateGraph(const Expr& e, const std::array<T, kVariableCount>& variables, c
     else if (n.op() == Op::Variable)
       value = variables[static_cast<int>(n.variableIndex())];
     else
-      value = evaluateOp<T>(n.op(), [&](int i) { return values.at(n.arg(i).node()); });
+      value = evaluateOp<T>(n.op(), n.payloadPart(), [&](int i) { return values.at(n.arg(i).node()); });
     values.emplace(n.node(), value);
   }
   return values.at(e.node());

@@ -10,6 +10,7 @@
 
 #include "mesh/scenes.h"
 #include "sdf/eval/batch.h"
+#include "support/payloads.h"
 
 namespace sdf::test {
 namespace {
@@ -202,6 +203,46 @@ TEST(MeshShape, BoundsThatHoldTheShapeLeaveItAlone) {
   const Mesh a = meshed(sphere(1.0), free).mesh, b = meshed(sphere(1.0), held).mesh;
   EXPECT_EQ(a.positions, b.positions);
   EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(MeshShape, MeshesSamplesOnAGrid) {
+  constexpr double kRadius = 0.7;
+  const auto grid = std::make_shared<const Grid>(17, 1.0, [](auto p) { return glm::length(p) - kRadius; });
+  // The second derivatives of the distance add up to 2 / r; linear interpolation is off by h²/8 of that.
+  const double h = 2.0 * grid->halfCell(), nearest = kRadius - std::sqrt(3.0) * h;
+  const double off = h * h / 8.0 * 2.0 / nearest;
+  const Shape ball = field(payloadHere(grid), region(1.0), grid->lipschitz());
+  const MeshedShape m = meshed(ball, {.voxelSize = 1.0 / 40});
+  EXPECT_TRUE(m.stats.watertight && m.stats.manifold);
+  EXPECT_EQ(m.stats.components, 1);
+  EXPECT_EQ(m.stats.eulerCharacteristic, 2);
+  ASSERT_GT(m.mesh.positions.size(), 1000u);
+  for (std::size_t i = 0; i < m.mesh.positions.size(); ++i) {
+    const glm::dvec3 p(m.mesh.positions[i]);
+    ASSERT_NEAR(grid->value(p), 0.0, 1e-4);
+    ASSERT_NEAR(glm::length(p), kRadius, off);
+    // At a face between cells the gradients differ by as much as cells are wide, seen from the middle.
+    ASSERT_GE(glm::dot(glm::dvec3(m.mesh.normals[i]), p / glm::length(p)), std::cos(h / nearest));
+  }
+}
+
+// A union of payloads and balls, turned and moved, has the mesh of the balls that they are.
+TEST(MeshShape, MeshesPayloadsInAUnion) {
+  const auto four = fourPoints();
+  const Shape data = field(payloadHere(four), region(1.25), 1.0);
+  std::vector<Shape> balls;
+  for (const glm::dvec3& c : four->points()) balls.push_back(translate(sphere(four->radius()), Vec3E(c)));
+  const auto placed = [](const Shape& s) {
+    return unite(
+        {rotate(s, {0.3, 0.5, 0.0}), translate(s, {2.4, 0.0, 0.1}), translate(sphere(0.3), Vec3E(-1.0))});
+  };
+  const MeshedShape got = meshed(placed(data), {.voxelSize = 1.0 / 32});
+  const MeshedShape expected = meshed(placed(unite(balls)), {.voxelSize = 1.0 / 32});
+  EXPECT_TRUE(got.stats.watertight);
+  EXPECT_EQ(got.stats.components, expected.stats.components);
+  EXPECT_EQ(got.stats.eulerCharacteristic, expected.stats.eulerCharacteristic);
+  EXPECT_NEAR(signedVolume(got.mesh.positions, got.mesh.triangles),
+              signedVolume(expected.mesh.positions, expected.mesh.triangles), 1e-3);
 }
 
 TEST(MeshShape, SaysWhenThereIsNothingToMesh) {

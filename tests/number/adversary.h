@@ -150,7 +150,7 @@ class Adversary {
 inline std::vector<Op> operations() {
   std::vector<Op> all;
   for (int i = 0; i < kOpCount; ++i)
-    if (kOps[i].arity > 0 && static_cast<Op>(i) != Op::Claim) all.push_back(static_cast<Op>(i));
+    if (isOperation(static_cast<Op>(i))) all.push_back(static_cast<Op>(i));
   return all;
 }
 

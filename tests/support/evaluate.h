@@ -29,6 +29,7 @@ class Evaluator {
         const auto given = parameters.find(n.parameterInfo().name);
         step.value = given == parameters.end() ? n.parameterInfo().value : given->second;
       }
+      if (n.payloadPart()) step.payload = *n.payloadPart();
       for (int i = 0; i < arity(n.op()); ++i) step.in[i] = place.at(n.arg(i));
       place.emplace(n, static_cast<int>(steps_.size()));
       steps_.push_back(step);
@@ -43,7 +44,8 @@ class Evaluator {
       if (s.op == Op::Variable)
         values_[i] = s.in[0] < 3 ? p[s.in[0]] : 0.0;
       else if (s.op != Op::Constant && s.op != Op::Parameter)
-        values_[i] = evaluateOp<double>(s.op, [&](int a) { return values_[s.in[a]]; });
+        values_[i] = evaluateOp<double>(s.op, s.payload.payload ? &s.payload : nullptr,
+                                        [&](int a) { return values_[s.in[a]]; });
     }
     return values_.back();
   }
@@ -67,6 +69,7 @@ class Evaluator {
     Op op = Op::Constant;
     std::array<int, 3> in{};
     double value = 0.0;
+    PayloadPart payload;
   };
   std::vector<Step> steps_;
   mutable std::vector<double> values_;

@@ -92,6 +92,20 @@ inline FloatRange choiceSlope(const FloatRange& c, const FloatRange& a, const Fl
   return select(c, a, b);
 }
 
+/// What a payload states of its value; of its derivatives only their bound is promised.
+inline std::array<FloatRange, 4> payloadSlopes(const PayloadPart& part, const FloatRange& a,
+                                               const FloatRange& b, const FloatRange& c) {
+  const Interval range = sdf::payloadAt(part, a.range, b.range, c.range);
+  const glm::dvec3 farthest(a.range.magnitude(), b.range.magnitude(), c.range.magnitude());
+  const double by = part.part == 0 ? part.payload->rounding(farthest) : 0.0;
+  const FloatRange slope = rounded(payloadSlope(part, range), 1.0);
+  return {rounded({range.lo - by, range.hi + by, range.nan}, promise(Op::Payload).ulps), slope, slope, slope};
+}
+inline FloatRange payloadAt(const PayloadPart& part, const FloatRange& a, const FloatRange& b,
+                            const FloatRange& c) {
+  return payloadSlopes(part, a, b, c)[0];
+}
+
 using FloatVariables = std::array<FloatRange, kVariableCount>;
 
 inline FloatVariables floatVariables(const glm::vec3& p) {

@@ -52,7 +52,7 @@ inline std::vector<OperationCase> graphOperations() {
   std::vector<OperationCase> cases;
   for (int i = 0; i < kOpCount; ++i) {
     const Op op = static_cast<Op>(i);
-    if (arity(op) == 0 || info(op).fused || op == Op::Claim) continue;
+    if (!isOperation(op) || info(op).fused) continue;
     cases.push_back({op, Expr::make(op, {xyz.data(), static_cast<std::size_t>(arity(op))})});
   }
   return cases;

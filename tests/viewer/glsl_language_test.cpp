@@ -10,8 +10,10 @@
 
 #include "sdf/eval/glsl.h"
 #include "sdf/script/script.h"
+#include "sdf/shape/solids.h"
 #include "support/folder.h"
 #include "support/operations.h"
+#include "support/payloads.h"
 #include "tools/command.h"
 #include "viewer/shaders/assemble.h"
 
@@ -88,6 +90,13 @@ TEST_F(GlslLanguage, HasEveryOperation) {
       writer.source() + "out vec4 color;\nvoid main() {\n  sdfTakeValues();\n  float v[" + count +
       "];\n  read(gl_FragCoord.xyz, vec3(0.0), v);\n  color = vec4(v[" + count + " - 1]);\n}\n";
   expectSound({"#version 330 core\n" + body, "#version 300 es\nprecision highp float;\n" + body});
+}
+
+TEST_F(GlslLanguage, HasPayloads) {
+  Scene scene;
+  scene.add("grid", field(test::payloadHere(test::sampledBall(5)), Box::centred(glm::dvec3(1.0)), 2.0));
+  scene.add("points", field(test::payloadHere(test::fourPoints()), Box::centred(glm::dvec3(1.5)), 1.0));
+  expectSound(shadersOf(scene));
 }
 
 TEST_F(GlslLanguage, HasEveryKindOfShadowAndOcclusion) {

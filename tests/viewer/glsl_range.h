@@ -123,6 +123,13 @@ inline GlslRange select(const GlslRange& c, const GlslRange& a, const GlslRange&
   return sdf::select(c.range, a.range, b.range);
 }
 
+/// What a payload states of its value; of its derivatives only their bound is promised.
+inline GlslRange payloadAt(const PayloadPart& part, const GlslRange& a, const GlslRange& b,
+                           const GlslRange& c) {
+  return flushed(payloadAt(part, FloatRange(a.range), FloatRange(b.range), FloatRange(c.range)).range,
+                 kRoundedUlps);
+}
+
 /// Ranges of expressions, point by point.
 class GlslReading {
  public:
@@ -132,6 +139,7 @@ class GlslReading {
       Step step{e.op(), {}, dependsOnPlace(e, place) ? 0.0 : uniformValue(e)};
       if (dependsOnPlace(e, place)) {
         if (e.op() == Op::Variable) step.in[0] = static_cast<int>(e.variableIndex());
+        if (e.payloadPart()) step.payload = *e.payloadPart();
         for (int i = 0; i < arity(e.op()); ++i) step.in[i] = place.at(e.arg(i));
       } else {
         step.op = Op::Constant;
@@ -151,7 +159,8 @@ class GlslReading {
       else if (s.op == Op::Constant)
         values_[i] = GlslRange(s.value);
       else
-        values_[i] = evaluateOp<GlslRange>(s.op, [&](int k) { return values_[s.in[k]]; });
+        values_[i] = evaluateOp<GlslRange>(s.op, s.payload.payload ? &s.payload : nullptr,
+                                           [&](int k) { return values_[s.in[k]]; });
     }
     std::vector<Interval> result;
     for (const int i : outputs_) result.push_back(values_[i].range);
@@ -163,6 +172,7 @@ class GlslReading {
     Op op;
     std::array<int, 3> in;
     double value;
+    PayloadPart payload{};
   };
   bool dependsOnPlace(const Expr& e, const std::unordered_map<Expr, int>& place) const {
     if (e.op() == Op::Variable) return true;

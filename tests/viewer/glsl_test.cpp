@@ -12,6 +12,7 @@
 #include "sdf/script/script.h"
 #include "shape/cases.h"
 #include "support/operations.h"
+#include "support/payloads.h"
 #include "viewer/glsl_probe.h"
 #include "viewer/glsl_range.h"
 #include "viewer/gpu/context.h"
@@ -188,6 +189,69 @@ TEST_F(GlslCatalog, DistancesAndGradientsAreThose) {
     checkDistance(c.shape, places, 0.0);
     checkGradient(c.shape, places, 0.0);
   }
+}
+
+/// Places at which no coordinate lies within rounding of the border of a grid's cell.
+std::vector<Place> placesOffBorders(int count) {
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> steps(-25, 24);
+  const auto any = [&] { return (static_cast<float>(steps(random)) + 0.5f) / 16.0f; };
+  std::vector<Place> places;
+  for (int i = 0; i < count; ++i) places.push_back({{any(), any(), any()}, {}});
+  return places;
+}
+
+using GlslPayload = Gpu;
+
+// Two payloads in one shader, one of them twice, at points that are not the position, with a parameter.
+TEST_F(GlslPayload, IsReadAsItPromises) {
+  const auto grid = sampledBall(5);
+  const auto points = fourPoints();
+  const auto [x, y, z] = position();
+  const Expr a = Expr::parameter({"a", 0.25, 0.0, 1.0});
+  const std::array outputs{payloadHere(grid), Expr::payload({points}, {x, y + a, z * 0.5}) * 2.0,
+                           Expr::payload({grid}, {a, 0.5, z}) + Expr::payload({points}, {a, a, a})};
+  const Tape tape(outputs);
+  check(outputs, placesOffBorders(2000), kMost,
+        [&](const glm::dvec3& p, const glm::dvec3&) { return evaluateAll(tape, p); });
+}
+
+TEST_F(GlslPayload, HasTheDoubleReadingsGradient) {
+  const auto [x, y, z] = position();
+  for (const PayloadCase& c : {PayloadCase{"Grid", sampledBall(5)}, PayloadCase{"Points", fourPoints()}}) {
+    SCOPED_TRACE(c.name);
+    const Expr e = Expr::payload({c.payload}, {x, z, y}) + y * 0.5;
+    const Tape tape(e);
+    const Vec3E g = gradientOf(e);
+    const auto places = placesOffBorders(2000);
+    const auto got = readByShader(std::array{g.x, g.y, g.z}, places);
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const glm::dvec3 expected = evaluateGradient(tape, places[i].p).gradient;
+      off += glm::length(expected - glm::dvec3(got[i][0], got[i][1], got[i][2])) > 1e-5;
+    }
+    EXPECT_LE(off, 5u) << "more than a few points are as far from two points";
+  }
+}
+
+// However often a payload is used, its data is there once, and its derivatives at a point are read once.
+TEST(GlslWriterTest, DefinesAPayloadOnce) {
+  const auto points = fourPoints();
+  const Expr e = payloadHere(points) + Expr::payload({points}, {position().y, 0.0, 0.0});
+  const Vec3E g = gradientOf(payloadHere(points));
+  GlslWriter writer;
+  writer.add("distance", {&e, 1});
+  writer.add("slope", std::array{g.x, g.y, g.z});
+  const std::string source = writer.source();
+  const auto count = [&](const std::string& text) {
+    std::size_t n = 0;
+    for (std::size_t at = source.find(text); at != std::string::npos; at = source.find(text, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("float sdfPayload0(vec3 p)"), 1u);
+  EXPECT_EQ(count(" = sdfPayload0("), 2u);
+  EXPECT_EQ(count(" = sdfPayload0Slopes("), 1u);
+  EXPECT_EQ(count("sdfPayload1"), 0u);
 }
 
 // A parameter is a uniform: its value is no part of the source.

@@ -15,6 +15,7 @@
 #include "sdf/shape/operators.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
+#include "support/payloads.h"
 #include "viewer/gpu_render.h"
 #include "viewer/psnr.h"
 #include "viewer/shaders/assemble.h"
@@ -112,6 +113,20 @@ TEST(Groups, TakeOneRootForBallsOfOneRadiusBesideOthers) {
     const Expr read = hoisted(group.distance);
     const auto order = topologicalOrder({&read, 1});
     EXPECT_EQ(std::count_if(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Sqrt; }), 1);
+  }
+}
+
+TEST(Groups, AreOfOnePayload) {
+  std::vector<Shape> all;
+  for (const auto& payload : {fourPoints(), fourPoints()})
+    for (const Shape& one :
+         scattered(field(payloadHere(payload) * 0.2, Box::centred(glm::dvec3(1.0)), 1.0), 50, 5))
+      all.push_back(one);
+  for (const OperandGroup& group : groupsOf(unite(all))) {
+    std::set<const Payload*> payloads;
+    for (const Expr& e : topologicalOrder({&group.distance, 1}))
+      if (e.payloadPart()) payloads.insert(e.payloadPart()->payload.get());
+    EXPECT_EQ(payloads.size(), 1u);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 // Older targets run through Highway's SSE4 path or its portable one; newer ones gain nothing over AVX3.
@@ -144,8 +145,26 @@ void runInstruction(const BatchJob& job, const RegisterInstruction& n) {
   }
 }
 
+// A payload writes to rows of its own, for the instruction's may be those of its arguments.
+template <class T>
+HWY_NOINLINE void runPayload(const BatchJob& job, const RegisterInstruction& n, const PayloadPart& part) {
+  const Argument<T, false> a(job, n, 0), b(job, n, 1), c(job, n, 2);
+  HWY_ALIGN float f[4][kBatchPoints];
+  constexpr bool kSlopes = std::is_same_v<T, Gradient>;
+  payloadSlopes(part, {a.row, b.row, c.row}, job.count, kSlopes, {f[0], f[1], f[2], f[3]});
+  for (std::size_t i = 0; i < job.count; i += hn::Lanes(kD)) {
+    const auto row = [&](int k) HWY_ATTR { return Lanes(hn::Load(kD, f[k] + i)); };
+    if constexpr (kSlopes)
+      Rowed<T>::store(chain(a(i), b(i), c(i), row(0), row(1), row(2), row(3)), job.registers[n.out] + i,
+                      job.stride);
+    else
+      Rowed<T>::store(row(0), job.registers[n.out] + i, job.stride);
+  }
+}
+
 template <class T>
 HWY_INLINE void runInstruction(const BatchJob& job, const RegisterInstruction& n) {
+  if (const PayloadPart* part = job.tape->payload(n); HWY_UNLIKELY(part)) return runPayload<T>(job, n, *part);
   dispatch(n.op, [&](auto tag) HWY_ATTR { runInstruction<T, tag.op>(job, n); });
 }
 

@@ -23,7 +23,8 @@ struct Function::Compiled {
         constants[input.place] = it->second;
       }
     for (const UniformStep& step : steps)
-      constants[step.out] = evaluateOp<double>(step.op, [&](int k) { return constants[step.in[k]]; });
+      constants[step.out] =
+          evaluateOp<double>(step.op, step.payload, [&](int k) { return constants[step.in[k]]; });
     return constants;
   }
 };

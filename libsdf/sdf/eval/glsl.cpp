@@ -1,5 +1,6 @@
 #include "sdf/eval/glsl.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr const char* kVariables[kVariableCount] = {"p.x", "p.y", "p.z", "n.x", "n.y", "n.z"};
 constexpr const char* kComponents = "xyzw";
+constexpr const char* kPayload = "sdfPayload";  // and its place
 
 // What GLSL leaves undefined, defined as in number/scalar.h; and arcs by atan, for Mesa's own are off by
 // 4e-4.
@@ -117,9 +119,11 @@ class GlslWriter::Body {
         names_[e] = writer_.terms_.at(e.parameterInfo().name);
       } else {
         std::string name = "v" + std::to_string(lines_++);
-        body_ += "  float " + name + " = " +
-                 evaluateOp<Code>(e.op(), [&](int i) { return Code{this->name(e.arg(i))}; }).text + ";" +
-                 writer_.commentOf(e) + "\n";
+        const std::string term =
+            e.payloadPart()
+                ? payload(e, *e.payloadPart())
+                : evaluateOp<Code>(e.op(), [&](int i) { return Code{this->name(e.arg(i))}; }).text;
+        body_ += "  float " + name + " = " + term + ";" + writer_.commentOf(e) + "\n";
         names_[e] = std::move(name);
       }
     }
@@ -144,7 +148,18 @@ class GlslWriter::Body {
     return false;
   }
 
+  // The derivatives of a payload at a point are computed together.
+  std::string payload(const Expr& e, const PayloadPart& part) {
+    const std::string at = "(vec3(" + name(e.arg(0)) + ", " + name(e.arg(1)) + ", " + name(e.arg(2)) + "))";
+    const std::string function = writer_.nameOf(part.payload);
+    if (part.part == 0) return function + at;
+    const auto [slopes, isNew] = slopes_.try_emplace(function + at, "s" + std::to_string(slopes_.size()));
+    if (isNew) body_ += "  vec3 " + slopes->second + " = " + function + "Slopes" + at + ";\n";
+    return slopes->second + "." + kComponents[part.part - 1];
+  }
+
   GlslWriter& writer_;
+  std::unordered_map<std::string, std::string> slopes_;  // by the call for the value
   std::unordered_map<Expr, std::string> names_;
   std::string body_;
   int lines_ = 0;
@@ -186,6 +201,12 @@ std::string GlslWriter::uniform(const Expr& e) {
   return "u" + std::to_string(slot);
 }
 
+std::string GlslWriter::nameOf(const std::shared_ptr<const Payload>& payload) {
+  const auto place = std::find(payloads_.begin(), payloads_.end(), payload) - payloads_.begin();
+  if (payloads_.begin() + place == payloads_.end()) payloads_.push_back(payload);
+  return kPayload + std::to_string(place);
+}
+
 // Some drivers read a uniform anew in each turn of a loop, and check its index each time.
 std::string GlslWriter::source() const {
   std::string text, takes;
@@ -199,6 +220,8 @@ std::string GlslWriter::source() const {
   text += (uniforms_.empty() ? "" : ";\n") + ("void sdfTakeValues() {\n" + takes + "}\n\n");
   for (const auto& [name, code] : kHelpers)
     if (functions_.find(name + "(") != std::string::npos) text += code + "\n";
+  for (std::size_t i = 0; i < payloads_.size(); ++i)
+    text += payloads_[i]->glsl(kPayload + std::to_string(i)) + "\n";
   return text + functions_;
 }
 

@@ -42,6 +42,7 @@ class GlslWriter {
  private:
   class Body;
   std::string uniform(const Expr& e);
+  std::string nameOf(const std::shared_ptr<const Payload>& payload);
   std::string commentOf(const Expr& e) const;
 
   std::string functions_;
@@ -50,6 +51,7 @@ class GlslWriter {
   std::unordered_map<Expr, std::size_t> labels_;  // index of the comment
   std::vector<Expr> uniforms_;
   std::unordered_map<Expr, std::size_t> slots_;
+  std::vector<std::shared_ptr<const Payload>> payloads_;
 };
 
 }  // namespace sdf

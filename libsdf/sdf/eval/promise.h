@@ -18,8 +18,9 @@ namespace sdf {
 /// This holds for all finite arguments of a magnitude up to `largest`, denormal ones too. Infinite ones
 /// beside these, and NaN, give what they give in double.
 ///
-/// A tape's constants are rounded to float first. Derivatives are made of the same operations, in the order
-/// in which number/dual-inl.h writes them.
+/// A payload states what its value may be off by besides, Payload::rounding; its derivatives are promised no
+/// more than its slope. A tape's constants are rounded to float first. Derivatives are made of the same
+/// operations, in the order in which number/dual-inl.h writes them.
 struct Promise {
   enum class Of {
     Nothing,
@@ -38,7 +39,7 @@ struct Promise {
 constexpr Promise promise(Op op) {
   using enum Op;
   const auto is = [op](auto... ops) { return ((op == ops) || ...); };
-  if (is(Constant, Parameter, Add, Sub, Mul, Div, Square, AbsMinus)) return {0.5};
+  if (is(Constant, Parameter, Add, Sub, Mul, Div, Square, AbsMinus, Payload)) return {0.5};
   if (is(Sqrt, Pow)) return {2.0};
   if (is(Sin, Cos, Asin, Acos, Atan, Atan2, Exp, Log)) return {4.0};
   if (is(Tan)) return {8.0};

@@ -19,13 +19,12 @@ class ScalarReading {
     tape_ = &tape;
     variables_ = variables;
     values_.resize(tape.instructions().size());
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      const Instruction& instruction = tape.instructions()[i];
-      values_[i] = evaluateOp<T>(instruction.op, [&](int k) {
+    T* next = values_.data();
+    for (const Instruction& instruction : tape.instructions())
+      *next++ = evaluateOp<T>(instruction.op, tape.payload(instruction), [&](int k) {
         const int rows = rowArguments(instruction.op);
         return k < rows ? value(instruction.in[k]) : number(tape.constant(instruction.constants + k - rows));
       });
-    }
   }
 
   T output(std::size_t i = 0) const { return value(tape_->outputs()[i]); }
@@ -45,12 +44,6 @@ class ScalarReading {
   const Tape* tape_ = nullptr;
   std::array<T, kVariableCount> variables_;
   std::vector<T> values_;
-};
-
-/// Value and exact partial derivatives along x, y and z.
-struct ValueAndGradient {
-  double value;
-  glm::dvec3 gradient;
 };
 
 /// The reference reading: output 0 in double at p (and, where the tape uses it, the unit normal n). This is

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sdf/expr/expr.h"
+#include "sdf/expr/payload.h"
 
 namespace sdf {
 
@@ -36,7 +37,8 @@ class Operand {
   std::uint32_t bits_ = 0;
 };
 
-/// One operation. The constants of a fused operation lie in a row from `constants` on.
+/// One operation. The constants of a fused operation lie in a row from `constants` on; a payload is the one
+/// at this place of the tape's list.
 struct Instruction {
   Op op;
   std::array<Operand, 3> in;
@@ -74,6 +76,11 @@ class Tape {
   const std::vector<Operand>& outputs() const { return code_->outputs; }
   double constant(std::size_t i) const { return pool_->doubles[i]; }
   const float* floats() const { return pool_->floats.data(); }
+  /// The instruction's payload (in either form); null where it is an operation.
+  template <class AnyInstruction>
+  const PayloadPart* payload(const AnyInstruction& n) const {
+    return n.op == Op::Payload ? &pool_->payloads[n.constants] : nullptr;
+  }
 
   /// Register form of the tape, for the batch readings.
   const std::vector<RegisterInstruction>& program() const { return code_->program; }
@@ -109,6 +116,7 @@ class Tape {
   struct Pool {
     std::vector<double> doubles;  // 0 and 1 come first: what a decided comparison turns into
     std::vector<float> floats;
+    std::vector<PayloadPart> payloads;
   };
   struct Code {
     std::vector<Instruction> instructions;

@@ -86,9 +86,10 @@ void TapeCompiler::layOutUniform() {
       pool_->doubles.push_back(node.e.parameterInfo().value);
       continue;
     }
-    UniformStep step{node.e.op(), {}, node.place};
+    UniformStep step{node.e.op(), {}, node.place, node.e.payloadPart()};
     for (int k = 0; k < arity(step.op); ++k) step.in[k] = nodes_[node.args[k]].place;
-    pool_->doubles.push_back(evaluateOp<double>(step.op, [&](int k) { return pool_->doubles[step.in[k]]; }));
+    pool_->doubles.push_back(
+        evaluateOp<double>(step.op, step.payload, [&](int k) { return pool_->doubles[step.in[k]]; }));
     steps_.push_back(step);
   }
 }
@@ -198,6 +199,10 @@ void TapeCompiler::emit(Index i) {
   for (std::size_t k = 0; k < m.args.size(); ++k) instruction.in[k] = place(m.args[k]);
   if (!m.numbers.empty()) instruction.constants = static_cast<std::uint32_t>(pool_->doubles.size());
   for (const Number& number : m.numbers) inPool(number);
+  if (const PayloadPart* payload = node.e.payloadPart()) {
+    instruction.constants = static_cast<std::uint32_t>(pool_->payloads.size());
+    pool_->payloads.push_back(*payload);
+  }
   node.place = static_cast<Index>(code_->instructions.size());
   code_->instructions.push_back(instruction);
 }

@@ -21,6 +21,7 @@ struct UniformStep {
   Op op;
   std::array<std::uint32_t, kMaxArity> in;
   std::uint32_t out;
+  const PayloadPart* payload = nullptr;  // in a node that the outputs hold
 };
 
 /// A list of at most N.

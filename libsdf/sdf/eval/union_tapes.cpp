@@ -19,7 +19,10 @@ UnionTapes::UnionTapes(std::span<const TapePtr> operands, TapePtr join) {
 }
 
 UnionTapes::Source UnionTapes::add(const TapePtr& tape, Tape::Pool& pool) {
-  const Source source{tape, static_cast<std::uint32_t>(pool.doubles.size())};
+  const Source source{tape, static_cast<std::uint32_t>(pool.doubles.size()),
+                      static_cast<std::uint32_t>(pool.payloads.size())};
+  const std::vector<PayloadPart>& payloads = tape->pool_->payloads;
+  pool.payloads.insert(pool.payloads.end(), payloads.begin(), payloads.end());
   const std::vector<double>& own = tape->pool_->doubles;
   pool.doubles.insert(pool.doubles.end(), own.begin() + 2, own.end());
   return source;
@@ -102,7 +105,7 @@ class UnionTapes::Linker {
     };
     for (Instruction instruction : source.tape->instructions()) {
       for (int k = 0; k < rowArguments(instruction.op); ++k) instruction.in[k] = moved(instruction.in[k]);
-      instruction.constants += constants;
+      instruction.constants += instruction.op == Op::Payload ? source.firstPayload : constants;
       if (instruction.lipschitz > 0.0f) instruction.lipschitz *= slope;
       code_->instructions.push_back(instruction);
     }

@@ -27,7 +27,7 @@ class UnionTapes {
  private:
   struct Source {
     TapePtr tape;
-    std::uint32_t firstConstant;  // in the pool of all
+    std::uint32_t firstConstant, firstPayload;  // in the pool of all
   };
   class Linker;
   Source add(const TapePtr& tape, Tape::Pool& pool);

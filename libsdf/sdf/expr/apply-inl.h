@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sdf/expr/op.h"
+#include "sdf/expr/payload.h"
 #include "sdf/number/dual-inl.h"
 
 #ifdef HWY_NAMESPACE
@@ -102,6 +103,29 @@ T evaluateOp(Op op, Args&& args) {
     (std::make_integer_sequence<int, Tag::arity>());
   });
   return result;
+}
+
+/// The same where `op` may be a payload, which is given then, and null else.
+template <class T, class Args>
+T evaluateOp(Op op, const PayloadPart* payload, Args&& args) {
+  if (payload) [[unlikely]]
+    return payloadAt(*payload, args(0), args(1), args(2));
+  return evaluateOp<T>(op, args);
+}
+
+template <class T, int N>
+Dual<T, N> payloadAt(const PayloadPart& part, const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c) {
+  const std::array<T, 4> f = payloadSlopes(part, a.v, b.v, c.v);
+  return chain(a, b, c, f[0], f[1], f[2], f[3]);
+}
+/// By the bound of its slope, however the arguments move together.
+template <int N>
+Dual<Interval, N> payloadAt(const PayloadPart& part, const Dual<Interval, N>& a, const Dual<Interval, N>& b,
+                            const Dual<Interval, N>& c) {
+  Dual<Interval, N> r{payloadAt(part, a.v, b.v, c.v), {}};
+  for (int i = 0; i < N; ++i)
+    r.d[i] = mul(payloadSlope(part, r.v), sqrt(squareAdd(a.d[i], squareAdd(b.d[i], square(c.d[i])))));
+  return r;
 }
 
 #ifdef HWY_NAMESPACE

@@ -25,6 +25,7 @@ class Node {
   Variable variable = Variable::X;
   double value = 0.0;
   std::unique_ptr<ParameterInfo> parameter;
+  std::unique_ptr<PayloadPart> payload;
   std::array<Expr, kMaxGraphArity> args{Expr(nullptr), Expr(nullptr), Expr(nullptr)};
   std::size_t hash = 0;
   Interval range;
@@ -40,6 +41,7 @@ std::size_t hashOf(const Node& n) {
   std::size_t h = combine(static_cast<std::size_t>(n.op) + 1, std::bit_cast<std::uint64_t>(n.value));
   h = combine(h, static_cast<std::size_t>(n.variable));
   if (n.parameter) h = combine(h, std::hash<std::string>()(n.parameter->name));
+  if (n.payload) h = combine(h, reinterpret_cast<std::size_t>(n.payload->payload.get()) + n.payload->part);
   for (const Expr& a : n.args) h = combine(h, reinterpret_cast<std::size_t>(a.node()));
   return h;
 }
@@ -51,8 +53,11 @@ struct Same {
   bool operator()(const Node* a, const Node* b) const {
     return a->op == b->op && a->variable == b->variable &&
            std::bit_cast<std::uint64_t>(a->value) == std::bit_cast<std::uint64_t>(b->value) &&
-           a->args == b->args &&
-           (a->parameter ? b->parameter && *a->parameter == *b->parameter : !b->parameter);
+           a->args == b->args && same(a->parameter, b->parameter) && same(a->payload, b->payload);
+  }
+  template <class T>
+  static bool same(const std::unique_ptr<T>& a, const std::unique_ptr<T>& b) {
+    return a ? b && *a == *b : !b;
   }
 };
 
@@ -84,7 +89,7 @@ void setFacts(Node& n) {
     default:
       break;
   }
-  const Fact fact = evaluateOp<Fact>(n.op, [&](int i) { return factOf(*n.args[i].node()); });
+  const Fact fact = evaluateOp<Fact>(n.op, n.payload.get(), [&](int i) { return factOf(*n.args[i].node()); });
   n.range = fact.v;
   n.lipschitz = fact.d[0].magnitude();
 }
@@ -117,7 +122,7 @@ class NodeTable {
       return Expr(*it);
     }
     if (nodesHeld >= nodesAllowed) throw NodeLimitReached();
-    setFacts(*n);
+    if (!n->payload) setFacts(*n);  // a payload's own code does not run under the lock
     Node* node = n.release();
     nodes_.insert(node);
     ++nodesHeld;
@@ -136,6 +141,7 @@ class NodeTable {
  private:
   // Deep graphs are taken down with an explicit stack.
   void releaseLast(Node* first) {
+    std::vector<PayloadPart> payloads;  // outlive the lock, for they may be large, or hold expressions
     std::lock_guard lock(mutex_);
     std::vector<Node*> pending{first};
     while (!pending.empty()) {
@@ -145,6 +151,7 @@ class NodeTable {
       nodes_.erase(n);
       for (Expr& a : n->args)
         if (a.node_) pending.push_back(std::exchange(a.node_, nullptr));
+      if (n->payload) payloads.push_back(*n->payload);
       delete n;
       --nodesHeld;
     }
@@ -192,6 +199,17 @@ Expr Expr::parameter(const ParameterInfo& info) {
   return NodeTable::instance().intern(std::move(n));
 }
 
+Expr Expr::payload(const PayloadPart& part, const std::array<Expr, 3>& at) {
+  if (at[0].isConstant() && at[1].isConstant() && at[2].isConstant())
+    return payloadAt(part, at[0].constantValue(), at[1].constantValue(), at[2].constantValue());
+  auto n = std::make_unique<Node>();
+  n->op = Op::Payload;
+  n->payload = std::make_unique<PayloadPart>(part);
+  n->args = at;
+  setFacts(*n);
+  return NodeTable::instance().intern(std::move(n));
+}
+
 namespace {
 
 // A simpler expression of the same meaning, NaN and infinity included, or the null node's absence.
@@ -230,7 +248,7 @@ std::optional<Expr> simplified(Op op, std::span<const Expr> args) {
 }  // namespace
 
 Expr Expr::make(Op op, std::span<const Expr> args) {
-  assert(static_cast<int>(args.size()) == arity(op) && arity(op) > 0 && !info(op).fused && op != Op::Claim);
+  assert(static_cast<int>(args.size()) == arity(op) && isOperation(op) && !info(op).fused);
   if (std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.isConstant(); }))
     return evaluateOp<double>(op, [&](int i) { return args[i].constantValue(); });
   if (std::optional<Expr> simpler = simplified(op, args)) return *std::move(simpler);
@@ -245,6 +263,7 @@ const Expr& Expr::arg(int i) const { return node_->args[i]; }
 double Expr::constantValue() const { return node_->value; }
 Variable Expr::variableIndex() const { return node_->variable; }
 const ParameterInfo& Expr::parameterInfo() const { return *node_->parameter; }
+const PayloadPart* Expr::payloadPart() const { return node_->payload.get(); }
 const Interval& Expr::range() const { return node_->range; }
 double Expr::lipschitz() const { return node_->lipschitz; }
 Expr Expr::claimLipschitz(double bound) const {
@@ -315,13 +334,14 @@ double uniformValue(const Expr& e) {
     else if (n.op() == Op::Parameter)
       v = n.parameterInfo().value;
     else
-      v = evaluateOp<double>(n.op(), [&](int i) { return values.at(n.arg(i).node()); });
+      v = evaluateOp<double>(n.op(), n.payloadPart(), [&](int i) { return values.at(n.arg(i).node()); });
   }
   return values.at(e.node());
 }
 
 Expr remade(const Expr& node, std::span<const Expr> args) {
   if (args.empty()) return node;
+  if (node.op() == Op::Payload) return Expr::payload(*node.payloadPart(), {args[0], args[1], args[2]});
   return node.op() == Op::Claim ? args[0].claimLipschitz(node.lipschitz()) : Expr::make(node.op(), args);
 }
 

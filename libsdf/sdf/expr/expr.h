@@ -32,6 +32,7 @@ struct ParameterInfo {
 };
 
 class Node;
+struct PayloadPart;
 
 /// Handle to a node. Copying is cheap, equal graphs are the same node, and handles may be made and dropped on
 /// any thread. Building a node folds constants; identities that would change the meaning for NaN or infinity
@@ -46,7 +47,11 @@ class Expr {
 
   static Expr variable(Variable v);
   static Expr parameter(const ParameterInfo& info);
-  /// Node of `op` (not a leaf, not fused) with arity(op) arguments.
+  /// A function that is given by data (expr/payload.h), or a derivative of it, at this point. Its slope
+  /// follows from the function's and from the coordinates' own, so coordinates that form a basis let a
+  /// tighter one be claimed. Nodes of one payload, not of equal ones, are the same.
+  static Expr payload(const PayloadPart& part, const std::array<Expr, 3>& at);
+  /// Node of `op`, one of ops.def (not fused), with arity(op) arguments.
   static Expr make(Op op, std::span<const Expr> args);
 
   Op op() const;
@@ -56,6 +61,7 @@ class Expr {
   double constantValue() const;                ///< op() == Constant
   Variable variableIndex() const;              ///< op() == Variable
   const ParameterInfo& parameterInfo() const;  ///< op() == Parameter
+  const PayloadPart* payloadPart() const;      ///< null unless op() == Payload
   bool isConstant() const { return op() == Op::Constant; }
   bool isConstant(double v) const { return isConstant() && constantValue() == v; }
 
@@ -123,8 +129,8 @@ bool dependsOnSpace(const Expr& e);
 /// Value of an expression that does not depend on space, with parameters at their defaults.
 double uniformValue(const Expr& e);
 
-/// The node's operation over other arguments, as many as it has; a leaf is itself. A claim keeps its bound,
-/// which must hold for the new argument.
+/// The node's operation, or payload, over other arguments, as many as it has; a leaf is itself. A claim keeps
+/// its bound, which must hold for the new argument.
 Expr remade(const Expr& node, std::span<const Expr> args);
 
 /// What stands for a node, given what stands for its arguments; nothing where the node is to be remade.

@@ -37,6 +37,14 @@ Symbol squareAdd(const Symbol& a, const Symbol& c) { return add(Symbol(square(a.
 Symbol stepSlope(const Symbol& /*step*/) { return 0.0; }
 Symbol choiceSlope(const Symbol& c, const Symbol& a, const Symbol& b) { return select(c, a, b); }
 
+std::array<Symbol, 4> payloadSlopes(const PayloadPart& part, const Symbol& a, const Symbol& b,
+                                    const Symbol& c) {
+  const std::array<Expr, 3> at{a.e, b.e, c.e};
+  if (part.part != 0) return {Expr::payload(part, at), NAN, NAN, NAN};
+  const auto slope = [&](int k) { return Expr::payload({part.payload, k}, at); };
+  return {Expr::payload(part, at), slope(1), slope(2), slope(3)};
+}
+
 #define SDF_SYMBOL_UNARY(call) \
   Symbol call(const Symbol& a) { return call(a.e); }
 SDF_SYMBOL_UNARY(abs)
@@ -81,9 +89,10 @@ SymbolicDual leaf(const Expr& e) {
 Vec3E gradientOf(const Expr& e) {
   std::unordered_map<Expr, SymbolicDual> duals;
   for (const Expr& node : topologicalOrder({&e, 1}))
-    duals.emplace(node, arity(node.op()) == 0 ? leaf(node) : evaluateOp<SymbolicDual>(node.op(), [&](int i) {
-                    return duals.at(node.arg(i));
-                  }));
+    duals.emplace(node, arity(node.op()) == 0
+                            ? leaf(node)
+                            : evaluateOp<SymbolicDual>(node.op(), node.payloadPart(),
+                                                       [&](int i) { return duals.at(node.arg(i)); }));
   const SymbolicDual& result = duals.at(e);
   return {result.d[0].e, result.d[1].e, result.d[2].e};
 }

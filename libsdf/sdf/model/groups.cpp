@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "sdf/expr/hoist.h"
+#include "sdf/expr/payload.h"
 
 namespace sdf {
 namespace {
@@ -23,8 +24,8 @@ constexpr std::size_t kMany = 40;
 // Parameters of a group: drivers have room for 1024 numbers at least, and more follow from these.
 constexpr std::size_t kMostNumbers = 480;
 
-// The same for operands that differ in nothing but constants.
-std::string kindOf(const Expr& operand) {
+// The same for operands that differ in nothing but constants. Payloads are numbered as they are met.
+std::string kindOf(const Expr& operand, std::unordered_map<const Payload*, std::size_t>& payloads) {
   std::string kind;
   std::unordered_map<Expr, std::size_t> places;
   for (const Expr& node : topologicalOrder({&operand, 1})) {
@@ -32,6 +33,9 @@ std::string kindOf(const Expr& operand) {
     places.emplace(node, place);
     kind += std::to_string(static_cast<int>(node.op()));
     if (node.op() == Op::Variable) kind += "v" + std::to_string(static_cast<int>(node.variableIndex()));
+    if (const PayloadPart* p = node.payloadPart())
+      kind += "p" + std::to_string(payloads.try_emplace(p->payload.get(), payloads.size()).first->second) +
+              "." + std::to_string(p->part);
     for (int i = 0; i < arity(node.op()); ++i) kind += "," + std::to_string(places.at(node.arg(i)));
     kind += ";";
   }
@@ -195,7 +199,8 @@ bool isGroupConstant(const std::string& name) { return name.starts_with(kOwn); }
 
 std::vector<OperandGroup> groupsOf(std::span<const NumberedOperand> operands) {
   std::map<std::string, std::vector<NumberedOperand>> kinds;
-  for (const NumberedOperand& e : operands) kinds[kindOf(e.distance)].push_back(e);
+  std::unordered_map<const Payload*, std::size_t> payloads;
+  for (const NumberedOperand& e : operands) kinds[kindOf(e.distance, payloads)].push_back(e);
   std::vector<OperandGroup> result;
   std::vector<NumberedOperand> others;
   for (const auto& [kind, alike] : kinds) {

@@ -57,6 +57,15 @@ Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const T& value, const
   return r;
 }
 
+/// f(a, b, c) given the value and its partial derivatives.
+template <class T, int N>
+Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c, const T& value,
+                 const T& slopeA, const T& slopeB, const T& slopeC) {
+  Dual<T, N> r = chain(a, b, value, slopeA, slopeB);
+  for (int i = 0; i < N; ++i) r.d[i] = mulAdd(slopeC, c.d[i], r.d[i]);
+  return r;
+}
+
 /// Derivative of a step function with this value, given the derivatives of its arguments: 0, or over
 /// intervals unbounded where it may jump. Where no argument moves there is no jump.
 template <class T, class... Slopes>
