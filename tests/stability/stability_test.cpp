@@ -28,8 +28,10 @@ std::string testName(const testing::TestParamInfo<FailureCase>& info) {
 TEST_P(Failure, IsRealForTheNaiveMethodAndHeldByOurs) {
   const FailureCase& c = GetParam();
   const Figures figures = c.run();
-  EXPECT_TRUE(c.isReal(figures)) << c.naive << ": " << figures.naive << " " << c.figure << "; " << c.reason;
-  EXPECT_TRUE(c.isHeld(figures)) << c.ours << ": " << figures.ours << " " << c.figure << "; " << c.reason;
+  EXPECT_TRUE(c.isReal(figures)) << c.naive.what << ": " << figures.naive << " " << c.figure << "; "
+                                 << c.reason;
+  EXPECT_TRUE(c.isHeld(figures)) << c.ours.what << ": " << figures.ours << " " << c.figure << "; "
+                                 << c.reason;
 }
 
 INSTANTIATE_TEST_SUITE_P(Known, Failure, testing::ValuesIn(failureCases()), testName);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 namespace sdf::accuracy {
 namespace {
@@ -53,7 +52,7 @@ glm::dvec3 Turning::toMesh(const glm::dvec3& p) const {
 glm::dvec3 Turning::fromMesh(const glm::dvec3& q, std::mt19937_64& random) const {
   if (!axis_) return q;
   constexpr double kCosines[] = {1.0, 0.0, -1.0, 0.0};
-  const double angle = uniform(random, -std::numbers::pi, std::numbers::pi);
+  const double angle = uniform(random, -kPi, std::numbers::pi);
   const std::size_t quarter = below(random, 8);
   const double cosine = quarter < 4 ? kCosines[quarter] : std::cos(angle);
   const double sine = quarter < 4 ? kCosines[(quarter + 3) % 4] : std::sin(angle);

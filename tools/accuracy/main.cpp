@@ -48,8 +48,8 @@ bool hold(std::span<const FailureRow> rows) {
   for (const FailureRow& row : rows) {
     if (row.failure.isReal(row.figures) && row.failure.isHeld(row.figures)) continue;
     std::fprintf(stderr, "accuracy: not as known: %s: naive %g, at least %g; ours %g, at most %g\n",
-                 row.failure.name.c_str(), row.figures.naive, row.failure.naiveAtLeast, row.figures.ours,
-                 row.failure.oursAtMost);
+                 row.failure.name.c_str(), row.figures.naive, row.failure.naive.limit, row.figures.ours,
+                 row.failure.ours.limit);
     all = false;
   }
   return all;

@@ -1,19 +1,14 @@
 #include "meshes.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <unordered_map>
 
 namespace sdf::accuracy {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-using Triangle = std::array<glm::dvec3, 3>;
 
 struct SamePlace {
   std::size_t operator()(const glm::dvec3& p) const {

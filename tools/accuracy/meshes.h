@@ -1,5 +1,6 @@
 // Solids as meshes from their geometric definitions, each with a proven distance from the true surface.
 #pragma once
+#include <array>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <span>
@@ -33,12 +34,13 @@ struct Outline {
   void add(const glm::dvec2& p);
 };
 
+using Triangle = std::array<glm::dvec3, 3>;
 /// Triangles by their corners; equal corners become one vertex, triangles that lose a corner by that are left
 /// out, and all are turned where the volume is negative.
-TriangleMesh welded(std::span<const std::array<glm::dvec3, 3>> triangles);
+TriangleMesh welded(std::span<const Triangle> triangles);
 /// The surface through rows of equally many points, each row joined to the next; with `closed`, a row's last
 /// point to its first. Not welded.
-std::vector<std::array<glm::dvec3, 3>> rowsJoined(std::span<const std::vector<glm::dvec3>> rows, bool closed);
+std::vector<Triangle> rowsJoined(std::span<const std::vector<glm::dvec3>> rows, bool closed);
 
 /// Convex faces by the numbers of their corners.
 Tessellation polyhedron(std::vector<glm::dvec3> points, std::span<const std::vector<int>> faces);

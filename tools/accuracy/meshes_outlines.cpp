@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 namespace sdf::accuracy {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kQuarter = 512;  // steps to a right angle: a chord of 1.2e-6 radii
 
 glm::dvec2 fromUp(double distance, double angle) {

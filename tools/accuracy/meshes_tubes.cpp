@@ -1,16 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "meshes.h"
 
 namespace sdf::accuracy {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-using Triangle = std::array<glm::dvec3, 3>;
 using Row = std::vector<glm::dvec3>;
 
 // A tube's cut through a half-plane that ends at an axis: a circle, or what lies outside the axis of one that

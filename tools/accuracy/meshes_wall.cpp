@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -9,8 +8,6 @@
 namespace sdf::accuracy {
 namespace {
 
-using Triangle = std::array<glm::dvec3, 3>;
-
 /// The solid wave <= level over a lattice of tetrahedra (Kuhn's six to a cube), closed where the lattice
 /// ends.
 class Level {
@@ -18,7 +15,7 @@ class Level {
   /// `end`: where an edge to the lattice's last layer is cut, as a share of it.
   Level(const Wave& wave, double level, int periods, int cellsAPeriod, double end)
       : wave_(wave), level_(level), end_(end), count_(periods * cellsAPeriod + 1) {
-    step_ = 2.0 * std::numbers::pi / cellsAPeriod;
+    step_ = 2.0 * kPi / cellsAPeriod;
     for (int i = 0; i < count_ * count_ * count_; ++i) values_.push_back(wave.value(place(i)) - level);
   }
 
@@ -144,7 +141,7 @@ class Level {
 // farther than the walls are.
 Tessellation wall(const Wave& wave, double cell, double thickness, int cellsAPeriod) {
   constexpr int kPeriods = 2;
-  const double radians = 2.0 * std::numbers::pi / cell, level = 0.5 * thickness * radians * wave.steepest;
+  const double radians = 2.0 * kPi / cell, level = 0.5 * thickness * radians * wave.steepest;
   Level outer(wave, level, kPeriods, cellsAPeriod, 0.5), inner(wave, -level, kPeriods, cellsAPeriod, 0.25);
   std::vector<Triangle> triangles = outer.triangles();
   for (Triangle& t : inner.triangles()) triangles.push_back({t[0], t[2], t[1]});

@@ -1,7 +1,6 @@
 // Placing and repeating: the mesh moved, turned, scaled, and copied.
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <optional>
 
 #include "operator_cases.h"
@@ -14,8 +13,6 @@
 
 namespace sdf::accuracy {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A solid that is a bound only, without a symmetry.
 Solid carved() {

@@ -4,12 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
 namespace sdf::accuracy {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double radiusAlong(const Star& star, const glm::dvec3& way) {
   double inside = star.nearest, outside = star.farthest;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "operator_cases.h"
 #include "sdf/shape/booleans.h"
@@ -22,13 +21,13 @@ constexpr int kTimes = 6;    // of a warped face's refinement
 Corners regularOutline(int corners, double radius, const glm::dvec2& centre) {
   Corners outline;
   for (int i = 0; i < corners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / corners;
+    const double angle = 2.0 * kPi * i / corners;
     outline.push_back(centre + radius * glm::dvec2(std::cos(angle), std::sin(angle)));
   }
   return outline;
 }
 
-double chordOfCircle(double radius) { return radius * (1.0 - std::cos(std::numbers::pi / kSteps)); }
+double chordOfCircle(double radius) { return radius * (1.0 - std::cos(kPi / kSteps)); }
 
 std::vector<ReferenceCase> extrusions() {
   const Corners l{{-0.3, -0.4}, {1, -0.4}, {1, 0.4}, {0.4, 0.4}, {0.4, 1.1}, {-0.3, 1.1}};

@@ -13,7 +13,6 @@
 namespace sdf::accuracy {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Steps to a circle: some 10,000 triangles for an outline, 260,000 for what is curved both ways.
 constexpr int kAround = 512, kQuarter = 512, kTube = 256, kAlongTube = 256, kRounding = 64;
 

@@ -4,10 +4,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <vector>
 
 namespace sdf::accuracy {
+
+inline constexpr double kPi = std::numbers::pi;
 
 /// A closed triangle mesh, counter-clockwise seen from outside, scene units.
 struct TriangleMesh {

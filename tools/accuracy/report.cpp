@@ -102,9 +102,9 @@ void writeTable(std::ostream& out, const char* what, std::span<const Row> rows) 
 void writeFailure(std::ostream& out, const FailureRow& row) {
   const FailureCase& c = row.failure;
   const auto figure = [](double v) { return v == kInfinity ? "∞" : number("%.3g", v); };
-  out << "| " << cell(c.name) << " | " << cell(c.figure) << " | " << cell(c.naive) << " | "
-      << figure(row.figures.naive) << " | " << cell(c.ours) << " | " << figure(row.figures.ours) << " | "
-      << figure(c.oursAtMost) << " | " << cell(c.reason);
+  out << "| " << cell(c.name) << " | " << cell(c.figure) << " | " << cell(c.naive.what) << " | "
+      << figure(row.figures.naive) << " | " << cell(c.ours.what) << " | " << figure(row.figures.ours) << " | "
+      << figure(c.ours.limit) << " | " << cell(c.reason);
   if (!c.isReal(row.figures) || !c.isHeld(row.figures)) out << ", **refuted**";
   out << " |\n";
 }

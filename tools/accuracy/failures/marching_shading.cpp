@@ -19,7 +19,6 @@ MarchField fieldOf(const Shape& shape) {
 
 // Points of the unit sphere around a centre, with their normals.
 struct SpherePoints {
-  Vectors points, normals;
   explicit SpherePoints(const glm::dvec3& centre) {
     constexpr int kPoints = 1000;
     constexpr double kGoldenAngle = 2.399963229728653;
@@ -29,6 +28,7 @@ struct SpherePoints {
       points.add(centre + normals[i]);
     }
   }
+  Vectors points, normals;
 };
 
 double worstDegrees(const Vectors& found, const Vectors& right) {
@@ -68,38 +68,17 @@ Figures normalFigures(const glm::dvec3& centre, float h) {
   return {worstDegrees(naiveNormals(ball, at.points, h), at.normals), worstDegrees(ours, at.normals)};
 }
 
-FailureCase farNormalCase() {
-  return {"normals of a ball 1e5 from the origin",
-          "worst angle, degrees",
-          "central differences in float, h = 2^-10",
-          "exact derivatives in float",
-          45.0,
-          1.1e5 * 0x1p-24 * 180.0 / kPi,
-          "h along x is an eighth of a rounding there; derivatives feel only that x is rounded",
-          [] {
-            return normalFigures({1e5, 0, 0}, 0x1p-10f);
-          }};
-}
-
-FailureCase smallStepCase() {
-  return {"normals by too small a step",
-          "worst angle, degrees",
-          "central differences in float, h = 1e-6",
-          "exact derivatives in float",
-          3.0,
-          8.0 * 0x1p-24 * 180.0 / kPi,
-          "two values near 1 differ by some roundings of 6e-8, against 2e-6; derivatives by eight roundings",
-          [] {
-            return normalFigures({0, 0, 0}, 1e-6f);
-          }};
+std::vector<double> lightOf(const Shape& solid, const Rays& rays, const ShadowOptions& options) {
+  return shadows(fieldOf(solid), rays, options).value().light;
 }
 
 // Shadow rays past a box towards a light overhead.
-Rays raysPastBox() {
+const glm::dvec3 kBoxHalf(0.8, 0.5, 0.3);
+Rays raysPastBox(int count) {
   std::mt19937 random(1);
   Rays rays;
   const auto near = [&] { return 2.4 * (static_cast<double>(random()) * 0x1p-32 - 0.5); };
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < count; ++i) {
     const glm::dvec3 from(near(), -3.0, near());
     rays.add(from, glm::normalize(glm::dvec3(near(), 3.0, near()) - from), 0.5, 6.0);
   }
@@ -125,94 +104,6 @@ double clampedShadow(const F& f, const Rays& rays, std::size_t i) {
   return light;
 }
 
-double countNaN(const std::vector<double>& light) {
-  double count = 0.0;
-  for (const double l : light) count += std::isnan(l);
-  return count;
-}
-
-FailureCase clampedShadowCase() {
-  return {"improved soft shadow with clamped steps",
-          "rays of 20000 that are NaN",
-          "sqrt(g^2 - y^2) with the last g for the step",
-          "the true step, and max(0, ...)",
-          10.0,
-          0.0,
-          "y > g where g is over twice the g before, which a step of g before cannot reach, but 0.01 can",
-          [] {
-            const Shape solid = box(Vec3E(0.8, 0.5, 0.3));
-            const Distance f(solid);
-            const Rays rays = raysPastBox();
-            std::vector<double> naive;
-            for (std::size_t i = 0; i < rays.size(); ++i) naive.push_back(clampedShadow(f, rays, i));
-            const Shade ours = shadows(fieldOf(solid), rays, {ShadowMethod::Improved, kSharpness}).value();
-            return Figures{countNaN(naive), countNaN(ours.light)};
-          }};
-}
-
-FailureCase bandCase() {
-  return {"bands in a soft shadow",
-          "how much too light",
-          "least k g / t of the readings (Quilez 2010)",
-          "closest approach between readings (Aaltonen 2018)",
-          0.05,
-          0.02,
-          "a ray past an edge of the box is nearest to it between two readings; the dense march that both "
-          "are held to "
-          "reads every 2e-3, worth k 1e-3 / t = 0.016 at most",
-          [] {
-            const Shape solid = box(Vec3E(0.8, 0.5, 0.3));
-            const Distance f(solid);
-            Rays all = raysPastBox(), rays;
-            for (std::size_t i = 0; i < 400; ++i)
-              rays.add(all.origin[i], all.direction[i], all.tMin[i], all.tMax[i]);
-            const auto soft = shadows(fieldOf(solid), rays, {ShadowMethod::Soft, kSharpness}).value().light;
-            const auto improved =
-                shadows(fieldOf(solid), rays, {ShadowMethod::Improved, kSharpness}).value().light;
-            Figures figures;
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-              double least = 1.0;
-              for (double t = rays.tMin[i]; t < rays.tMax[i]; t += 2e-3)
-                least = std::clamp(kSharpness * f(rays.at(i, t)) / t, 0.0, least);
-              figures.naive = std::max(figures.naive, soft[i] - least);
-              figures.ours = std::max(figures.ours, improved[i] - least);
-            }
-            return figures;
-          }};
-}
-
-// Points under the edge of a bar, across the penumbra of a lamp of 5 degrees, and the share of it that each
-// sees past a straight edge.
-FailureCase penumbraCase() {
-  return {"penumbra of a lamp",
-          "mean error of the light",
-          "least k g / t, down to 0",
-          "least k g / t, down to -1 in the solid",
-          0.2,
-          0.045 + 0.044,
-          "shadows by k g / t put all of the penumbra outside: 1/4; the smooth curve is at most 0.045 off a "
-          "disc's, "
-          "and the bar bulges by 0.044 of the penumbra",
-          [] {
-            constexpr double kHeight = 2.0;
-            const double slope = std::tan(5.0 * kPi / 180.0);
-            const Shape bar = capsule(Vec3E(-2.0, kHeight, -20.0), Vec3E(-2.0, kHeight, 20.0), 2.0);
-            Vectors points;
-            for (int i = -100; i <= 100; ++i) points.add({0.01 * i * kHeight * slope, 0.0, 0.0});
-            const Rays rays = raysTowards(points, {0, 1, 0}, 0.05, 10.0);
-            const auto meanError = [&](ShadowMethod method) {
-              const auto light = shadows(fieldOf(bar), rays, {method, 1.0 / slope}).value().light;
-              double sum = 0.0;
-              for (int i = -100; i <= 100; ++i) {
-                const double x = 0.01 * i, disc = 1.0 - (std::acos(x) - x * std::sqrt(1.0 - x * x)) / kPi;
-                sum += std::abs(light[i + 100] - disc) / 201.0;
-              }
-              return sum;
-            };
-            return Figures{meanError(ShadowMethod::Soft), meanError(ShadowMethod::Signed)};
-          }};
-}
-
 // Menger's sponge in the cube from -1 to 1: the cube less crosses, each a third as large as the one before.
 // Each fold moves as fast as the position.
 Shape menger(int levels) {
@@ -234,56 +125,119 @@ double normalVariance(const Vectors& n, const std::vector<double>& t) {
   for (int y = 0; y < 200; y += 2)
     for (int x = 0; x < 320; x += 2) {
       const int block[] = {y * 320 + x, y * 320 + x + 1, (y + 1) * 320 + x, (y + 1) * 320 + x + 1};
+      if (!std::all_of(std::begin(block), std::end(block), [&](int i) { return t[i] < kInfinity; })) continue;
       glm::dvec3 mean(0.0);
-      bool all = true;
-      for (const int i : block) {
-        mean += 0.25 * n[i];
-        all = all && t[i] < kInf;
-      }
-      if (!all) continue;
+      for (const int i : block) mean += 0.25 * n[i];
       sum += 1.0 - glm::length(mean);
       count += 1.0;
     }
   return sum / count;
 }
 
-FailureCase spongeCase() {
-  return {"Menger sponge of eight levels, far away",
-          "mean variance of the normals in a pixel",
-          "hits within 1e-4, exact normals",
-          "hits within a pixel's cone, normals over its width",
-          0.2,
-          0.05,
-          "of normals along the axes, a pixel that shows two has 0.2 to 0.3 and one that shows three 0.4; "
-          "differences over the "
-          "pixel leave a fifth at most",
-          [] {
-            const Shape sponge = menger(8);
-            const Rays rays = cameraRays({2.0, 3.0, 6.0}, {0, 0, 0}, 0.25);
-            const MarchField field = fieldOf(sponge);
-            const auto variance = [&](double footprint, const NormalOptions& options) {
-              MarchOptions march;
-              march.footprint = footprint;
-              march.maxSteps = 4000;
-              const Hits hits = trace(sponge, rays, march);
-              Vectors at, back;
-              std::vector<double> t;
-              for (std::size_t i = 0; i < rays.size(); ++i) {
-                at.add(rays.at(i, hits.t[i]));
-                back.add(-rays.direction[i]);
-                t.push_back(hits.status[i] == RayStatus::Hit ? hits.t[i] : kInf);
-              }
-              return normalVariance(normals(field, at, back, options).value(), t);
-            };
-            const double pixel = 0.25 / 50.0;  // width at distance 1; the sponge is 7 away
-            return Figures{variance(0.0, {}), variance(0.5 * pixel, {NormalMethod::Central, 7.0 * pixel})};
-          }};
-}
-
 }  // namespace
 
 std::vector<FailureCase> shadingFailures() {
-  return {farNormalCase(), smallStepCase(), clampedShadowCase(), bandCase(), penumbraCase(), spongeCase()};
+  return {{"normals of a ball 1e5 from the origin",
+           "worst angle, degrees",
+           {"central differences in float, h = 2^-10", 45.0},
+           {"exact derivatives in float", 1.1e5 * 0x1p-24 * 180.0 / kPi},
+           "h along x is an eighth of a rounding there; derivatives feel only that x is rounded",
+           [] {
+             return normalFigures({1e5, 0, 0}, 0x1p-10f);
+           }},
+          {"normals by too small a step",
+           "worst angle, degrees",
+           {"central differences in float, h = 1e-6", 3.0},
+           {"exact derivatives in float", 8.0 * 0x1p-24 * 180.0 / kPi},
+           "two values near 1 differ by some roundings of 6e-8, against 2e-6; derivatives by eight roundings",
+           [] {
+             return normalFigures({0, 0, 0}, 1e-6f);
+           }},
+          {"improved soft shadow with clamped steps",
+           "rays of 20000 that are NaN",
+           {"sqrt(g^2 - y^2) with the last g for the step", 10.0},
+           {"the true step, and max(0, ...)", 0.0},
+           "y > g where g is over twice the g before, which a step of g before cannot reach, but 0.01 can",
+           [] {
+             const Shape solid = box(Vec3E(kBoxHalf));
+             const Distance f(solid);
+             const Rays rays = raysPastBox(20000);
+             const auto ours = lightOf(solid, rays, {ShadowMethod::Improved, kSharpness});
+             Figures count;
+             for (std::size_t i = 0; i < rays.size(); ++i) {
+               count.naive += std::isnan(clampedShadow(f, rays, i));
+               count.ours += std::isnan(ours[i]);
+             }
+             return count;
+           }},
+          {"bands in a soft shadow",
+           "how much too light",
+           {"least k g / t of the readings (Quilez 2010)", 0.05},
+           {"closest approach between readings (Aaltonen 2018)", 0.02},
+           "a ray past an edge of the box is nearest to it between two readings; the dense march that both "
+           "are held to reads every 2e-3, worth k 1e-3 / t = 0.016 at most",
+           [] {
+             const Shape solid = box(Vec3E(kBoxHalf));
+             const Distance f(solid);
+             const Rays rays = raysPastBox(400);
+             const auto soft = lightOf(solid, rays, {ShadowMethod::Soft, kSharpness}),
+                        improved = lightOf(solid, rays, {ShadowMethod::Improved, kSharpness});
+             return worstOf(0, 399, 1, [&](double k) {
+               const auto i = static_cast<std::size_t>(k);
+               double least = 1.0;
+               for (double t = rays.tMin[i]; t < rays.tMax[i]; t += 2e-3)
+                 least = std::clamp(kSharpness * f(rays.at(i, t)) / t, 0.0, least);
+               return Figures{soft[i] - least, improved[i] - least};
+             });
+           }},
+          // Points under the edge of a bar, across the penumbra of a lamp of 5 degrees, and the share of it
+          // that each sees past a straight edge.
+          {"penumbra of a lamp",
+           "mean error of the light",
+           {"least k g / t, down to 0", 0.2},
+           {"least k g / t, down to -1 in the solid", 0.045 + 0.044},
+           "shadows by k g / t put all of the penumbra outside: 1/4; the smooth curve is at most 0.045 off a "
+           "disc's, and the bar bulges by 0.044 of the penumbra",
+           [] {
+             constexpr double kHeight = 2.0;
+             const double slope = std::tan(5.0 * kPi / 180.0);
+             const Shape bar = capsule(Vec3E(-2.0, kHeight, -20.0), Vec3E(-2.0, kHeight, 20.0), 2.0);
+             Vectors points;
+             for (int i = -100; i <= 100; ++i) points.add({0.01 * i * kHeight * slope, 0.0, 0.0});
+             const Rays rays = raysTowards(points, {0, 1, 0}, 0.05, 10.0);
+             const auto meanError = [&](ShadowMethod method) {
+               const auto light = lightOf(bar, rays, {method, 1.0 / slope});
+               double sum = 0.0;
+               for (int i = -100; i <= 100; ++i) {
+                 const double x = 0.01 * i, disc = 1.0 - (std::acos(x) - x * std::sqrt(1.0 - x * x)) / kPi;
+                 sum += std::abs(light[i + 100] - disc) / 201.0;
+               }
+               return sum;
+             };
+             return Figures{meanError(ShadowMethod::Soft), meanError(ShadowMethod::Signed)};
+           }},
+          {"Menger sponge of eight levels, far away",
+           "mean variance of the normals in a pixel",
+           {"hits within 1e-4, exact normals", 0.2},
+           {"hits within a pixel's cone, normals over its width", 0.05},
+           "of normals along the axes, a pixel that shows two has 0.2 to 0.3 and one that shows three 0.4; "
+           "differences over the pixel leave a fifth at most",
+           [] {
+             const Shape sponge = menger(8);
+             const Rays rays = cameraRays({2.0, 3.0, 6.0}, 0.25);
+             const MarchField field = fieldOf(sponge);
+             const auto variance = [&](double footprint, const NormalOptions& options) {
+               const Hits hits = trace(sponge, rays, {.footprint = footprint, .maxSteps = 4000});
+               Vectors at, back;
+               for (std::size_t i = 0; i < rays.size(); ++i) {
+                 at.add(rays.at(i, hits.t[i]));
+                 back.add(-rays.direction[i]);
+               }
+               return normalVariance(normals(field, at, back, options).value(), timesOf(hits));
+             };
+             const double pixel = 0.25 / 50.0;  // width at distance 1; the sponge is 7 away
+             return Figures{variance(0.0, {}), variance(0.5 * pixel, {NormalMethod::Central, 7.0 * pixel})};
+           }}};
 }
 
 }  // namespace sdf::accuracy

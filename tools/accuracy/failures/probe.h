@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <stdexcept>
 
+#include "accuracy/reference.h"
+#include "failure_case.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/shape.h"
 
 namespace sdf::accuracy {
 
-inline constexpr double kPi = 3.14159265358979323846;
 // Some tens of roundings in double of numbers of size 1 to 10, as each formula here makes.
 inline constexpr double kRounding = 1e-13;
-inline constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// The shape's distance in double. A shape that was refused must not pass for one that holds.
 class Distance {
@@ -31,12 +30,23 @@ class Distance {
 /// Largest of figure(p) over a lattice of n^3 points in [-reach, reach]^3, NaN being the worst of all.
 template <class F>
 double worst(double reach, int n, const F& figure) {
-  double most = -kInf;
+  double most = -kInfinity;
   for (int i = 0; i < n * n * n; ++i) {
     const glm::dvec3 at(i / (n * n), i / n % n, i % n);
     const double v = figure(reach * (2.0 * at / (n - 1.0) - 1.0));
-    if (std::isnan(v)) return kInf;
+    if (std::isnan(v)) return kInfinity;
     most = std::max(most, v);
+  }
+  return most;
+}
+
+/// The worst of each figure from `from` to `to` in these steps.
+template <class F>
+Figures worstOf(double from, double to, double step, const F& figures) {
+  Figures most;
+  for (double x = from; x <= to; x += step) {
+    const Figures at = figures(x);
+    most = {std::max(most.naive, at.naive), std::max(most.ours, at.ours)};
   }
   return most;
 }
