@@ -1,10 +1,9 @@
-#include "batch_bench.h"
-
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <random>
 
+#include "benches.h"
 #include "handwritten.h"
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
@@ -29,23 +28,19 @@ struct Points {
 std::string oursName(int i) { return "batch/" + shapeName(i) + "/tape"; }
 std::string theirsName(int i) { return "batch/" + shapeName(i) + "/handwritten"; }
 
-void runTape(benchmark::State& state, const Tape& tape) {
-  Points p;
-  BatchEvaluator batch;
-  for (auto _ : state) {
-    batch.evaluate(tape, {.x = p.x.data(), .y = p.y.data(), .z = p.z.data()}, kPoints, p.out.data());
-    benchmark::ClobberMemory();
-  }
-  state.SetItemsProcessed(state.iterations() * kPoints);
-}
-
-void runLoop(benchmark::State& state, PointLoop loop) {
-  Points p;
-  for (auto _ : state) {
-    loop(p.x.data(), p.y.data(), p.z.data(), p.out.data(), kPoints);
-    benchmark::ClobberMemory();
-  }
-  state.SetItemsProcessed(state.iterations() * kPoints);
+// Runs read(points), which fills their `out`.
+template <class Read>
+void add(const std::string& name, Read read) {
+  constexpr int kRepetitions = 15;
+  constexpr double kSeconds = 0.1;
+  addBenchmark(name, kRepetitions, [read](benchmark::State& state) {
+    Points p;
+    for (auto _ : state) {
+      read(p);
+      benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * kPoints);
+  })->MinTime(kSeconds);
 }
 
 bool agrees(int i, const char* form, const Points& p) {
@@ -83,18 +78,15 @@ bool handwrittenAgrees() {
 }
 
 void registerBatch() {
-  constexpr int kRepetitions = 15;
-  constexpr double kSeconds = 0.1;
   for (int i = 0; i < kShapes; ++i) {
     const auto tape = std::make_shared<const Tape>(measuringShape(i).distance);
-    const auto set = [](benchmark::internal::Benchmark* b) {
-      b->UseRealTime()->MinTime(kSeconds)->Repetitions(kRepetitions)->ReportAggregatesOnly();
-    };
-    set(benchmark::RegisterBenchmark(oursName(i).c_str(),
-                                     [tape](benchmark::State& s) { runTape(s, *tape); }));
+    const auto batch = std::make_shared<BatchEvaluator>();
+    add(oursName(i), [tape, batch](Points& p) {
+      batch->evaluate(*tape, {.x = p.x.data(), .y = p.y.data(), .z = p.z.data()}, kPoints, p.out.data());
+    });
     const PointLoop loop = handwritten(i).points;
-    set(benchmark::RegisterBenchmark(theirsName(i).c_str(),
-                                     [loop](benchmark::State& s) { runLoop(s, loop); }));
+    add(theirsName(i),
+        [loop](Points& p) { loop(p.x.data(), p.y.data(), p.z.data(), p.out.data(), kPoints); });
   }
 }
 

@@ -25,6 +25,15 @@ class Medians : public benchmark::ConsoleReporter {
   Times seconds_, threadSeconds_;
 };
 
+/// Registers a benchmark of wall-clock time, of which only medians and the like are reported.
+template <class Run>
+benchmark::internal::Benchmark* addBenchmark(const std::string& name, int repetitions, Run run) {
+  return benchmark::RegisterBenchmark(name.c_str(), std::move(run))
+      ->UseRealTime()
+      ->Repetitions(repetitions)
+      ->ReportAggregatesOnly();
+}
+
 /// A number that was asked for, and what was measured.
 struct Figure {
   std::string what;

@@ -2,10 +2,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "batch_bench.h"
-#include "figures.h"
-#include "mesh_bench.h"
-#include "tool_bench.h"
+#include "benches.h"
 
 int main(int argc, char** argv) {
   using namespace sdf::bench;

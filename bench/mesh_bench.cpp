@@ -1,9 +1,8 @@
-#include "mesh_bench.h"
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
+#include "benches.h"
 #include "dense.h"
 #include "sdf/mesh/narrow_band.h"
 #include "shapes.h"
@@ -31,21 +30,16 @@ std::size_t meshSparsely(const Shape& shape, const Box& bounds, double voxelSize
 Box region() { return Box::centred(glm::dvec3(kRegion)); }
 
 std::string sparseName(int i, int n) { return "mesh/" + shapeName(i) + "/" + std::to_string(n) + "/sparse"; }
-std::string denseName(int i, int n) { return "mesh/" + shapeName(i) + "/" + std::to_string(n) + "/dense"; }
+std::string denseName(int i) { return "mesh/" + shapeName(i) + "/" + std::to_string(kResolution) + "/dense"; }
 std::string ballsName(int count) { return "mesh/" + std::to_string(count) + " balls/256"; }
 
 template <class Work>
 void add(const std::string& name, int repetitions, const Work& work) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [work](benchmark::State& state) {
-                                 std::size_t triangles = 0;
-                                 for (auto _ : state) triangles = work();
-                                 state.counters["triangles"] = static_cast<double>(triangles);
-                               })
-      ->UseRealTime()
-      ->Unit(benchmark::kMillisecond)
-      ->Repetitions(repetitions)
-      ->ReportAggregatesOnly();
+  addBenchmark(name, repetitions, [work](benchmark::State& state) {
+    std::size_t triangles = 0;
+    for (auto _ : state) triangles = work();
+    state.counters["triangles"] = static_cast<double>(triangles);
+  })->Unit(benchmark::kMillisecond);
 }
 
 void addSparse(int i, int n, int repetitions) {
@@ -77,7 +71,7 @@ void registerMeshing() {
   for (int i = 0; i < kCompared; ++i) {
     const int repetitions = i == kSmooth || i == kMany ? 3 : 7;  // the dense ones take seconds
     addSparse(i, kResolution, 7);
-    add(denseName(i, kResolution), repetitions,
+    add(denseName(i), repetitions,
         [i] { return meshDensely(handwritten(i).row, kResolution, kSlope[i]).triangles.size(); });
   }
   for (const int i : {0, 1, kMany}) addSparse(i, kResolution / 2, 9), addSparse(i, kResolution * 2, 5);
@@ -89,9 +83,9 @@ void registerMeshing() {
 void addMeshingFigures(const Medians& medians, std::vector<Figure>& figures) {
   constexpr double kGrowth = 4.6, kManyBalls = 1.6, kSparse = 60.0;
   for (int i = 0; i < kCompared; ++i)
-    figures.push_back(
-        {"meshing " + shapeName(i) + ", N = 512: speed, dense baseline = 1", true, i == 4 ? kSparse : 1.0,
-         medians.seconds(denseName(i, kResolution)) / medians.seconds(sparseName(i, kResolution))});
+    figures.push_back({"meshing " + shapeName(i) + ", N = 512: speed, dense baseline = 1", true,
+                       i == 4 ? kSparse : 1.0,
+                       medians.seconds(denseName(i)) / medians.seconds(sparseName(i, kResolution))});
   for (const int i : {0, 1, 4})
     for (const int n : {kResolution / 2, kResolution})
       figures.push_back({"meshing " + shapeName(i) + ", N = " + std::to_string(n) + " to " +

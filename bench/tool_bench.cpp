@@ -1,5 +1,3 @@
-#include "tool_bench.h"
-
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "benches.h"
 #include "handwritten.h"
 #include "shapes.h"
 
@@ -80,18 +79,13 @@ std::string sceneOf(int i) {
 }
 
 void add(const std::string& name, const std::vector<std::string>& words) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [words](benchmark::State& state) {
-                                 const WorkFolder folder;
-                                 std::vector<std::string> all = words;
-                                 all.insert(all.end(), {"-o", folder / "out.glb", "--quiet"});
-                                 for (auto _ : state)
-                                   if (!run(all)) state.SkipWithError("the export failed");
-                               })
-      ->UseRealTime()
-      ->Unit(benchmark::kMillisecond)
-      ->Repetitions(7)
-      ->ReportAggregatesOnly();
+  addBenchmark(name, 7, [words](benchmark::State& state) {
+    const WorkFolder folder;
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"-o", folder / "out.glb", "--quiet"});
+    for (auto _ : state)
+      if (!run(all)) state.SkipWithError("the export failed");
+  })->Unit(benchmark::kMillisecond);
 }
 
 }  // namespace
