@@ -1,56 +1,44 @@
 #include "command_line/frames.h"
 
-#include <algorithm>
-#include <optional>
+#include <cstdio>
+#include <regex>
 #include <string>
 
 namespace sdf::command_line {
 namespace {
 
-/// Where the number goes in a file name: the place and length of its %d or %0Nd, if it has one.
-struct NumberPlace {
-  std::size_t begin, length;
-  int digits;
-};
+/// Where the number goes in a file name; the first group is the N of %0Nd.
+const std::regex& numberPlace() {
+  static const std::regex place("%(?:0([1-9]))?d");
+  return place;
+}
 
-std::optional<NumberPlace> numberPlace(const std::string& name, std::size_t from = 0) {
-  const std::size_t begin = name.find('%', from);
-  if (begin == std::string::npos) return std::nullopt;
-  std::size_t end = begin + 1;
-  int digits = 1;
-  if (end + 1 < name.size() && name[end] == '0' && name[end + 1] >= '1' && name[end + 1] <= '9') {
-    digits = name[end + 1] - '0';
-    end += 2;
-  }
-  if (end < name.size() && name[end] == 'd') return NumberPlace{begin, end + 1 - begin, digits};
-  return numberPlace(name, begin + 1);
+std::string padded(int number, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%0*d", digits, number);
+  return text;
 }
 
 }  // namespace
 
 Status checkFrameName(const std::filesystem::path& output) {
   const std::string name = output.filename().string();
-  const std::optional<NumberPlace> first = numberPlace(name);
-  if (first && numberPlace(name, first->begin + first->length))
+  const std::sregex_iterator places(name.begin(), name.end(), numberPlace());
+  if (std::distance(places, {}) > 1)
     return Error{ErrorKind::Usage,
                  "'" + output.string() + "' has more than one place for the frame's number; keep one %04d"};
   return okStatus();
 }
 
 std::filesystem::path frameName(const std::filesystem::path& output, int number) {
-  const std::string name = output.filename().string(), digits = std::to_string(number);
-  const auto padded = [&](int width) {
-    const auto missing = std::max<std::ptrdiff_t>(0, width - static_cast<std::ptrdiff_t>(digits.size()));
-    return std::string(static_cast<std::size_t>(missing), '0') + digits;
-  };
-  const std::optional<NumberPlace> place = numberPlace(name);
+  const std::string name = output.filename().string();
   std::filesystem::path numbered = output;
-  if (place) {
-    numbered.replace_filename(std::string(name).replace(place->begin, place->length, padded(place->digits)));
-  } else {
-    numbered.replace_filename(output.stem().string() + "_" + padded(4) + output.extension().string());
-  }
-  return numbered;
+  std::smatch place;
+  if (!std::regex_search(name, place, numberPlace()))
+    return numbered.replace_filename(output.stem().string() + "_" + padded(number, 4) +
+                                     output.extension().string());
+  const int digits = place[1].matched ? std::stoi(place[1]) : 1;
+  return numbered.replace_filename(place.prefix().str() + padded(number, digits) + place.suffix().str());
 }
 
 }  // namespace sdf::command_line
