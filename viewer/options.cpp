@@ -92,19 +92,15 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
     app.add_option_function<std::string>(flag, readIfSound, what)->type_name(value);
   };
   const auto whole = [&](const char* flag, auto& place, const char* what) {
-    add(flag, "N", what, [flag, &place](const std::string& word) {
-      return take<int>(word, place, [flag](const std::string& text) { return count(flag, text); });
-    });
+    add(flag, "N", what,
+        [flag, &place](const std::string& word) { return take<int>(flag, word, place, count); });
   };
   app.add_option("SCENE", options.scene, "scene file (Lua)")->required()->type_name("");
   app.add_option("--render", options.picture, "draw into this file, without a window")->type_name("OUT.png");
   add("--size", "WxH", "of the picture in pixels [1280x720]",
       [&](const std::string& word) { return size(word, options); });
-  add("-t,--time", "T", "the scene's time in seconds [0]", [&](const std::string& word) {
-    return take<double>(word, options.time, [](const std::string& text) {
-      return numberFor("--time", text, "a finite number of seconds", [](double) { return true; });
-    });
-  });
+  add("-t,--time", "T", "the scene's time in seconds [0]",
+      [&](const std::string& word) { return take<double>("--time", word, options.time, seconds); });
   add("--samples", "N", "samples a pixel: 1, 4, 9, ... [1]",
       [&](const std::string& word) { return samples(word, options.samples); });
   whole("--steps", options.maxSteps, "readings of the distance that a ray may take [1024]");
@@ -119,8 +115,7 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
       [&](const std::string& word) { return camera(word, options.eye); });
   whole("--frames", options.frames, "draw N pictures, OUT_0001.png and so on, or wherever OUT has %04d");
   add("--fps", "F", "frames a second [24]", [&](const std::string& word) {
-    return take<double>(word, options.framesPerSecond,
-                        [](const std::string& text) { return positive("--fps", text); });
+    return take<double>("--fps", word, options.framesPerSecond, positive);
   });
   whole("--bench", options.bench, "draw N frames and print as JSON what they cost");
   app.add_option("--glsl", options.glsl, "write the shader that draws the scene")->type_name("OUT.glsl");

@@ -9,6 +9,14 @@
 namespace sdf::command_line {
 namespace {
 
+// A flag's number; `wanted` says which numbers are right, in words and as a test.
+template <class Test>
+Result<double> numberFor(const char* flag, const std::string& text, const char* wanted, Test right) {
+  const std::optional<double> value = number(text);
+  if (value && right(*value)) return *value;
+  return usage(std::string(flag) + " needs " + wanted + ", got '" + text + "'");
+}
+
 // What CLI11 found wrong, in one line.
 std::string described(const CLI::ParseError& error, const std::string& program) {
   std::string message = error.what();
@@ -23,7 +31,6 @@ std::string described(const CLI::ParseError& error, const std::string& program) 
 
 Error usage(std::string message) { return {ErrorKind::Usage, std::move(message)}; }
 
-/// The whole text as a finite number.
 std::optional<double> number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
@@ -49,21 +56,22 @@ Result<double> positive(const char* flag, const std::string& text) {
 }
 
 Result<double> count(const char* flag, const std::string& text) {
-  constexpr double kMost = 100'000;
   return numberFor(flag, text, "a whole number from 1 to 100000",
-                   [](double v) { return v >= 1.0 && v <= kMost && v == std::floor(v); });
+                   [](double v) { return v >= 1.0 && v <= 100'000.0 && v == std::floor(v); });
+}
+
+Result<double> seconds(const char* flag, const std::string& text) {
+  return numberFor(flag, text, "a finite number of seconds", [](double) { return true; });
 }
 
 Result<std::map<std::string, double>> parameters(const std::vector<std::string>& words) {
   std::map<std::string, double> values;
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
-    const std::optional<double> value =
-        equals == std::string::npos ? std::nullopt : number(word.substr(equals + 1));
-    if (!value || equals == 0) return usage("-D needs name=value with a finite number, got '" + word + "'");
-    if (!values.emplace(word.substr(0, equals), *value).second) {
-      return usage("-D sets '" + word.substr(0, equals) + "' twice; keep one");
-    }
+    const std::string name = word.substr(0, equals);
+    const std::optional<double> value = number(equals == word.npos ? "" : word.substr(equals + 1));
+    if (!value || name.empty()) return usage("-D needs name=value with a finite number, got '" + word + "'");
+    if (!values.emplace(name, *value).second) return usage("-D sets '" + name + "' twice; keep one");
   }
   return values;
 }

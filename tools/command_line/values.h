@@ -27,26 +27,22 @@ std::optional<double> number(std::string_view text);
 /// All of the text as finite numbers with commas between them; empty where it is something else.
 std::vector<double> numbers(const std::string& text);
 
-/// A flag's number; `wanted` says which numbers are right, in words and as a test.
-template <class Test>
-Result<double> numberFor(const char* flag, const std::string& text, const char* wanted, Test right) {
-  const std::optional<double> value = number(text);
-  if (value && right(*value)) return *value;
-  return usage(std::string(flag) + " needs " + wanted + ", got '" + text + "'");
-}
-/// Above 0.
+/// A flag's number above 0.
 Result<double> positive(const char* flag, const std::string& text);
 /// A whole number from 1 to 100000.
 Result<double> count(const char* flag, const std::string& text);
+/// Any finite number of seconds.
+Result<double> seconds(const char* flag, const std::string& text);
 
 /// Words of the form name=value, each name once.
 Result<std::map<std::string, double>> parameters(const std::vector<std::string>& words);
 
-/// Fills `value` with parse(*text), unless the flag was left out.
-template <class T, class Target, class Parse>
-Status take(const std::optional<std::string>& text, Target& value, Parse parse, double factor = 1.0) {
+/// Fills `value` with one of these numbers, times `factor`, unless the flag was left out.
+template <class T, class Target>
+Status take(const char* flag, const std::optional<std::string>& text, Target& value,
+            Result<double> (*parse)(const char* flag, const std::string& text), double factor = 1.0) {
   if (!text) return okStatus();
-  Result<double> parsed = parse(*text);
+  Result<double> parsed = parse(flag, *text);
   if (!parsed) return parsed.error();
   value = static_cast<T>(*parsed * factor);
   return okStatus();

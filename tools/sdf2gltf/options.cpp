@@ -23,15 +23,15 @@ struct Words {
   bool quiet = false;
 };
 
-Result<Box> box(const std::string& text) {
-  const std::vector<double> v = numbers(text);
-  if (v.size() == 6) {
-    const Box bounds{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
-    const glm::dvec3 size = bounds.size();
-    if (size.x > 0.0 && size.y > 0.0 && size.z > 0.0) return bounds;
+Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
+  if (!text) return okStatus();
+  const std::vector<double> v = numbers(*text);
+  if (v.size() == 6 && v[0] < v[3] && v[1] < v[4] && v[2] < v[5]) {
+    bounds = Box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    return okStatus();
   }
   return usage("--bounds needs six numbers x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1 and z0 < z1, got '" +
-               text + "'");
+               *text + "'");
 }
 
 Status checkSequence(const Words& words) {
@@ -73,31 +73,16 @@ Result<Options> interpreted(const Words& words) {
   options.only = words.only;
   options.report = words.report;
 
-  if (Status s = checkExtension(words.output); !s) return s.error();
-  if (Status s = checkSequence(words); !s) return s.error();
-  const auto above0 = [](const char* flag) {
-    return [flag](const std::string& text) { return positive(flag, text); };
-  };
-  const auto whole = [](const char* flag) {
-    return [flag](const std::string& text) { return count(flag, text); };
-  };
-  const auto any = [](const std::string& text) {
-    return numberFor("--time", text, "a finite number of seconds", [](double) { return true; });
-  };
   constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
-  if (Status s = take<double>(words.voxelSize, options.voxelSize, above0("--voxel-size")); !s)
-    return s.error();
-  if (Status s = take<double>(words.time, options.time, any); !s) return s.error();
-  if (Status s = take<int>(words.frames, options.frames, whole("--frames")); !s) return s.error();
-  if (Status s = take<double>(words.fps, options.framesPerSecond, above0("--fps")); !s) return s.error();
-  if (Status s = take<int>(words.threads, options.threads, whole("--threads")); !s) return s.error();
-  if (Status s = take<double>(words.maxMemory, options.maxMemory, above0("--max-memory"), kGiB); !s)
-    return s.error();
-  if (words.bounds) {
-    Result<Box> bounds = box(*words.bounds);
-    if (!bounds) return bounds.error();
-    options.bounds = *bounds;
-  }
+  for (const Status& s : {checkExtension(words.output), checkSequence(words),
+                          take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
+                          take<double>("--time", words.time, options.time, seconds),
+                          take<int>("--frames", words.frames, options.frames, count),
+                          take<double>("--fps", words.fps, options.framesPerSecond, positive),
+                          take<int>("--threads", words.threads, options.threads, count),
+                          take<double>("--max-memory", words.maxMemory, options.maxMemory, positive, kGiB),
+                          box(words.bounds, options.bounds)})
+    if (!s) return s.error();
   Result<std::map<std::string, double>> values = parameters(words.parameters);
   if (!values) return values.error();
   options.parameters = std::move(*values);
