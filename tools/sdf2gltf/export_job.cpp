@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <type_traits>
 #include <utility>
 
 #include "command_line/frames.h"
@@ -19,19 +20,13 @@ namespace {
 /// voxel.
 constexpr double kDefaultVoxels = 200.0;
 
-/// Runs `work` and returns what it returned, adding its seconds to a stage.
+/// Runs `work` and returns what it returned, adding how long it took.
 template <class Work>
-auto timed(StageSeconds& stages, const std::string& stage, Work work) {
+auto timed(double& seconds, Work work) {
   const auto began = std::chrono::steady_clock::now();
   auto result = work();
-  addSeconds(stages, stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return result;
-}
-
-double sum(const StageSeconds& stages) {
-  double seconds = 0.0;
-  for (const auto& stage : stages) seconds += stage.second;
-  return seconds;
 }
 
 /// The scene with only the part that was asked for.
@@ -62,8 +57,12 @@ class FrameExport {
     if (Status s = load(time); !s) return s;
     if (Status s = chooseVoxelSize(voxelSize); !s) return s;
     if (Status s = meshParts(*voxelSize); !s) return s;
-    if (Status s = write(target); !s) return s;
-    finish();
+    progress_.setSubject(subject_);
+    progress_.beginStage("writing");
+    if (Status s = stage("writing", [&] { return writeMeshes(target, scene, parts_); }); !s) return s;
+    report.total.name = "total";
+    report.total.stats = combined(parts_);
+    report.total.peakMemory = peakMemory();
     return okStatus();
   }
 
@@ -74,12 +73,8 @@ class FrameExport {
   Status load(double time) {
     progress_.setSubject(subject_);
     progress_.beginStage("script");
-    ScriptOptions script;
-    script.values = options_.parameters;
-    script.time = time;
-    script.fixed = true;
-    Result<Scene> loaded =
-        timed(report.total.stages, "script", [&] { return loadScene(options_.scene, script); });
+    const ScriptOptions script{.values = options_.parameters, .time = time, .fixed = true};
+    Result<Scene> loaded = stage("script", [&] { return loadScene(options_.scene, script); });
     if (!loaded) return loaded.error();
     Result<Scene> chosen = selected(std::move(*loaded), options_);
     if (!chosen) return chosen.error();
@@ -93,7 +88,7 @@ class FrameExport {
     progress_.beginStage("bounds");
     Box all;
     for (const Part& part : scene.parts) {
-      Box box = timed(report.total.stages, "bounds", [&] { return findBounds(part.shape); });
+      Box box = stage("bounds", [&] { return findBounds(part.shape); });
       if (clip_) box = intersect(box, *clip_);
       if (Status s = interrupted(); !s) return s;
       if (box.empty()) continue;
@@ -114,53 +109,34 @@ class FrameExport {
       const std::string place =
           " (" + std::to_string(i + 1) + " of " + std::to_string(scene.parts.size()) + ")";
       progress_.setSubject(subject_ + (subject_.empty() ? "" : ", ") + "part '" + part.name + "'" + place);
-      ReportLine line;
+      ReportLine& line = report.parts.emplace_back();
       line.name = part.name;
-      StageSeconds whole;
       Result<MeshedShape> meshed = timed(
-          whole, "", [&] { return meshShape(part.shape, part.name, meshOptions(voxelSize), progress_); });
+          line.seconds, [&] { return meshShape(part.shape, part.name, meshOptions(voxelSize), progress_); });
       if (!meshed) return meshed.error();
-      line.seconds = sum(whole);
       line.stages = std::move(meshed->stageSeconds);
       line.stats = meshed->stats;
       line.peakMemory = peakMemory();
-      report.parts.push_back(std::move(line));
+      report.total.seconds += line.seconds;
+      for (const auto& [name, seconds] : line.stages) addSeconds(report.total.stages, name, seconds);
       parts_.push_back({part.name, std::move(meshed->mesh), meshed->stats});
       releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
     }
     return interrupted();
   }
 
-  Status write(const std::filesystem::path& target) {
-    progress_.setSubject(subject_);
-    progress_.beginStage("writing");
-    return timed(report.total.stages, "writing", [&] { return writeMeshes(target, scene, parts_); });
-  }
-
-  /// The total: the parts' stages between the ones before and after them.
-  void finish() {
-    StageSeconds own = std::exchange(report.total.stages, {});
-    const auto [writing, writingSeconds] = own.back();
-    own.pop_back();
-    ReportLine& total = report.total;
-    total.name = "total";
-    total.stats = combined(parts_);
-    total.seconds = sum(own) + writingSeconds;
-    total.stages = std::move(own);
-    for (const ReportLine& part : report.parts) {
-      total.seconds += part.seconds;
-      for (const auto& [stage, seconds] : part.stages) addSeconds(total.stages, stage, seconds);
-    }
-    addSeconds(total.stages, writing, writingSeconds);
-    total.peakMemory = peakMemory();
+  /// Runs `work`, which is a stage of the total.
+  template <class Work>
+  std::invoke_result_t<Work> stage(const std::string& name, Work work) {
+    double seconds = 0.0;
+    auto result = timed(seconds, work);
+    addSeconds(report.total.stages, name, seconds);
+    report.total.seconds += seconds;
+    return result;
   }
 
   MeshOptions meshOptions(double voxelSize) const {
-    MeshOptions mesh;
-    mesh.voxelSize = voxelSize;
-    mesh.bounds = clip_;
-    mesh.maxMemory = options_.maxMemory;
-    return mesh;
+    return {.voxelSize = voxelSize, .bounds = clip_, .maxMemory = options_.maxMemory};
   }
 
   Status interrupted() const {
@@ -175,15 +151,15 @@ class FrameExport {
   std::vector<ExportPart> parts_;
 };
 
+/// The file that the i-th frame goes to, or all.
+std::filesystem::path targetOf(const Options& options, int i) {
+  return options.frames ? command_line::frameName(options.output, i + 1) : options.output;
+}
+
 /// What can be known of the files to write before the work that fills them.
 Status checkTargets(const Options& options) {
-  const int frames = options.frames.value_or(1);
-  for (int i = 1; i <= frames; ++i) {
-    if (Status s =
-            checkWritable(options.frames ? command_line::frameName(options.output, i) : options.output);
-        !s)
-      return s;
-  }
+  for (int i = 0; i < options.frames.value_or(1); ++i)
+    if (Status s = checkWritable(targetOf(options, i)); !s) return s;
   return options.report ? checkWritable(*options.report) : okStatus();
 }
 
@@ -192,16 +168,16 @@ Status checkTargets(const Options& options) {
 Status runExport(const Options& options, ProgressLine& progress, std::ostream& out) {
   if (Status s = checkTargets(options); !s) return s;
   const int frames = options.frames.value_or(1);
-  std::optional<double> voxelSize =
-      options.voxelSize;  // one for the whole sequence, or its surface would shimmer
+  // One for the whole sequence, or its surface would shimmer.
+  std::optional<double> voxelSize = options.voxelSize;
   std::vector<FileReport> files;
   std::vector<ParameterInfo> parameters;
   for (int i = 0; i < frames; ++i) {
     const std::string subject =
         options.frames ? "frame " + std::to_string(i + 1) + " of " + std::to_string(frames) : "";
     FrameExport frame(options, progress, subject);
-    const auto target = options.frames ? command_line::frameName(options.output, i + 1) : options.output;
-    if (Status s = frame.run(target, options.time + i / options.framesPerSecond, voxelSize); !s) return s;
+    if (Status s = frame.run(targetOf(options, i), options.time + i / options.framesPerSecond, voxelSize); !s)
+      return s;
     progress.clear();
     if (!options.quiet) {
       printTable(out, frame.report);
