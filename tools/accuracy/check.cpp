@@ -21,10 +21,6 @@ constexpr double kFloatUlps = 4.0;
 // 2^13 epsilons, a 2^16th of a float's ulp.
 constexpr double kDoubleRounding = 0x1p-40;
 
-double largest(const glm::dvec3& p) {
-  return std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z)));
-}
-
 double floatUlp(double x) {
   const float f = static_cast<float>(x);
   return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - f;

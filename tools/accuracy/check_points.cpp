@@ -23,6 +23,8 @@ Box boxOf(const TriangleMesh& mesh) {
 
 }  // namespace
 
+double largest(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
 double uniform(Random& random, double lo, double hi) {
   return lo + (hi - lo) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
@@ -62,8 +64,7 @@ glm::dvec3 Turning::fromMesh(const glm::dvec3& q, std::mt19937_64& random) const
 PointMaker::PointMaker(const ReferenceCase& c)
     : case_(c), turning_(c.axis), box_(intersect(boxOf(c.mesh), c.region)) {
   size_ = box_.longestSide();
-  for (int i = 0; i < 3; ++i)
-    reach_ = std::max(reach_, std::max(std::abs(box_.min[i]), std::abs(box_.max[i])));
+  reach_ = std::max(largest(box_.min), largest(box_.max));
   if (c.axis) reach_ += glm::length(c.axis->origin);
   double sum = 0.0;
   for (const glm::ivec3& t : c.mesh.triangles) {
@@ -131,25 +132,13 @@ glm::dvec3 PointMaker::around(Random& random) const {
 glm::dvec3 PointMaker::onSymmetry(Random& random) const {
   glm::dvec3 p = around(random);
   const int i = static_cast<int>(below(random, 3)), j = (i + 1 + static_cast<int>(below(random, 2))) % 3;
-  const glm::dvec3 middle = box_.centre();
-  switch (below(random, 6)) {
-    case 0:
-      p[i] = 0.0;
-      break;
-    case 1:
-      p[i] = middle[i];
-      break;
-    case 2:
-      p[i] = p[j] = 0.0;
-      break;
-    case 3:
-      p[i] = middle[i], p[j] = middle[j];
-      break;
-    case 4:
-      p[i] = p[j];
-      break;
-    default:
-      p[i] = -p[j];
+  const std::size_t kind = below(random, 6);
+  if (kind >= 4) {
+    p[i] = kind == 4 ? p[j] : -p[j];
+  } else {
+    const glm::dvec3 onto = kind % 2 ? box_.centre() : glm::dvec3(0.0);
+    p[i] = onto[i];
+    if (kind >= 2) p[j] = onto[j];
   }
   return p;
 }

@@ -62,6 +62,8 @@ class PointMaker {
   double size_ = 0.0, reach_ = 0.0;
 };
 
+/// The largest coordinate, without its sign.
+double largest(const glm::dvec3& p);
 glm::dvec3 randomDirection(PointMaker::Random& random);
 /// Uniform in [lo, hi).
 double uniform(PointMaker::Random& random, double lo, double hi);

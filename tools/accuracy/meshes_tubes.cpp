@@ -10,26 +10,18 @@ namespace {
 using Row = std::vector<glm::dvec3>;
 
 // A tube's cut through a half-plane that ends at an axis: a circle, or what lies outside the axis of one that
-// crosses it; coordinates are distance from the axis and height.
-class Section {
- public:
-  // `pole`: height at which all of a tube's cuts cross the axis; 0 where they do not reach it.
-  Section(double centre, double radius, double pole) : centre_(centre), radius_(radius), pole_(pole) {}
-
-  std::vector<glm::dvec2> points(int steps) const {
-    std::vector<glm::dvec2> result;
-    const double end = pole_ > 0.0 ? std::atan2(pole_, -centre_) : kPi;
-    for (int k = 0; k < (pole_ > 0.0 ? steps + 1 : steps); ++k) {
-      const double angle = end * (2.0 * k / steps - 1.0);
-      result.emplace_back(centre_ + radius_ * std::cos(angle), radius_ * std::sin(angle));
-    }
-    if (pole_ > 0.0) result.front() = {0.0, -pole_}, result.back() = {0.0, pole_};
-    return result;
+// crosses it; coordinates are distance from the axis and height. `pole`: height at which all of a tube's cuts
+// cross the axis; 0 where they do not reach it.
+std::vector<glm::dvec2> section(double centre, double radius, double pole, int steps) {
+  std::vector<glm::dvec2> points;
+  const double end = pole > 0.0 ? std::atan2(pole, -centre) : kPi;
+  for (int k = 0; k < (pole > 0.0 ? steps + 1 : steps); ++k) {
+    const double angle = end * (2.0 * k / steps - 1.0);
+    points.emplace_back(centre + radius * std::cos(angle), radius * std::sin(angle));
   }
-
- private:
-  double centre_, radius_, pole_;
-};
+  if (pole > 0.0) points.front() = {0.0, -pole}, points.back() = {0.0, pole};
+  return points;
+}
 
 // Where the tube's circle crosses the axis. Where it only touches it, both ends are kept apart by a hair, for
 // a mesh cannot pinch.
@@ -61,9 +53,9 @@ double sphereChord(std::span<const Triangle> triangles, const glm::dvec3& centre
   return chord;
 }
 
-Row turned(const Section& section, int steps, double sine, double cosine) {
+Row turned(const std::vector<glm::dvec2>& section, double sine, double cosine) {
   Row row;
-  for (const glm::dvec2& q : section.points(steps)) row.emplace_back(q.x * sine, q.y, q.x * cosine);
+  for (const glm::dvec2& q : section) row.emplace_back(q.x * sine, q.y, q.x * cosine);
   return row;
 }
 
@@ -81,7 +73,7 @@ std::vector<Row> ballRows(double angle, double major, double minor, int steps, i
     const double off = major * std::sin(by);
     const double radius = k == along && !reaches ? 0.0 : std::sqrt(minor * minor - off * off);
     const bool opposite = k == along && reaches;
-    rows.push_back(turned(Section(major * std::cos(by), radius, pole), steps,
+    rows.push_back(turned(section(major * std::cos(by), radius, pole, steps),
                           opposite ? 0.0 : std::sin(angle + by), opposite ? -1.0 : std::cos(angle + by)));
   }
   return rows;
@@ -104,7 +96,7 @@ Tessellation bentTube(double angle, double major, double minor, int steps, int a
     const double theta = angle * k / turns;
     const bool opposite = angle == kPi && k == turns;
     rows.push_back(
-        turned(Section(major, minor, pole), steps, opposite ? 0.0 : std::sin(theta), std::cos(theta)));
+        turned(section(major, minor, pole, steps), opposite ? 0.0 : std::sin(theta), std::cos(theta)));
   }
   const bool ring = pole == 0.0;
   std::vector<Triangle> triangles = rowsJoined(rows, ring);
@@ -128,12 +120,12 @@ Tessellation bentTube(double angle, double major, double minor, int steps, int a
 // covers of it: straight up to halfLength, then turned about the line through (0, halfLength) along z.
 Tessellation chainLink(double halfLength, double major, double minor, int steps, int along) {
   const double pole = poleOf(major, minor);
-  const std::vector<glm::dvec2> section = Section(major, minor, pole).points(steps);
+  const std::vector<glm::dvec2> circle = section(major, minor, pole, steps);
   const int turns = along / 2;
   std::vector<Row> rows;
   const auto add = [&](double sine, double cosine, double y) {
     Row& row = rows.emplace_back();
-    for (const glm::dvec2& q : section) row.emplace_back(q.x * cosine, y + q.x * sine, q.y);
+    for (const glm::dvec2& q : circle) row.emplace_back(q.x * cosine, y + q.x * sine, q.y);
   };
   for (int k = 0; k < turns && halfLength > 0.0; ++k) add(0.0, 1.0, halfLength * k / turns);
   for (int k = 0; k <= turns; ++k) {

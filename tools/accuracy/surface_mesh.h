@@ -4,7 +4,6 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/number_utils.h>
 
-#include <map>
 #include <stdexcept>
 
 #include "reference.h"
@@ -25,19 +24,19 @@ SurfaceMesh toSurfaceMesh(const TriangleMesh& mesh) {
   return result;
 }
 
+/// The mesh must have no vertices that were removed and not collected.
 template <class SurfaceMesh>
 TriangleMesh fromSurfaceMesh(const SurfaceMesh& mesh) {
   TriangleMesh result;
-  std::map<typename SurfaceMesh::Vertex_index, int> index;
   for (const auto v : mesh.vertices()) {
-    index.emplace(v, static_cast<int>(result.points.size()));
     const auto& p = mesh.point(v);
     result.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
   }
   for (const auto f : mesh.faces()) {
     glm::ivec3 triangle;
     int corner = 0;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) triangle[corner++] = index.at(v);
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+      triangle[corner++] = static_cast<int>(v.idx());
     result.triangles.push_back(triangle);
   }
   return result;
