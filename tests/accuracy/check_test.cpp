@@ -14,8 +14,7 @@ constexpr unsigned kSeed = 7;
 
 ReferenceCase boxCase(Shape shape) {
   const std::vector<double> cuts{-1.0, 1.0};
-  return {"box", "box", std::move(shape),
-          cells({cuts, cuts, cuts}, [](const glm::ivec3&) { return true; }).mesh};
+  return {{cells({cuts, cuts, cuts}, [](const glm::ivec3&) { return true; }).mesh}, "box", std::move(shape)};
 }
 
 Shape unitBox() { return box({1.0, 1.0, 1.0}); }

@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Catalog, OperatorSlope, testing::ValuesIn(operatorCases
                          [](const auto& info) { return info.param.entry; });
 
 ReferenceCase only(std::string name, Shape shape, std::vector<glm::dvec3> special = {}) {
-  return {"", std::move(name), std::move(shape), {}, 0.0, std::move(special)};
+  return {{{}, 0.0, std::move(special)}, std::move(name), std::move(shape)};
 }
 
 TEST(SteepestOf, FindsATearAMillionthDeep) {

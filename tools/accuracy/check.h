@@ -16,11 +16,8 @@ struct Axis {
   glm::dvec3 direction{0.0, 1.0, 0.0};
 };
 
-/// A shape, and its solid as a mesh that was not made from its formula.
-struct ReferenceCase {
-  std::string entry;  ///< catalog name
-  std::string name;   ///< the entry and what it was given, for people: "torus 2, 0.01"
-  Shape shape;
+/// A solid as a mesh that was made from its geometric definition. Lengths in scene units.
+struct Tessellation {
   /// A flat shape's mesh is its outline extruded along z; its `region` then stays far enough from the ends
   /// that they are never nearest. The same holds for a solid of revolution that has an `axis`: its outline is
   /// its profile, x being the distance from the axis and y the way along it.
@@ -35,6 +32,12 @@ struct ReferenceCase {
   /// only here.
   Box region = Box::everything();
   std::optional<Axis> axis{};
+};
+
+/// A shape, and its solid as a mesh that was not made from its formula.
+struct ReferenceCase : Tessellation {
+  std::string name;  ///< what the shape is and what it was given, for people: "torus 2, 0.01"
+  Shape shape;
 };
 
 /// What was found. Distances in scene units; f is the shape's distance at p read in double, d the reference's

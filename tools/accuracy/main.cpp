@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "operator_rows.h"
+#include "operator_cases.h"
 #include "primitive_cases.h"
 #include "report.h"
 #include "sdf/base/file.h"
@@ -16,29 +16,13 @@ namespace {
 
 enum ExitCode { kDone = 0, kRefuted = 1, kUsage = 2, kFiles = 5 };
 
-std::vector<Row> checkPrimitives(std::uint64_t fraction) {
-  std::vector<Row> rows;
-  for (const PrimitiveCases& cases : primitiveCases()) {
-    std::fprintf(stderr, "%s\n", cases.entry.c_str());
-    rows.push_back(rowOf(cases.entry, cases.makers, fraction));
-  }
-  return rows;
-}
-
-std::vector<Row> checkOperators(std::uint64_t fraction) {
-  std::vector<Row> rows;
-  for (const OperatorCases& cases : operatorCases()) {
-    std::fprintf(stderr, "%s\n", cases.entry.c_str());
-    rows.push_back(operatorRow(cases, fraction));
-  }
-  return rows;
-}
-
-std::vector<FailureRow> runFailures() {
-  std::vector<FailureRow> rows;
-  for (const FailureCase& failure : failureCases()) {
-    std::fprintf(stderr, "%s\n", failure.name.c_str());
-    rows.push_back({failure, failure.run()});
+/// Runs one after the other, naming each first, since some take long.
+template <class Case, class Run>
+auto runAll(const std::vector<Case>& cases, std::string Case::*name, Run run) {
+  std::vector<decltype(run(cases[0]))> rows;
+  for (const Case& c : cases) {
+    std::fprintf(stderr, "%s\n", (c.*name).c_str());
+    rows.push_back(run(c));
   }
   return rows;
 }
@@ -71,8 +55,13 @@ int run(const std::string& output, std::uint64_t fraction) {
     return kFiles;
   };
   if (const Status s = checkWritable(output); !s) return failed(s.error());
-  const std::vector<FailureRow> failures = runFailures();
-  const std::vector<Row> primitives = checkPrimitives(fraction), operators = checkOperators(fraction);
+  const auto failures = runAll(failureCases(), &FailureCase::name, [](const FailureCase& c) {
+    return FailureRow{c, c.run()};
+  });
+  const auto primitives = runAll(primitiveCases(), &PrimitiveCases::entry,
+                                 [&](const PrimitiveCases& c) { return rowOf(c.entry, c.makers, fraction); });
+  const auto operators = runAll(operatorCases(), &OperatorCases::entry,
+                                [&](const OperatorCases& c) { return operatorRow(c, fraction); });
   const Status written = writeFile(output, [&](std::ostream& out) {
     writeReport(out, primitives, operators, failures);
     return okStatus();

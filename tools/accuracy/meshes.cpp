@@ -1,23 +1,14 @@
 #include "meshes.h"
 
+#define GLM_ENABLE_EXPERIMENTAL  // for glm/gtx/hash.hpp
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <glm/geometric.hpp>
+#include <glm/gtx/hash.hpp>
 #include <unordered_map>
 
 namespace sdf::accuracy {
 namespace {
-
-struct SamePlace {
-  std::size_t operator()(const glm::dvec3& p) const {
-    std::size_t hash = 0;
-    for (int i = 0; i < 3; ++i)  // + 0.0 makes -0 and 0 one
-      hash = (hash ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9E3779B97F4A7C15u + (hash >> 29);
-    return hash ^ (hash >> 32);
-  }
-};
 
 double volume(const TriangleMesh& mesh) {
   double sum = 0.0;
@@ -109,7 +100,7 @@ Outline& Outline::arc(const glm::dvec2& centre, double radius, double from, doub
 
 TriangleMesh welded(std::span<const Triangle> triangles) {
   TriangleMesh mesh;
-  std::unordered_map<glm::dvec3, int, SamePlace> index;
+  std::unordered_map<glm::dvec3, int> index;
   for (const Triangle& t : triangles) {
     glm::ivec3 corners;
     for (int i = 0; i < 3; ++i) {
@@ -190,17 +181,19 @@ Tessellation cells(const std::array<std::vector<double>, 3>& cuts,
 // At each height the facets cut out the regular polygon that is inscribed in the circle there, since the four
 // corners between two rings and two half-planes lie in one plane. So they are within r (1 - cos(pi / around))
 // of the turned polyline, and that is within r (1 - cos(pi / around)) of the sphere.
-Tessellation ball(double radius, int around) {
+// Scaled by the radii, distances grow by the largest at most.
+Tessellation ellipsoidSurface(const glm::dvec3& radii, int around) {
   std::vector<std::vector<glm::dvec3>> rows(around / 2 + 1);
   for (int i = 0; i <= around / 2; ++i)
     for (int k = 0; k < around; ++k) {
       const double height = kPi * (2.0 * i / around - 0.5), angle = 2.0 * kPi * k / around;
       const double across = i == 0 || i == around / 2 ? 0.0 : std::cos(height);
-      rows[i].push_back(radius *
+      rows[i].push_back(radii *
                         glm::dvec3(across * std::sin(angle), std::sin(height), across * std::cos(angle)));
     }
-  Tessellation t{welded(rowsJoined(rows, true)), 2.0 * radius * (1.0 - std::cos(kPi / around))};
-  t.special = {glm::dvec3(0.0), {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}};
+  const double largest = std::max({radii.x, radii.y, radii.z});
+  Tessellation t{welded(rowsJoined(rows, true)), 2.0 * largest * (1.0 - std::cos(kPi / around))};
+  t.special = {glm::dvec3(0.0), {radii.x, 0, 0}, {0, radii.y, 0}, {0, 0, radii.z}};
   return t;
 }
 
@@ -254,13 +247,6 @@ Tessellation prism(const Outline& outline, double half,
   for (const glm::dvec2& p : outline.special)
     for (const double z : {-half, 0.0, half}) t.special.push_back(turn(glm::dvec3(p, z)));
   t.special.emplace_back(0.0);
-  return t;
-}
-
-Tessellation scaled(Tessellation t, const glm::dvec3& factors) {
-  for (glm::dvec3& p : t.mesh.points) p *= factors;
-  for (glm::dvec3& p : t.special) p *= factors;
-  t.chord *= std::max(factors.x, std::max(factors.y, factors.z));
   return t;
 }
 

@@ -10,15 +10,6 @@
 
 namespace sdf::accuracy {
 
-/// What a ReferenceCase needs of a solid. Lengths in scene units.
-struct Tessellation {
-  TriangleMesh mesh;
-  double chord = 0.0;                 ///< bound of the Hausdorff distance to the true surface
-  std::vector<glm::dvec3> special{};  ///< corners, points of edges, centres
-  Box region = Box::everything();
-  std::optional<Axis> axis{};
-};
-
 /// A curve of lines and arcs as a polyline. An arc of radius r cut into steps of angle s lies within
 /// r (1 - cos(s / 2)) of its chords, and they of it; `chord` is the largest of these.
 struct Outline {
@@ -48,8 +39,8 @@ Tessellation polyhedron(std::vector<glm::dvec3> points, std::span<const std::vec
 Tessellation cells(const std::array<std::vector<double>, 3>& cuts,
                    const std::function<bool(const glm::ivec3&)>& solid);
 
-/// Ball about the origin with `around` (even) steps to a circle.
-Tessellation ball(double radius, int around);
+/// About the origin, with `around` (even) steps to a circle.
+Tessellation ellipsoidSurface(const glm::dvec3& radii, int around);
 /// A solid of revolution by its profile (x = distance from the axis, y along it), as ReferenceCase has it:
 /// either closed, or from the axis to the axis.
 Tessellation turned(const Outline& profile, const Axis& axis = {});
@@ -69,10 +60,25 @@ Tessellation roundedBox(const glm::dvec3& half, double radius, int steps);
 Tessellation bentTube(double angle, double major, double minor, int steps, int along);
 /// All points within `minor` of two half circles 2 * halfLength apart along y and the lines that join them.
 Tessellation chainLink(double halfLength, double major, double minor, int steps, int along);
-/// Scaled along the axes; distances grow by the largest factor at most.
-Tessellation scaled(Tessellation t, const glm::dvec3& factors);
 /// Half-space dot(p, normal) <= offset within a cube of some hundred units.
 Tessellation halfSpace(const glm::dvec3& normal, double offset);
+
+// The flat shapes' outlines from their definitions; angles in radians.
+
+Outline circleOutline(double radius);
+Outline ellipseOutline(double radiusX, double radiusY);
+/// Its half x >= 0.
+Outline halfEllipseOutline(double radiusX, double radiusY);
+/// Rectangle with these half sizes, its corners rounded with this radius, which may be 0.
+Outline rectangleOutline(double halfWidth, double halfHeight, double radius);
+/// All points within `radius` of the segment.
+Outline segmentOutline(const glm::dvec2& from, const glm::dvec2& to, double radius);
+/// Corners at `outer` from the origin, one on +y; with `inner` > 0 as many at that distance between them.
+Outline starOutline(int points, double outer, double inner = 0.0);
+Outline polygonOutline(std::span<const glm::dvec2> points);
+/// All points within `half` of the arc of this radius, `angle` to both sides of +y; only the outer boundary
+/// where the band overlaps itself.
+Tessellation bentBand(double angle, double radius, double half);
 
 /// A wave of period 2 pi along each axis.
 struct Wave {

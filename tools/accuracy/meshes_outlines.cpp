@@ -1,8 +1,8 @@
-#include "meshes_outlines.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "meshes.h"
 
 namespace sdf::accuracy {
 namespace {

@@ -36,8 +36,4 @@ const std::array<Smooth, 4> kSmooths{{
     {Blend::Kind::Chamfer, "chamfer", chamfer, 0.5, 0.0},
 }};
 
-const Smooth& smoothOf(Blend::Kind kind) {
-  return *std::find_if(kSmooths.begin(), kSmooths.end(), [&](const Smooth& s) { return s.kind == kind; });
-}
-
 }  // namespace sdf::accuracy

@@ -16,6 +16,5 @@ struct Smooth {
 
 /// Every kind but the hard one.
 extern const std::array<Smooth, 4> kSmooths;
-const Smooth& smoothOf(Blend::Kind kind);
 
 }  // namespace sdf::accuracy

@@ -6,18 +6,14 @@
 
 #include "operator_blends.h"
 #include "operator_cases.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
 
 namespace sdf::accuracy {
 namespace {
 
-TriangleMesh both(const TriangleMesh& a, const TriangleMesh& b) {
-  return corefine(a, b, Boolean::Intersection);
-}
-TriangleMesh less(const TriangleMesh& a, const TriangleMesh& b) {
-  return corefine(a, b, Boolean::Difference);
+// Of two solids, exactly.
+Solid operator|(const Solid& a, const Solid& b) { return {a.shape | b.shape, united({a.mesh, b.mesh})}; }
+Solid operator&(const Solid& a, const Solid& b) {
+  return {a.shape & b.shape, corefine(a.mesh, b.mesh, Boolean::Intersection)};
 }
 
 // Three solids, each pair of which overlaps, and all three.
@@ -36,103 +32,93 @@ struct Ball {
   double distance(const glm::dvec3& p) const { return glm::length(p - glm::dvec3(0, y, 0)) - radius; }
 };
 
-constexpr int kSteps = 128;
-
-ReferenceCase blended(const char* name, const Smooth& smooth, const Shape& shape, Star star) {
-  const Tessellation t = tessellatedAboutY(star, kSteps);
-  return caseOf(std::string(smooth.name) + " " + name, {shape, t.mesh, t.chord});
-}
+constexpr int kSteps = 128;     // of a turn about an axis
+constexpr double kWidth = 0.3;  // of the blends
 
 // Where a chamfer's bevel begins and ends.
 int pieceOf(double apart, double k) { return apart < -k ? 0 : apart > k ? 2 : 1; }
 
+// Two balls blended, as sideA lower(sideA a, sideB b): a side of -1 takes what is outside of its ball.
+struct Pair {
+  Ball a, b;
+  double sideA, sideB;
+  double nearest, farthest;  // the surface's radii lie between
+  double clear;              // how near the surface comes to the balls' centres
+};
+
+void addBlended(std::vector<ReferenceCase>& cases, const char* name, const Pair& pair,
+                Shape (*combine)(const Shape&, const Shape&, const Blend&)) {
+  for (const Smooth& s : kSmooths) {
+    const auto a = [=](const glm::dvec3& p) { return pair.sideA * pair.a.distance(p); };
+    const auto b = [=](const glm::dvec3& p) { return pair.sideB * pair.b.distance(p); };
+    Star star{[=](const glm::dvec3& p) { return pair.sideA * s.lower(a(p), b(p), kWidth); }, pair.nearest,
+              pair.farthest, 1.0 / pair.clear + 4.0 * s.curvature / kWidth};
+    if (s.kind == Blend::Kind::Chamfer)
+      star.piece = [=](const glm::dvec3& p) { return pieceOf(a(p) - b(p), kWidth); };
+    cases.push_back(caseOf(std::string(s.name) + " " + name,
+                           combine(pair.a.shape(), pair.b.shape(), {s.kind, kWidth}),
+                           tessellatedAboutY(star, kSteps)));
+  }
+}
+
 std::vector<ReferenceCase> unions() {
   const Solid a = first(), b = second(), c = third(), f = flush(), i = inner(), o = apart(), l = solidL();
   std::vector<ReferenceCase> cases{
-      caseOf("two", {a.shape | b.shape, united({a.mesh, b.mesh})}),
+      caseOf("two", a | b),
       caseOf("three", {unite({a.shape, b.shape, c.shape}), united({a.mesh, b.mesh, c.mesh})}),
-      caseOf("flush faces", {a.shape | f.shape, united({a.mesh, f.mesh})}),
+      caseOf("flush faces", a | f),
       caseOf("one inside the other", {a.shape | i.shape, a.mesh}),
       caseOf("apart", {a.shape | o.shape, together({a.mesh, o.mesh})}),
-      caseOf("of an L and a difference",
-             {l.shape | (a.shape - b.shape), united({l.mesh, less(a.mesh, b.mesh)})})};
+      caseOf("of an L and a difference", l | (a - b))};
   const Ball low{-0.35, 0.8}, high{0.5, 0.6}, top{1.0, 0.3};
-  constexpr double k = 0.3;
-  for (const Smooth& s : kSmooths) {
-    // A blended union lies below both distances: on its surface both are positive.
-    Star star{[=](const glm::dvec3& p) { return s.lower(low.distance(p), high.distance(p), k); }, 0.3, 1.6,
-              1.0 / high.radius + 4.0 * s.curvature / k};
-    if (s.kind == Blend::Kind::Chamfer)
-      star.piece = [=](const glm::dvec3& p) { return pieceOf(low.distance(p) - high.distance(p), k); };
-    cases.push_back(blended("of two balls", s, unite(low.shape(), high.shape(), {s.kind, k}), star));
-  }
+  // A blended union lies below both distances: on its surface both are positive.
+  addBlended(cases, "of two balls", {low, high, 1.0, 1.0, 0.3, 1.6, high.radius}, unite);
   // Three at once: k log-sum-exp; its second derivative is the variance of the slopes over k, at most 1 / k.
   const Star star{[=](const glm::dvec3& p) {
                     double sum = 0.0;
-                    for (const Ball& ball : {low, high, top}) sum += std::exp(-ball.distance(p) / k);
-                    return -k * std::log(sum);
+                    for (const Ball& ball : {low, high, top}) sum += std::exp(-ball.distance(p) / kWidth);
+                    return -kWidth * std::log(sum);
                   },
-                  0.3, 1.8, 1.0 / top.radius + 1.0 / k};
-  cases.push_back(blended("of three balls", smoothOf(Blend::Kind::Exponential),
-                          unite({low.shape(), high.shape(), top.shape()}, Blend::exponential(k)), star));
+                  0.3, 1.8, 1.0 / top.radius + 1.0 / kWidth};
+  cases.push_back(caseOf("exponential of three balls",
+                         unite({low.shape(), high.shape(), top.shape()}, Blend::exponential(kWidth)),
+                         tessellatedAboutY(star, kSteps)));
   return cases;
 }
 
 std::vector<ReferenceCase> intersections() {
   const Solid a = first(), b = second(), c = third(), f = flush(), i = inner(), l = solidL();
   std::vector<ReferenceCase> cases{
-      caseOf("two", {a.shape & b.shape, both(a.mesh, b.mesh)}),
-      caseOf("three", {intersect({a.shape, b.shape, c.shape}), both(both(a.mesh, b.mesh), c.mesh)}),
-      caseOf("flush faces", {a.shape & f.shape, both(a.mesh, f.mesh)}),
-      caseOf("one inside the other", {a.shape & i.shape, i.mesh}),
-      caseOf("of an L and a union", {l.shape & (a.shape | b.shape), both(l.mesh, united({a.mesh, b.mesh}))})};
-  const Ball low{-0.5, 1.0}, high{0.6, 1.0};
-  constexpr double k = 0.3;
+      caseOf("two", a & b), caseOf("three", {intersect({a.shape, b.shape, c.shape}), (a & b & c).mesh}),
+      caseOf("flush faces", a & f), caseOf("one inside the other", {a.shape & i.shape, i.mesh}),
+      caseOf("of an L and a union", l & (a | b))};
   // The surface stays this far from the balls' centres, also where an exponential blend takes it inward.
   constexpr double kClear = 0.15;
-  for (const Smooth& s : kSmooths) {
-    Star star{[=](const glm::dvec3& p) { return -s.lower(-low.distance(p), -high.distance(p), k); }, 0.0, 1.2,
-              1.0 / kClear + 4.0 * s.curvature / k};
-    if (s.kind == Blend::Kind::Chamfer)
-      star.piece = [=](const glm::dvec3& p) { return pieceOf(low.distance(p) - high.distance(p), k); };
-    cases.push_back(blended("of two balls", s, intersect(low.shape(), high.shape(), {s.kind, k}), star));
-  }
+  addBlended(cases, "of two balls", {{-0.5, 1.0}, {0.6, 1.0}, -1.0, -1.0, 0.0, 1.2, kClear}, intersect);
   return cases;
 }
 
 std::vector<ReferenceCase> differences() {
   const Solid a = first(), b = second(), c = third(), f = flush(), i = inner(), l = solidL(), o = apart();
   std::vector<ReferenceCase> cases{
-      caseOf("two", {a.shape - b.shape, less(a.mesh, b.mesh)}),
-      caseOf("three", {subtract({a.shape, b.shape, c.shape}), less(less(a.mesh, b.mesh), c.mesh)}),
-      caseOf("flush faces", {a.shape - f.shape, less(a.mesh, f.mesh)}),
+      caseOf("two", a - b),
+      caseOf("three", {subtract({a.shape, b.shape, c.shape}), (a - b - c).mesh}),
+      caseOf("flush faces", a - f),
       caseOf("a cavity", {a.shape - i.shape, together({a.mesh, flipped(i.mesh)})}),
       caseOf("of what is apart", {a.shape - o.shape, a.mesh}),
-      caseOf("a difference less a difference",
-             {l.shape - (a.shape - b.shape), less(l.mesh, less(a.mesh, b.mesh))})};
-  const Ball ball{0.4, 1.0}, cutter{2.9, 2.0};
-  constexpr double k = 0.3, kClear = 0.25;
-  for (const Smooth& s : kSmooths) {
-    Star star{[=](const glm::dvec3& p) { return -s.lower(-ball.distance(p), cutter.distance(p), k); }, 0.0,
-              1.5, 1.0 / kClear + 4.0 * s.curvature / k};
-    if (s.kind == Blend::Kind::Chamfer)
-      star.piece = [=](const glm::dvec3& p) { return pieceOf(ball.distance(p) + cutter.distance(p), k); };
-    cases.push_back(
-        blended("a ball less a ball", s, subtract(ball.shape(), cutter.shape(), {s.kind, k}), star));
-  }
+      caseOf("a difference less a difference", l - (a - b))};
+  addBlended(cases, "a ball less a ball", {{0.4, 1.0}, {2.9, 2.0}, -1.0, 1.0, 0.0, 1.5, 0.25}, subtract);
   return cases;
 }
 
 // The parts of an exclusive or meet along curves, where no mesh is a manifold: they stay meshes of their own.
 std::vector<ReferenceCase> exclusions() {
   const Solid a = first(), b = second(), c = third(), f = flush(), i = inner(), o = apart();
-  const TriangleMesh abc = both(both(a.mesh, b.mesh), c.mesh);
   std::vector<ReferenceCase> cases{
-      caseOf("two", {a.shape ^ b.shape, together({less(a.mesh, b.mesh), less(b.mesh, a.mesh)})}),
+      caseOf("two", {a.shape ^ b.shape, together({(a - b).mesh, (b - a).mesh})}),
       caseOf("three", {exclude({a.shape, b.shape, c.shape}),
-                       together({less(less(a.mesh, b.mesh), c.mesh), less(less(b.mesh, a.mesh), c.mesh),
-                                 less(less(c.mesh, a.mesh), b.mesh), abc})}),
-      caseOf("flush faces", {a.shape ^ f.shape, together({less(a.mesh, f.mesh), less(f.mesh, a.mesh)})}),
+                       together({(a - b - c).mesh, (b - a - c).mesh, (c - a - b).mesh, (a & b & c).mesh})}),
+      caseOf("flush faces", {a.shape ^ f.shape, together({(a - f).mesh, (f - a).mesh})}),
       caseOf("one inside the other", {a.shape ^ i.shape, together({a.mesh, flipped(i.mesh)})}),
       caseOf("apart", {a.shape ^ o.shape, together({a.mesh, o.mesh})})};
   // One ball within another, nearer than the blend is wide: what is left is a bowl with two surfaces. A

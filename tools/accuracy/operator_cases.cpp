@@ -1,8 +1,6 @@
 #include "operator_cases.h"
 
 #include "sdf/shape/flats.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
 
 namespace sdf::accuracy {
 
@@ -15,10 +13,10 @@ Solid solidSphere(double radius) {
   return {sphere(radius), t.mesh, t.chord};
 }
 
-Solid solidL() {
-  const std::vector<glm::dvec2> outline{{-0.3, -0.4}, {1, -0.4},  {1, 0.4},
-                                        {0.4, 0.4},   {0.4, 1.1}, {-0.3, 1.1}};
-  return {extrude(polygon(outline), 0.35), prismMesh(outline, {0.1, 0.0}, 0.35)};
+Solid solidL() { return {extrude(polygon(kL), 0.35), prismMesh(kL, {0.1, 0.0}, 0.35)}; }
+
+Solid operator-(const Solid& a, const Solid& b) {
+  return {a.shape - b.shape, corefine(a.mesh, b.mesh, Boolean::Difference)};
 }
 
 Solid placed(const Solid& s, const glm::dvec3& axis, double angle, const glm::dvec3& offset) {
@@ -36,14 +34,25 @@ Solid lopsided(double radius) {
 
 ReferenceCase caseOf(std::string name, const Solid& s) {
   constexpr std::size_t kFew = 500;
-  ReferenceCase c{"", std::move(name), s.shape, s.mesh, s.chord};
+  ReferenceCase c{{s.mesh, s.chord}, std::move(name), s.shape};
   if (s.mesh.points.size() <= kFew) c.special = s.mesh.points;
   return c;
+}
+
+ReferenceCase caseOf(std::string name, const Shape& shape, const Tessellation& t) {
+  return caseOf(std::move(name), {shape, t.mesh, t.chord});
 }
 
 ReferenceCase beyondSeam(double x, ReferenceCase c) {
   c.region.min.x = x + 0x1p-10;
   return c;
+}
+
+Row operatorRow(const OperatorCases& cases, std::uint64_t fraction) {
+  const std::vector<ReferenceCase> made = cases.make();
+  std::vector<std::function<ReferenceCase()>> makers;
+  for (const ReferenceCase& c : made) makers.emplace_back([&c] { return c; });
+  return rowOf(cases.entry, makers, fraction);
 }
 
 std::vector<OperatorCases> operatorCases() {

@@ -60,21 +60,6 @@ TriangleMesh cutAtZero(TriangleMesh mesh, int axis) {
   return mesh;
 }
 
-// Without the points that no triangle has.
-TriangleMesh compact(const TriangleMesh& mesh) {
-  TriangleMesh result;
-  std::map<int, int> place;
-  for (glm::ivec3 t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const auto [at, isNew] = place.try_emplace(t[i], static_cast<int>(result.points.size()));
-      if (isNew) result.points.push_back(mesh.points[t[i]]);
-      t[i] = at->second;
-    }
-    result.triangles.push_back(t);
-  }
-  return result;
-}
-
 }  // namespace
 
 TriangleMesh boxMesh(const glm::dvec3& half) {
@@ -185,8 +170,8 @@ TriangleMesh pulledApart(const TriangleMesh& whole, int axis, double half) {
   const int count = static_cast<int>(mesh.points.size());
   // Points of the cut stand on both of its sides: their copies, `count` on, belong to the negative half.
   mesh.points.insert(mesh.points.end(), mesh.points.begin(), mesh.points.begin() + count);
-  std::map<std::pair<int, int>, int>
-      seams;  // edges along the cut, and the side of the triangle that has them
+  // Edges along the cut, and the side of the triangle that has them.
+  std::map<std::pair<int, int>, int> seams;
   for (glm::ivec3& t : mesh.triangles) {
     double side = 0.0;
     for (int i = 0; i < 3; ++i) side += mesh.points[t[i]][axis];
@@ -205,7 +190,10 @@ TriangleMesh pulledApart(const TriangleMesh& whole, int axis, double half) {
     mesh.points[i][axis] += half;
     mesh.points[i + count][axis] -= half;
   }
-  return compact(mesh);
+  std::vector<Triangle> triangles;
+  for (const glm::ivec3& t : mesh.triangles)
+    triangles.push_back({mesh.points[t.x], mesh.points[t.y], mesh.points[t.z]});
+  return welded(triangles);  // without the copies that no triangle has
 }
 
 TriangleMesh pulledApart(const TriangleMesh& mesh, const glm::dvec3& half) {

@@ -4,22 +4,18 @@
 #include <optional>
 
 #include "operator_cases.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
 #include "sdf/shape/flats.h"
-#include "sdf/shape/pattern.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
 
 namespace sdf::accuracy {
 namespace {
 
 // A solid that is a bound only, without a symmetry.
 Solid carved() {
-  const Solid whole = solidBox({0.5, 0.3, 0.4}),
-              cut = placed(solidBox({0.3, 0.2, 0.5}), {1, 2, 1}, 0.9, {0.3, 0.2, 0.1});
-  return {whole.shape - cut.shape, corefine(whole.mesh, cut.mesh, Boolean::Difference)};
+  return solidBox({0.5, 0.3, 0.4}) - placed(solidBox({0.3, 0.2, 0.5}), {1, 2, 1}, 0.9, {0.3, 0.2, 0.1});
 }
+
+// Copies made one mesh: together() where they are apart, united() where they overlap.
+using Join = TriangleMesh (*)(const std::vector<TriangleMesh>& copies);
 
 std::vector<ReferenceCase> translations() {
   return {caseOf("of an L", movedBy(solidL(), {0.3, -2.0, 0.7})),
@@ -69,23 +65,22 @@ TriangleMesh image(const TriangleMesh& mesh, const glm::dvec3& normal) {
       mesh, [=](const glm::dvec3& p) { return p - 2.0 * glm::dot(p, n) * n; }, true);
 }
 
-ReferenceCase mirrored(const std::string& name, const Solid& s, const glm::dvec3& normal, bool apart) {
-  const std::vector<TriangleMesh> halves{s.mesh, image(s.mesh, normal)};
-  return caseOf(name, {mirror(s.shape, Vec3E(normal)), apart ? together(halves) : united(halves), s.chord});
+ReferenceCase mirrored(const std::string& name, const Solid& s, const glm::dvec3& normal, Join join) {
+  return caseOf(name, {mirror(s.shape, Vec3E(normal)), join({s.mesh, image(s.mesh, normal)}), s.chord});
 }
 
 std::vector<ReferenceCase> mirrors() {
   const Solid l = placed(solidL(), {1, 0.5, 2}, 0.8, {0.1, 0, 0}),
               side = movedBy(solidBox({0.5, 0.3, 0.4}), {0.5, 0.1, 0.0});
-  return {mirrored("of an L across itself", l, {1, 0, 0}, false),
-          mirrored("of an L across itself, leaning", l, {1, 2, -1}, false),
-          mirrored("of an L clear of the plane", movedBy(l, {0, 2.5, 0}), {0, 1, 0}, true),
-          mirrored("of an L clear of a leaning plane", movedBy(l, {-3, -3, 0}), {1, 1, 0.2}, true),
+  return {mirrored("of an L across itself", l, {1, 0, 0}, united),
+          mirrored("of an L across itself, leaning", l, {1, 2, -1}, united),
+          mirrored("of an L clear of the plane", movedBy(l, {0, 2.5, 0}), {0, 1, 0}, together),
+          mirrored("of an L clear of a leaning plane", movedBy(l, {-3, -3, 0}), {1, 1, 0.2}, together),
           beyondSeam(0.0, caseOf("of a box that stands on the plane",
                                  {mirror(side.shape, Vec3E(-1.0, 0.0, 0.0)),
                                   moved(boxMesh({1.0, 0.3, 0.4}), {0, 0.1, 0})})),
-          mirrored("of a difference", carved(), {0, 0, 1}, false),
-          mirrored("of a difference clear of the plane", movedBy(carved(), {0, 0, -1}), {0, 0, 1}, true)};
+          mirrored("of a difference", carved(), {0, 0, 1}, united),
+          mirrored("of a difference clear of the plane", movedBy(carved(), {0, 0, -1}), {0, 0, 1}, together)};
 }
 
 // How a grid is laid out; what is endless has as many copies as its region needs.
@@ -105,17 +100,14 @@ std::vector<TriangleMesh> copiesOf(const TriangleMesh& mesh, const Layout& layou
   return copies;
 }
 
-// The walls between cells, and their crossings.
-void addWalls(ReferenceCase& c, const Layout& layout) {
+ReferenceCase grid(const std::string& name, const Solid& s, const Layout& layout, Join join = together) {
+  const auto count = layout.endless ? std::nullopt : std::optional(layout.count);
+  ReferenceCase c =
+      caseOf(name, {repeatGrid(s.shape, Vec3E(layout.cell), count), join(copiesOf(s.mesh, layout)), s.chord});
+  // The walls between cells, and their crossings.
   for (int x = -2; x <= 2; ++x)
     for (int y = -2; y <= 2; ++y)
       for (int z = -2; z <= 2; ++z) c.special.push_back(0.5 * layout.cell * glm::dvec3(x, y, z));
-}
-
-ReferenceCase grid(const std::string& name, const Solid& s, const Layout& layout, const TriangleMesh& mesh) {
-  const auto count = layout.endless ? std::nullopt : std::optional(layout.count);
-  ReferenceCase c = caseOf(name, {repeatGrid(s.shape, Vec3E(layout.cell), count), mesh, s.chord});
-  addWalls(c, layout);
   // Five copies stay beyond the region on either side of it: of all, one within three cells is the nearest.
   for (int i = 0; i < 3 && layout.endless; ++i) {
     if (layout.cell[i] == 0.0) continue;
@@ -125,38 +117,29 @@ ReferenceCase grid(const std::string& name, const Solid& s, const Layout& layout
   return c;
 }
 
-ReferenceCase gridApart(const std::string& name, const Solid& s, const Layout& layout) {
-  return grid(name, s, layout, together(copiesOf(s.mesh, layout)));
-}
-
-ReferenceCase gridOverlapping(const std::string& name, const Solid& s, const Layout& layout) {
-  return grid(name, s, layout, united(copiesOf(s.mesh, layout)));
-}
-
 std::vector<ReferenceCase> grids() {
   const Solid poking = movedBy(lopsided(0.5), {0.5, 0.3, 0.2}), ball = solidSphere(0.4);
   const Solid beam = placed(solidBox({1.5, 0.2, 0.3}), {0, 0, 1}, kPi / 6, {0.2, 0.1, 0.0});
-  const std::vector<glm::dvec2> l{{-0.3, -0.4}, {1, -0.4}, {1, 0.4}, {0.4, 0.4}, {0.4, 1.1}, {-0.3, 1.1}};
-  const Solid column{extrude(polygon(l), 0.35), prismMesh(l, {0.1, 0.0}, 0.35)};
   const Layout flat{{1.5, 1.7, 0.0}, {4, 3, 1}};
-  ReferenceCase extruded = gridApart("of a flat L, extruded", column, flat);
-  extruded.shape = extrude(repeatGrid(polygon(l), Vec3E(flat.cell), flat.count), 0.35);
-  return {
-      gridApart("of what pokes over its walls", poking, {{1.2, 1.3, 1.4}, {3, 2, 2}}),
-      gridApart("of what pokes over its walls, endless", poking, {{1.2, 1.3, 0.0}, {13, 13, 1}, true}),
-      gridApart("of what is off its cell", movedBy(poking, {3, -2, 1}), {{1.2, 1.3, 1.4}, {2, 3, 1}}),
-      gridOverlapping("of what overlaps", poking, {{0.5, 0.0, 0.0}, {5, 1, 1}}),
-      gridOverlapping("of what overlaps, in two rows", lopsided(0.5), {{0.6, 0.5, 0.0}, {3, 2, 1}}),
-      gridApart("of beams longer than a cell", beam, {{2.0, 0.0, 0.0}, {4, 1, 1}}),
-      gridApart("of beams longer than a cell, endless", beam, {{2.0, 0.0, 1.0}, {15, 1, 15}, true}),
-      gridApart("of what is even", ball, {{1.0, 1.1, 0.9}, {4, 3, 1}}),
-      gridApart("of what is even, endless", solidBox({0.3, 0.2, 0.4}), {{1.0, 1.1, 0.9}, {13, 13, 13}, true}),
-      beyondSeam(0.5, grid("of what touches", solidBox({0.5, 0.4, 0.3}), {{1.0, 0.0, 0.0}, {3, 1, 1}},
-                           boxMesh({1.5, 0.4, 0.3}))),
-      gridApart("of a difference", carved(), {{1.1, 0.9, 1.0}, {3, 2, 3}}),
-      gridApart("of a difference, endless", movedBy(carved(), {0.4, 0.1, 0.0}),
-                {{1.1, 0.0, 0.9}, {13, 1, 13}, true}),
-      extruded};
+  ReferenceCase extruded = grid("of a flat L, extruded", solidL(), flat);
+  extruded.shape = extrude(repeatGrid(polygon(kL), Vec3E(flat.cell), flat.count), 0.35);
+  return {grid("of what pokes over its walls", poking, {{1.2, 1.3, 1.4}, {3, 2, 2}}),
+          grid("of what pokes over its walls, endless", poking, {{1.2, 1.3, 0.0}, {13, 13, 1}, true}),
+          grid("of what is off its cell", movedBy(poking, {3, -2, 1}), {{1.2, 1.3, 1.4}, {2, 3, 1}}),
+          grid("of what overlaps", poking, {{0.5, 0.0, 0.0}, {5, 1, 1}}, united),
+          grid("of what overlaps, in two rows", lopsided(0.5), {{0.6, 0.5, 0.0}, {3, 2, 1}}, united),
+          grid("of beams longer than a cell", beam, {{2.0, 0.0, 0.0}, {4, 1, 1}}),
+          grid("of beams longer than a cell, endless", beam, {{2.0, 0.0, 1.0}, {15, 1, 15}, true}),
+          grid("of what is even", ball, {{1.0, 1.1, 0.9}, {4, 3, 1}}),
+          grid("of what is even, endless", solidBox({0.3, 0.2, 0.4}), {{1.0, 1.1, 0.9}, {13, 13, 13}, true}),
+          beyondSeam(0.5, grid("of what touches", solidBox({0.5, 0.4, 0.3}), {{1.0, 0.0, 0.0}, {3, 1, 1}},
+                               [](const auto&) {
+                                 return boxMesh({1.5, 0.4, 0.3});
+                               })),
+          grid("of a difference", carved(), {{1.1, 0.9, 1.0}, {3, 2, 3}}),
+          grid("of a difference, endless", movedBy(carved(), {0.4, 0.1, 0.0}),
+               {{1.1, 0.0, 0.9}, {13, 1, 13}, true}),
+          extruded};
 }
 
 std::vector<TriangleMesh> around(const TriangleMesh& mesh, int count) {
@@ -165,34 +148,27 @@ std::vector<TriangleMesh> around(const TriangleMesh& mesh, int count) {
   return copies;
 }
 
-ReferenceCase polar(const std::string& name, const Solid& s, int count, const TriangleMesh& mesh) {
-  ReferenceCase c = caseOf(name + ", " + std::to_string(count), {polarRepeat(s.shape, count), mesh, s.chord});
+ReferenceCase polar(const std::string& name, const Solid& s, int count, Join join = together) {
+  ReferenceCase c = caseOf(name + ", " + std::to_string(count),
+                           {polarRepeat(s.shape, count), join(around(s.mesh, count)), s.chord});
   for (int i = 0; i < 2 * count; ++i)  // the borders of the sectors, and their middles
     for (const double radius : {0.1, 1.0, 2.0})
       c.special.push_back(turn({0, 1, 0}, kPi * i / count) * glm::dvec3(radius, 0.1, 0.0));
   return c;
 }
 
-ReferenceCase polarApart(const std::string& name, const Solid& s, int count) {
-  return polar(name, s, count, together(around(s.mesh, count)));
-}
-
-ReferenceCase polarOverlapping(const std::string& name, const Solid& s, int count) {
-  return polar(name, s, count, united(around(s.mesh, count)));
-}
-
 std::vector<ReferenceCase> polars() {
   const Solid aside = movedBy(lopsided(0.3), {1.0, 0.2, 0.1});
   const Solid leaning = placed(solidBox({0.15, 0.3, 0.6}), {0, 1, 0}, 0.5, {1.2, 0.0, 0.0});
-  return {polarApart("of a lopsided solid", aside, 7),
-          polarApart("of a lopsided solid", aside, 2),
-          polarApart("of a lopsided solid", movedBy(lopsided(0.05), {-0.6, 0, 0.9}), 48),
-          polarApart("of what is even", movedBy(solidBox({0.3, 0.4, 0.2}), {1.1, 0.0, 0.0}), 6),
-          polarOverlapping("of what spans sectors", leaning, 9),
-          polarOverlapping("of what overlaps", leaning, 14),
-          polarOverlapping("of what reaches across the axis", lopsided(0.8), 3),
-          polarApart("of a difference", movedBy(carved(), {1.3, 0.0, 0.2}), 5),
-          polar("of one", aside, 1, aside.mesh)};
+  return {polar("of a lopsided solid", aside, 7),
+          polar("of a lopsided solid", aside, 2),
+          polar("of a lopsided solid", movedBy(lopsided(0.05), {-0.6, 0, 0.9}), 48),
+          polar("of what is even", movedBy(solidBox({0.3, 0.4, 0.2}), {1.1, 0.0, 0.0}), 6),
+          polar("of what spans sectors", leaning, 9, united),
+          polar("of what overlaps", leaning, 14, united),
+          polar("of what reaches across the axis", lopsided(0.8), 3, united),
+          polar("of a difference", movedBy(carved(), {1.3, 0.0, 0.2}), 5),
+          polar("of one", aside, 1)};
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-#include "operator_surfaces.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+
+#include "operator_meshes.h"
 
 namespace sdf::accuracy {
 namespace {

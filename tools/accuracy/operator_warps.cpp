@@ -4,11 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "operator_cases.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
 #include "sdf/shape/flats.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
 
 namespace sdf::accuracy {
 namespace {
@@ -30,7 +26,6 @@ Corners regularOutline(int corners, double radius, const glm::dvec2& centre) {
 double chordOfCircle(double radius) { return radius * (1.0 - std::cos(kPi / kSteps)); }
 
 std::vector<ReferenceCase> extrusions() {
-  const Corners l{{-0.3, -0.4}, {1, -0.4}, {1, 0.4}, {0.4, 0.4}, {0.4, 1.1}, {-0.3, 1.1}};
   const Corners star{{0.3, 0}, {1, 1}, {0, 0.3}, {-1, 1}, {-0.3, 0}, {-1, -1}, {0, -0.3}, {1, -1}};
   const Corners slim{{0, 0}, {2, 0.01}, {0.1, 0.3}};
   // The L again, as a rectangle less a rectangle: a bound inside and out.
@@ -38,27 +33,26 @@ std::vector<ReferenceCase> extrusions() {
               corner = translate(rectangle(0.5, 0.5), Vec3E(0.9, 0.9, 0.0));
   const Shape lower = translate(rectangle(0.65, 0.4), Vec3E(0.35, 0.0, 0.0)),
               upper = translate(rectangle(0.35, 0.5), Vec3E(0.05, 0.6, 0.0));
-  return {caseOf("of an L", {extrude(polygon(l), 0.5), prismMesh(l, {0.1, 0}, 0.5)}),
+  return {caseOf("of an L", {extrude(polygon(kL), 0.5), prismMesh(kL, {0.1, 0}, 0.5)}),
           caseOf("of a star", {extrude(polygon(star), 0.05), prismMesh(star, {0, 0}, 0.05)}),
           caseOf("of a splinter", {extrude(polygon(slim), 3.0), prismMesh(slim, {0.5, 0.1}, 3.0)}),
           caseOf("of a circle",
                  {extrude(circle(0.7), 0.4), prismMesh(regularOutline(kSteps, 0.7, {0, 0}), {0, 0}, 0.4),
                   chordOfCircle(0.7)}),
-          caseOf("of a flat difference", {extrude(whole - corner, 0.5), prismMesh(l, {0.1, 0}, 0.5)}),
-          caseOf("of a flat union", {extrude(lower | upper, 0.5), prismMesh(l, {0.1, 0}, 0.5)})};
+          caseOf("of a flat difference", {extrude(whole - corner, 0.5), prismMesh(kL, {0.1, 0}, 0.5)}),
+          caseOf("of a flat union", {extrude(lower | upper, 0.5), prismMesh(kL, {0.1, 0}, 0.5)})};
 }
 
 ReferenceCase swept(const std::string& name, const Shape& shape, const Corners& outline, double chord = 0.0) {
-  const Tessellation t = revolved(outline, kSteps);
-  ReferenceCase c = caseOf(name, {shape, t.mesh, t.chord + chord});
+  ReferenceCase c = caseOf(name, shape, revolved(outline, kSteps));
+  c.chord += chord;
   for (const glm::dvec2& p : outline)
     c.special.insert(c.special.end(), {{p, 0.0}, {-p.x, p.y, 0.0}, {0.0, p.y, 0.0}});
   return c;
 }
 
 std::vector<ReferenceCase> revolutions() {
-  const Corners l{{-0.3, -0.4}, {1, -0.4}, {1, 0.4}, {0.4, 0.4}, {0.4, 1.1}, {-0.3, 1.1}};
-  Corners far = l;
+  Corners far = kL;
   for (glm::dvec2& p : far) p.x += 0.8;
   const Corners across{{-0.5, -0.3}, {1, -0.5}, {0.8, 0.9}, {-0.5, 0.6}},
       kept{{0, -0.3 - 0.2 / 3.0}, {1, -0.5}, {0.8, 0.9}, {0, 0.6 + 0.15 / 1.3}};
@@ -66,7 +60,7 @@ std::vector<ReferenceCase> revolutions() {
   const Corners beyond{{-0.9, -0.5}, {0.3, 0}, {-0.9, 0.5}}, tip{{0, -0.125}, {0.3, 0}, {0, 0.125}};
   const Corners onAxis{{0, -1}, {0.6, -0.2}, {0.2, 0.1}, {0.7, 0.9}, {0, 0.5}};
   return {
-      swept("of an L about an axis beside it", revolve(polygon(l), 0.8), far),
+      swept("of an L about an axis beside it", revolve(polygon(kL), 0.8), far),
       swept("of a circle", revolve(circle(0.3), 1.0), regularOutline(kSteps, 0.3, {1.0, 0.0}),
             chordOfCircle(0.3)),
       beyondSeam(0.0, swept("of what stands on the axis", revolve(polygon(onAxis)), onAxis)),
@@ -90,8 +84,7 @@ double bendingOf(double along, double mixed) { return 0.5 * (along + std::hypot(
 ReferenceCase warpedCase(const std::string& name, const Shape& shape, const TriangleMesh& flat,
                          const PointMap& map, double bending) {
   const int times = flat.triangles.size() > 100 ? kTimes - 2 : kTimes;
-  const Tessellation t = warped(flat, times, map, bending);
-  ReferenceCase c = caseOf(name, {shape, t.mesh, t.chord});
+  ReferenceCase c = caseOf(name, shape, warped(flat, times, map, bending));
   for (const glm::dvec3& p : flat.points) c.special.push_back(map(p));
   return c;
 }
@@ -129,8 +122,7 @@ ReferenceCase tapered(const std::string& name, const Solid& s, double rate) {
 
 // A bound only, and not convex.
 Solid carvedBox(const glm::dvec3& half) {
-  const Solid whole = solidBox(half), cut = placed(solidBox({0.3, 0.4, 0.2}), {1, 2, 1}, 0.9, 0.7 * half);
-  return {whole.shape - cut.shape, corefine(whole.mesh, cut.mesh, Boolean::Difference)};
+  return solidBox(half) - placed(solidBox({0.3, 0.4, 0.2}), {1, 2, 1}, 0.9, 0.7 * half);
 }
 
 std::vector<ReferenceCase> twists() {

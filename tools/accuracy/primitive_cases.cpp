@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "meshes_outlines.h"
+#include "meshes.h"
 #include "sdf/shape/catalog.h"
 
 namespace sdf::accuracy {
@@ -28,7 +28,7 @@ Tessellation ellipsoidMesh(const Numbers& a) {
     axis.direction = glm::dvec3(0.0), axis.direction[i] = 1.0;
     if (r[(i + 1) % 3] == r[(i + 2) % 3]) return turned(halfEllipseOutline(r[(i + 1) % 3], r[i]), axis);
   }
-  Tessellation t = scaled(ball(1.0, kAround), r);
+  Tessellation t = ellipsoidSurface(r, kAround);
   // The focal conics and the ends of the medial disc lie in the symmetry planes.
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -222,10 +222,9 @@ void addStraight(Table& table) {
                            {1, 0.9999, 1},
                            {1, 0.001, 0.01},
                            {0.01, 0.02, 3}}};
-  table["hex_prism"] = {[](const Numbers& a) { return column(6, a[0], a[1]); },
-                        {{1, 0.5}, {0.2, 2}, {3, 0.05}, {1, 0.001}}};
-  table["tri_prism"] = {[](const Numbers& a) { return column(3, a[0], a[1]); },
-                        {{1, 0.5}, {0.2, 2}, {3, 0.05}, {1, 0.001}}};
+  const std::vector<Numbers> prisms{{1, 0.5}, {0.2, 2}, {3, 0.05}, {1, 0.001}};
+  table["hex_prism"] = {[](const Numbers& a) { return column(6, a[0], a[1]); }, prisms};
+  table["tri_prism"] = {[](const Numbers& a) { return column(3, a[0], a[1]); }, prisms};
   const std::vector<Numbers> walls{{1, 0.1}, {0.3, 0.01}, {5, 0.5}};
   const auto wallOf = [](const Wave& wave) {
     return [&wave](const Numbers& a) { return wall(wave, a[0], a[1], kCellsAPeriod); };
@@ -326,9 +325,7 @@ std::vector<Argument> argumentsOf(const CatalogEntry& entry, const Numbers& numb
 
 ReferenceCase caseOf(const CatalogEntry& entry, std::string name, std::vector<Argument> arguments,
                      Tessellation t) {
-  return {entry.name,        std::move(name), build(entry, std::move(arguments)),
-          std::move(t.mesh), t.chord,         std::move(t.special),
-          t.region,          t.axis};
+  return {std::move(t), std::move(name), build(entry, std::move(arguments))};
 }
 
 PrimitiveCases casesOf(const CatalogEntry& entry) {
