@@ -1,7 +1,6 @@
 // Rays that the cases of marching measure with. Private to the failure cases.
 #pragma once
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "probe.h"
@@ -29,11 +28,7 @@ inline Rays cameraRays(const glm::dvec3& from, double tangent) {
 }
 
 inline Hits trace(const Shape& shape, const Rays& rays, const MarchOptions& options) {
-  Result<Marcher> marcher = Marcher::make(shape, options);
-  if (!marcher) throw std::runtime_error(marcher.error().message);
-  Result<Hits> hits = marcher->trace(rays);
-  if (!hits) throw std::runtime_error(hits.error().message);
-  return *hits;
+  return got(got(Marcher::make(shape, options)).trace(rays));
 }
 
 /// t of the hits, infinite where there is none.

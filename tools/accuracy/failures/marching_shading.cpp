@@ -11,12 +11,6 @@
 namespace sdf::accuracy {
 namespace {
 
-MarchField fieldOf(const Shape& shape) {
-  Result<MarchField> field = marchField(shape);
-  if (!field) throw std::runtime_error(field.error().message);
-  return *field;
-}
-
 // Points of the unit sphere around a centre, with their normals.
 struct SpherePoints {
   explicit SpherePoints(const glm::dvec3& centre) {
@@ -64,12 +58,12 @@ Vectors naiveNormals(const Shape& shape, const Vectors& points, float h) {
 Figures normalFigures(const glm::dvec3& centre, float h) {
   const Shape ball = translate(sphere(1.0), Vec3E(centre));
   const SpherePoints at(centre);
-  const Vectors ours = normals(fieldOf(ball), at.points, at.points, {}).value();
+  const Vectors ours = got(normals(got(marchField(ball)), at.points, at.points, {}));
   return {worstDegrees(naiveNormals(ball, at.points, h), at.normals), worstDegrees(ours, at.normals)};
 }
 
 std::vector<double> lightOf(const Shape& solid, const Rays& rays, const ShadowOptions& options) {
-  return shadows(fieldOf(solid), rays, options).value().light;
+  return got(shadows(got(marchField(solid)), rays, options)).light;
 }
 
 // Shadow rays past a box towards a light overhead.
@@ -225,7 +219,7 @@ std::vector<FailureCase> shadingFailures() {
            [] {
              const Shape sponge = menger(8);
              const Rays rays = cameraRays({2.0, 3.0, 6.0}, 0.25);
-             const MarchField field = fieldOf(sponge);
+             const MarchField field = got(marchField(sponge));
              const auto variance = [&](double footprint, const NormalOptions& options) {
                const Hits hits = trace(sponge, rays, {.footprint = footprint, .maxSteps = 4000});
                Vectors at, back;
@@ -233,7 +227,7 @@ std::vector<FailureCase> shadingFailures() {
                  at.add(rays.at(i, hits.t[i]));
                  back.add(-rays.direction[i]);
                }
-               return normalVariance(normals(field, at, back, options).value(), timesOf(hits));
+               return normalVariance(got(normals(field, at, back, options)), timesOf(hits));
              };
              const double pixel = 0.25 / 50.0;  // width at distance 1; the sponge is 7 away
              return Figures{variance(0.0, {}), variance(0.5 * pixel, {NormalMethod::Central, 7.0 * pixel})};

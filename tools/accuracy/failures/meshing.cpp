@@ -138,14 +138,10 @@ Figures overShifts(const Naive& naive, const Ours& ours) {
 }
 
 /// Two solids, given for each shift along x, of which a method may see another number without a word.
-FailureCase twoSolidsCase(std::string name, std::string figure, double naiveAtLeast, std::string ours,
-                          std::string reason, std::function<Shape(double)> solids) {
-  return {std::move(name),
-          std::move(figure),
-          {"surface nets", naiveAtLeast},
-          {std::move(ours), 0.0},
-          std::move(reason),
-          [solids = std::move(solids)] {
+FailureCase twoSolidsCase(const std::string& name, const std::string& figure, double naiveAtLeast,
+                          const std::string& ours, const std::string& reason,
+                          const std::function<Shape(double)>& solids) {
+  return {name, figure, {"surface nets", naiveAtLeast}, {ours, 0.0}, reason, [solids] {
             return overShifts(
                 [&](double s) { return topologyOf(naiveMesh(solids(s), 1.25)).components != 2; },
                 [&](double s) {
@@ -156,18 +152,16 @@ FailureCase twoSolidsCase(std::string name, std::string figure, double naiveAtLe
 }
 
 /// A ball, and beside it something thin.
-FailureCase missedCase(std::string name, const Shape& thin, double naiveAtLeast, std::string reason) {
-  return twoSolidsCase(std::move(name), "shifts of the lattice, of 8, at which it is missed without a word",
-                       naiveAtLeast, "surface that no sample sees is looked for and reported",
-                       std::move(reason), [thin](double shift) {
+FailureCase missedCase(const std::string& name, const Shape& thin, double naiveAtLeast,
+                       const std::string& reason) {
+  return twoSolidsCase(name, "shifts of the lattice, of 8, at which it is missed without a word",
+                       naiveAtLeast, "surface that no sample sees is looked for and reported", reason,
+                       [thin](double shift) {
                          return sphere(0.25) | translate(thin, {0.75 + shift, 0.01, 0.01});
                        });
 }
 
-/// Twice the same, so far to both sides along x.
-std::pair<Shape, Shape> twoOf(const Shape& s, double offset, double shift = 0.0) {
-  return {translate(s, {shift - offset, 0, 0}), translate(s, {shift + offset, 0, 0})};
-}
+Shape at(double x, const Shape& s) { return translate(s, {x, 0, 0}); }
 
 }  // namespace
 
@@ -179,8 +173,7 @@ std::vector<FailureCase> meshingFailures() {
        {"samples of zero between two samples inside are inside", 0.0},
        "f = 0 on the shared face, a plane of the lattice: two solids where there is one",
        [] {
-         const auto [left, right] = twoOf(box(Vec3E(0.5)), 0.5);
-         const Shape both = left | right;
+         const Shape both = at(-0.5, box(Vec3E(0.5))) | at(0.5, box(Vec3E(0.5)));
          return Figures{topologyOf(naiveMesh(both, 1.25)).components - 1.0,
                         std::abs(ourMesh(both)->stats.components - 1.0)};
        }},
@@ -202,10 +195,7 @@ std::vector<FailureCase> meshingFailures() {
           1.0, "passages thinner than a voxel are found and reported",
           "they touch in a point, so any neck is the lattice's making; whether there is one depends on the "
           "shift",
-          [](double shift) {
-            const auto [left, right] = twoOf(sphere(0.5), 0.5, shift);
-            return left | right;
-          }),
+          [](double shift) { return at(shift - 0.5, sphere(0.5)) | at(shift + 0.5, sphere(0.5)); }),
       {"intersection of two spheres that touch",
        "shifts of the lattice, of 8, with an empty mesh or a speck and no word",
        {"surface nets", 8.0},
@@ -213,8 +203,7 @@ std::vector<FailureCase> meshingFailures() {
        "a point has no inside",
        [] {
          const auto point = [](double shift) {
-           const auto [left, right] = twoOf(sphere(0.5), 0.5, shift);
-           return left & right;
+           return at(shift - 0.5, sphere(0.5)) & at(shift + 0.5, sphere(0.5));
          };
          return overShifts([&](double s) { return naiveMesh(point(s), 1.25).triangles.size() < 100; },
                            [&](double s) { return ourMesh(point(s)).has_value(); });
@@ -229,8 +218,8 @@ std::vector<FailureCase> meshingFailures() {
                     3.0, "surface that no sample sees is looked for and reported",
                     "no plane of the lattice lies in it at six tenths of the shifts",
                     [](double shift) {
-                      const auto [left, right] = twoOf(box(Vec3E(0.5)), 0.5 + 0.2 * kVoxel, shift);
-                      return left | right;
+                      const double offset = 0.5 + 0.2 * kVoxel;
+                      return at(shift - offset, box(Vec3E(0.5))) | at(shift + offset, box(Vec3E(0.5)));
                     }),
       {"turned sheet of 0.8 voxels",
        "handles or pieces too many, not reported",

@@ -7,6 +7,7 @@
 
 #include "accuracy/reference.h"
 #include "failure_case.h"
+#include "sdf/base/result.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/shape.h"
 
@@ -14,6 +15,13 @@ namespace sdf::accuracy {
 
 // Some tens of roundings in double of numbers of size 1 to 10, as each formula here makes.
 inline constexpr double kRounding = 1e-13;
+
+/// What was refused must not pass for what holds.
+template <class T>
+T got(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(result).value();
+}
 
 /// The shape's distance in double. A shape that was refused must not pass for one that holds.
 class Distance {
