@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "sdf/expr/apply-inl.h"
 
@@ -24,14 +23,13 @@ std::size_t tapesCompiled() { return compiled; }
 
 TapeCompiler::TapeCompiler(std::span<const Expr> outputs) {
   ++compiled;
-  pool_->doubles = {0.0, 1.0};
-  literals_.insert(std::bit_cast<std::uint64_t>(0.0), kZero);
-  literals_.insert(std::bit_cast<std::uint64_t>(1.0), kOne);
+  literal(0.0);  // at kZero
+  literal(1.0);  // at kOne
   gather(outputs);
   layOutUniform();
   chooseInstructions(outputs);
   for (Index i = 0; i < nodes_.size(); ++i)
-    if (!matches_[i].args.empty()) emit(i);
+    if (matches_[i]) emit(i);
   for (const Expr& e : outputs) code_->outputs.push_back(place(indexOf(e)));
   pool_->floats.assign(pool_->doubles.begin(), pool_->doubles.end());
   code_->finish();
@@ -100,15 +98,9 @@ void TapeCompiler::chooseInstructions(std::span<const Expr> outputs) {
   for (Index i = static_cast<Index>(nodes_.size()); i-- > 0;) {
     if (!nodes_[i].needed || nodes_[i].uniform || arity(op(i)) == 0) continue;
     matches_[i] = match(i);
-    for (const Index a : matches_[i].args) nodes_[a].needed = true;
+    for (const Index a : matches_[i].nodes()) nodes_[a].needed = true;
   }
 }
-
-/// a - offset; no offset where the expression is not a shift by a number.
-struct TapeCompiler::Shifted {
-  Index base;
-  std::optional<Number> offset;
-};
 
 TapeCompiler::Shifted TapeCompiler::shifted(Index i) const {
   const bool difference = op(i) == Op::Sub;
@@ -119,10 +111,10 @@ TapeCompiler::Shifted TapeCompiler::shifted(Index i) const {
 }
 
 TapeCompiler::Match TapeCompiler::match(Index i) const {
-  if (Match m = matchLength(i, {}); !m.args.empty()) return m;
+  if (const Match m = matchLength(i, {})) return m;
   if (const Shifted s = shifted(i); s.offset && nodes_[s.base].uses == 1) {
-    if (Match m = matchLength(s.base, {&*s.offset, 1}); !m.args.empty()) return m;
-    if (op(s.base) == Op::Abs) return {Op::AbsMinus, {arg(s.base, 0)}, {*s.offset}};
+    if (const Match m = matchLength(s.base, s.offset)) return m;
+    if (op(s.base) == Op::Abs) return {Op::AbsMinus, {arg(s.base, 0)}, {s.offset}};
   }
   if (op(i) == Op::Add)
     for (const int k : {0, 1}) {
@@ -135,54 +127,34 @@ TapeCompiler::Match TapeCompiler::match(Index i) const {
       }
       if (op(product) == Op::Square) return {Op::MulAdd, {arg(product, 0), arg(product, 0), rest}, {}};
     }
-  Match m{op(i), {}, {}};
-  for (int k = 0; k < arity(m.op); ++k) m.args.push_back(arg(i, k));
-  return m;
+  return {op(i), nodes_[i].args, {}};
 }
 
 // sqrt(a² + b²) - offset, sqrt(a² + b² + c²) - offset, and the latter with shifted arguments. Squares and
 // sums that others use as well are worked out again: that is cheaper than a pass through memory.
-TapeCompiler::Match TapeCompiler::matchLength(Index root, std::span<const Number> offset) const {
-  Indices terms;
-  if (op(root) != Op::Sqrt || nodes_[root].uniform || !collectSquares(arg(root, 0), terms)) return {};
+TapeCompiler::Match TapeCompiler::matchLength(Index root, Number offset) const {
+  if (op(root) != Op::Sqrt || nodes_[root].uniform || op(arg(root, 0)) != Op::Add) return {};
   // The fused operations add the first square last, as a² + (b² + c²) does. (a² + b²) + c² rounds otherwise.
-  const Index sum = arg(root, 0);
-  if (op(sum) == Op::Add && op(arg(sum, 0)) == Op::Add)
-    std::rotate(terms.begin(), terms.end() - 1, terms.end());
-  const Number zero{~Index{0}};
-  const Number last = offset.empty() ? zero : offset.front();
-  if (terms.size() == 2) return {Op::Length2, terms, {last}};
-  if (terms.size() != 3) return {};
-  Match m{Op::Distance3, {}, {}};
-  int shifts = 0;
-  for (const Index t : terms) {
-    const Shifted s = shifted(t);
-    shifts += s.offset.has_value();
-    m.args.push_back(s.base);
-    m.numbers.push_back(s.offset.value_or(zero));
-  }
-  m.numbers.push_back(last);
-  return shifts >= 2 ? m : Match{Op::Length3, terms, {last}};
-}
-
-bool TapeCompiler::collectSquares(Index i, Indices& terms) const {
-  if (op(i) == Op::Square) return terms.push_back(arg(i, 0)), terms.size() <= 3;
-  if (op(i) == Op::Add) return collectSquares(arg(i, 0), terms) && collectSquares(arg(i, 1), terms);
-  return false;
+  Index first = arg(arg(root, 0), 0), rest = arg(arg(root, 0), 1);
+  if (op(first) == Op::Add) std::swap(first, rest);
+  if (op(first) != Op::Square) return {};
+  if (op(rest) == Op::Square) return {Op::Length2, {arg(first, 0), arg(rest, 0)}, {offset}};
+  if (op(rest) != Op::Add || op(arg(rest, 0)) != Op::Square || op(arg(rest, 1)) != Op::Square) return {};
+  const std::array terms{arg(first, 0), arg(arg(rest, 0), 0), arg(arg(rest, 1), 0)};
+  const Shifted a = shifted(terms[0]), b = shifted(terms[1]), c = shifted(terms[2]);
+  if (bool(a.offset) + bool(b.offset) + bool(c.offset) < 2) return {Op::Length3, terms, {offset}};
+  return {Op::Distance3, {a.base, b.base, c.base}, {a.offset, b.offset, c.offset, offset}};
 }
 
 // A fused operation's numbers lie in a row, so they are not shared.
-std::uint32_t TapeCompiler::inPool(const Number& number) {
+void TapeCompiler::addToPool(const Number& number) {
   const auto place = static_cast<std::uint32_t>(pool_->doubles.size());
-  if (number.node == ~Index{0}) {
-    pool_->doubles.push_back(0.0);
-    return place;
-  }
+  pool_->doubles.push_back(0.0);
+  if (!number) return;
   const NodeInfo& node = nodes_[number.node];
   const double value = pool_->doubles[node.place];
-  pool_->doubles.push_back(number.negative ? -value : value);
+  pool_->doubles[place] = number.negative ? -value : value;
   if (!node.e.isConstant()) steps_.push_back({number.negative ? Op::Neg : Op::Claim, {node.place}, place});
-  return place;
 }
 
 Operand TapeCompiler::place(Index i) const {
@@ -196,9 +168,10 @@ void TapeCompiler::emit(Index i) {
   NodeInfo& node = nodes_[i];
   const double slope = node.e.lipschitz();
   Instruction instruction{m.op, {}, 0, roundedUp(node.unclaimed ? slope : std::min(slope, node.claimed))};
-  for (std::size_t k = 0; k < m.args.size(); ++k) instruction.in[k] = place(m.args[k]);
-  if (!m.numbers.empty()) instruction.constants = static_cast<std::uint32_t>(pool_->doubles.size());
-  for (const Number& number : m.numbers) inPool(number);
+  for (int k = 0; k < rowArguments(m.op); ++k) instruction.in[k] = place(m.args[k]);
+  const int numbers = info(m.op).constants;
+  if (numbers > 0) instruction.constants = static_cast<std::uint32_t>(pool_->doubles.size());
+  for (int k = 0; k < numbers; ++k) addToPool(m.numbers[k]);
   if (const PayloadPart* payload = node.e.payloadPart()) {
     instruction.constants = static_cast<std::uint32_t>(pool_->payloads.size());
     pool_->payloads.push_back(*payload);

@@ -3,7 +3,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,28 +21,6 @@ struct UniformStep {
   std::array<std::uint32_t, kMaxArity> in;
   std::uint32_t out;
   const PayloadPart* payload = nullptr;  // in a node that the outputs hold
-};
-
-/// A list of at most N.
-template <class T, std::size_t N>
-class Few {
- public:
-  Few() = default;
-  Few(std::initializer_list<T> all) {
-    for (const T& t : all) push_back(t);
-  }
-  void push_back(const T& t) { all_[size_++] = t; }
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  T* begin() { return all_.data(); }
-  T* end() { return all_.data() + size_; }
-  const T* begin() const { return all_.data(); }
-  const T* end() const { return all_.data() + size_; }
-  const T& operator[](std::size_t i) const { return all_[i]; }
-
- private:
-  std::array<T, N> all_{};
-  std::size_t size_ = 0;
 };
 
 /// An input's place in the pool.
@@ -76,30 +53,38 @@ class TapeCompiler {
     double claimed = 0.0;    // the largest slope that claims state
     Index place = 0;         // in the pool if uniform, else among the instructions
   };
-  // A number that a fused operation takes: a literal, or a uniform node, perhaps negated.
+  // A number that a fused operation takes: 0, or a uniform node, perhaps negated.
   struct Number {
-    Index node = 0;
+    static constexpr Index kNone = ~Index{0};
+    Index node = kNone;
     bool negative = false;
+    explicit operator bool() const { return node != kNone; }
   };
-  using Indices = Few<Index, kMaxArity>;
+  // An instruction, with as many arguments and numbers as its operation takes. A constant stands for none.
   struct Match {
     Op op = Op::Constant;
-    Indices args;
-    Few<Number, 4> numbers;
+    std::array<Index, 3> args{};
+    std::array<Number, 4> numbers{};
+    explicit operator bool() const { return op != Op::Constant; }
+    std::span<const Index> nodes() const {
+      return std::span(args).first(static_cast<std::size_t>(rowArguments(op)));
+    }
   };
-  struct Shifted;
+  /// base - offset.
+  struct Shifted {
+    Index base;
+    Number offset;
+  };
 
   void gather(std::span<const Expr> outputs);
   Index use(const Expr& e);  // the argument's index
   void layOutUniform();
   void chooseInstructions(std::span<const Expr> outputs);
   Match match(Index i) const;
-  Match matchLength(Index root, std::span<const Number> offset) const;
-
-  bool collectSquares(Index i, Indices& terms) const;
+  Match matchLength(Index root, Number offset) const;
   Shifted shifted(Index i) const;
   std::uint32_t literal(double v);
-  std::uint32_t inPool(const Number& number);
+  void addToPool(const Number& number);
   Operand place(Index i) const;
   void emit(Index i);
 
