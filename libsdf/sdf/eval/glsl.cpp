@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
-#include "sdf/expr/apply-inl.h"
+#include "sdf/expr/payload.h"
 
 namespace sdf {
 namespace {
@@ -52,54 +53,37 @@ std::string literal(double value) {
   return v < 0 || std::signbit(v) ? "(" + s + ")" : s;
 }
 
-/// A number type whose numbers are GLSL: a name or a literal goes in, a term comes out.
-struct Code {
-  std::string text;
+// The operations of ops.def, where $0, $1 and $2 are a name or a literal each.
+const std::map<Op, std::string_view> kTerms = {
+    {Op::Neg, "-($0)"},
+    {Op::Abs, "abs($0)"},
+    {Op::Sqrt, "sqrt($0)"},
+    {Op::Square, "$0 * $0"},
+    {Op::Sin, "sin($0)"},
+    {Op::Cos, "cos($0)"},
+    {Op::Tan, "tan($0)"},
+    {Op::Asin, "sdfAsin($0)"},
+    {Op::Acos, "sdfAcos($0)"},
+    {Op::Atan, "atan($0)"},
+    {Op::Exp, "exp($0)"},
+    {Op::Log, "log($0)"},
+    {Op::Floor, "floor($0)"},
+    {Op::Ceil, "ceil($0)"},
+    {Op::Round, "roundEven($0)"},
+    {Op::Add, "$0 + $1"},
+    {Op::Sub, "$0 - $1"},
+    {Op::Mul, "$0 * $1"},
+    {Op::Div, "$0 / $1"},
+    {Op::Min, "min($0, $1)"},
+    {Op::Max, "max($0, $1)"},
+    {Op::Pow, "sdfPow($0, $1)"},
+    {Op::Atan2, "sdfAtan2($0, $1)"},
+    {Op::Mod, "mod($0, $1)"},
+    {Op::Less, "float($0 < $1)"},
+    {Op::LessEqual, "float($0 <= $1)"},
+    {Op::Equal, "float($0 == $1)"},
+    {Op::Select, "$0 != 0.0 ? $1 : $2"},
 };
-
-#define SDF_CODE_UNARY(call, function) \
-  Code call(const Code& a) { return {function "(" + a.text + ")"}; }
-SDF_CODE_UNARY(neg, "-")
-SDF_CODE_UNARY(abs, "abs")
-SDF_CODE_UNARY(sqrt, "sqrt")
-SDF_CODE_UNARY(sin, "sin")
-SDF_CODE_UNARY(cos, "cos")
-SDF_CODE_UNARY(tan, "tan")
-SDF_CODE_UNARY(asin, "sdfAsin")
-SDF_CODE_UNARY(acos, "sdfAcos")
-SDF_CODE_UNARY(atan, "atan")
-SDF_CODE_UNARY(exp, "exp")
-SDF_CODE_UNARY(log, "log")
-SDF_CODE_UNARY(floor, "floor")
-SDF_CODE_UNARY(ceil, "ceil")
-SDF_CODE_UNARY(round, "roundEven")
-#undef SDF_CODE_UNARY
-Code square(const Code& a) { return {a.text + " * " + a.text}; }
-
-#define SDF_CODE_BINARY(call, before, between, after) \
-  Code call(const Code& a, const Code& b) { return {before + a.text + between + b.text + after}; }
-SDF_CODE_BINARY(add, "", " + ", "")
-SDF_CODE_BINARY(sub, "", " - ", "")
-SDF_CODE_BINARY(mul, "", " * ", "")
-SDF_CODE_BINARY(div, "", " / ", "")
-SDF_CODE_BINARY(min, "min(", ", ", ")")
-SDF_CODE_BINARY(max, "max(", ", ", ")")
-SDF_CODE_BINARY(pow, "sdfPow(", ", ", ")")
-SDF_CODE_BINARY(atan2, "sdfAtan2(", ", ", ")")
-SDF_CODE_BINARY(mod, "mod(", ", ", ")")
-SDF_CODE_BINARY(less, "float(", " < ", ")")
-SDF_CODE_BINARY(lessEqual, "float(", " <= ", ")")
-SDF_CODE_BINARY(equal, "float(", " == ", ")")
-#undef SDF_CODE_BINARY
-
-Code select(const Code& c, const Code& a, const Code& b) {
-  return {c.text + " != 0.0 ? " + a.text + " : " + b.text};
-}
-// Of the fused operations, which no graph has.
-Code mulAdd(const Code& a, const Code& b, const Code& c) {
-  return {a.text + " * " + b.text + " + " + c.text};
-}
-Code squareAdd(const Code& a, const Code& c) { return mulAdd(a, a, c); }
 
 }  // namespace
 
@@ -119,10 +103,7 @@ class GlslWriter::Body {
         names_[e] = writer_.terms_.at(e.parameterInfo().name);
       } else {
         std::string name = "v" + std::to_string(lines_++);
-        const std::string term =
-            e.payloadPart()
-                ? payload(e, *e.payloadPart())
-                : evaluateOp<Code>(e.op(), [&](int i) { return Code{this->name(e.arg(i))}; }).text;
+        const std::string term = e.payloadPart() ? payload(e, *e.payloadPart()) : operation(e);
         body_ += "  float " + name + " = " + term + ";" + writer_.commentOf(e) + "\n";
         names_[e] = std::move(name);
       }
@@ -146,6 +127,13 @@ class GlslWriter::Body {
     for (int i = 0; i < arity(e.op()); ++i)
       if (names_.contains(e.arg(i))) return true;
     return false;
+  }
+
+  std::string operation(const Expr& e) {
+    std::string term(kTerms.at(e.op()));
+    for (std::size_t at; (at = term.rfind('$')) != std::string::npos;)
+      term.replace(at, 2, name(e.arg(term[at + 1] - '0')));
+    return term;
   }
 
   // The derivatives of a payload at a point are computed together.
