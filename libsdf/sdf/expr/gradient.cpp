@@ -1,5 +1,6 @@
 #include "sdf/expr/gradient.h"
 
+#include <concepts>
 #include <unordered_map>
 
 #include "sdf/expr/apply-inl.h"
@@ -45,35 +46,12 @@ std::array<Symbol, 4> payloadSlopes(const PayloadPart& part, const Symbol& a, co
   return {Expr::payload(part, at), slope(1), slope(2), slope(3)};
 }
 
-#define SDF_SYMBOL_UNARY(call) \
-  Symbol call(const Symbol& a) { return call(a.e); }
-SDF_SYMBOL_UNARY(abs)
-SDF_SYMBOL_UNARY(sqrt)
-SDF_SYMBOL_UNARY(square)
-SDF_SYMBOL_UNARY(sin)
-SDF_SYMBOL_UNARY(cos)
-SDF_SYMBOL_UNARY(tan)
-SDF_SYMBOL_UNARY(asin)
-SDF_SYMBOL_UNARY(acos)
-SDF_SYMBOL_UNARY(atan)
-SDF_SYMBOL_UNARY(exp)
-SDF_SYMBOL_UNARY(log)
-SDF_SYMBOL_UNARY(floor)
-SDF_SYMBOL_UNARY(ceil)
-SDF_SYMBOL_UNARY(round)
-#undef SDF_SYMBOL_UNARY
-
-#define SDF_SYMBOL_BINARY(call) \
-  Symbol call(const Symbol& a, const Symbol& b) { return call(a.e, b.e); }
-SDF_SYMBOL_BINARY(min)
-SDF_SYMBOL_BINARY(max)
-SDF_SYMBOL_BINARY(pow)
-SDF_SYMBOL_BINARY(atan2)
-SDF_SYMBOL_BINARY(mod)
-SDF_SYMBOL_BINARY(less)
-SDF_SYMBOL_BINARY(lessEqual)
-SDF_SYMBOL_BINARY(equal)
-#undef SDF_SYMBOL_BINARY
+// The others are the operations of expressions.
+#define SDF_UNARY(name, call) \
+  Symbol call(const std::same_as<Symbol> auto& a) { return call(a.e); }
+#define SDF_BINARY(name, call) \
+  Symbol call(const std::same_as<Symbol> auto& a, const Symbol& b) { return call(a.e, b.e); }
+#include "sdf/expr/ops.def"
 
 using SymbolicDual = Dual<Symbol, 3>;
 
