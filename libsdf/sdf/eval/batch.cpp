@@ -45,31 +45,30 @@ HWY_BEFORE_NAMESPACE();
 namespace sdf {
 namespace HWY_NAMESPACE {
 
-// How a number type lies in the rows.
-template <class T>
-struct Rowed;
-
-template <>
-struct Rowed<Lanes> {
-  static HWY_INLINE Lanes load(const float* p, std::size_t) { return hn::Load(kD, p); }
-  static HWY_INLINE Lanes fromConstant(float v) { return Lanes(static_cast<double>(v)); }
-  static HWY_INLINE void store(const Lanes& a, float* p, std::size_t) { hn::Store(a.v, kD, p); }
-};
-
 using Gradient = Dual<Lanes, 3>;
-template <>
-struct Rowed<Gradient> {
-  static HWY_INLINE Gradient load(const float* p, std::size_t stride) {
-    return {Lanes(hn::Load(kD, p)),
-            {Lanes(hn::Load(kD, p + stride)), Lanes(hn::Load(kD, p + 2 * stride)),
-             Lanes(hn::Load(kD, p + 3 * stride))}};
-  }
-  static HWY_INLINE Gradient fromConstant(float v) { return {Lanes(static_cast<double>(v)), {}}; }
-  static HWY_INLINE void store(const Gradient& a, float* p, std::size_t stride) {
-    hn::Store(a.v.v, kD, p);
-    for (int i = 0; i < 3; ++i) hn::Store(a.d[i].v, kD, p + (i + 1) * stride);
-  }
-};
+
+// How numbers lie in the rows: values, and derivatives `stride` floats apart.
+template <class T>
+HWY_INLINE T load(const float* p, std::size_t stride) {
+  const Lanes value = hn::Load(kD, p);
+  if constexpr (std::is_same_v<T, Lanes>)
+    return value;
+  else
+    return {value, {hn::Load(kD, p + stride), hn::Load(kD, p + 2 * stride), hn::Load(kD, p + 3 * stride)}};
+}
+HWY_INLINE void store(const Lanes& a, float* p, std::size_t) { hn::Store(a.v, kD, p); }
+HWY_INLINE void store(const Gradient& a, float* p, std::size_t stride) {
+  hn::Store(a.v.v, kD, p);
+  for (int i = 0; i < 3; ++i) hn::Store(a.d[i].v, kD, p + (i + 1) * stride);
+}
+template <class T>
+HWY_INLINE T number(float v) {
+  const Lanes value(static_cast<double>(v));
+  if constexpr (std::is_same_v<T, Lanes>)
+    return value;
+  else
+    return {value, {}};
+}
 
 // An argument: a row to load from, or a constant kept in a vector. Which of them is known as the loop is
 // compiled.
@@ -83,13 +82,13 @@ struct Argument<T, false> {
   HWY_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
       : row(HWY_UNLIKELY(n.constant[k]) ? filledRow(job, n, k) : job.registers[n.in[k]]),
         stride(job.stride) {}
-  HWY_INLINE T operator()(std::size_t i) const { return Rowed<T>::load(row + i, stride); }
+  HWY_INLINE T operator()(std::size_t i) const { return load<T>(row + i, stride); }
 
   // Constants in unusual places (specialisation leaves some) are spread over a spare row.
   static HWY_NOINLINE const float* filledRow(const BatchJob& job, const RegisterInstruction& n, int k) {
     float* spare = job.registers[job.tape->registerCount() + k];
-    const T value = Rowed<T>::fromConstant(job.tape->floats()[n.in[k]]);
-    for (std::size_t i = 0; i < job.count; i += hn::Lanes(kD)) Rowed<T>::store(value, spare + i, job.stride);
+    const T value = number<T>(job.tape->floats()[n.in[k]]);
+    for (std::size_t i = 0; i < job.count; i += hn::Lanes(kD)) store(value, spare + i, job.stride);
     return spare;
   }
 };
@@ -98,7 +97,7 @@ template <class T>
 struct Argument<T, true> {
   T value;
   HWY_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
-      : value(Rowed<T>::fromConstant(job.tape->floats()[n.in[k]])) {}
+      : value(number<T>(job.tape->floats()[n.in[k]])) {}
   HWY_INLINE const T& operator()(std::size_t) const { return value; }
 };
 
@@ -107,15 +106,14 @@ template <class T, Op op, std::size_t... kConstants, class... Args>
 HWY_INLINE void loop(const BatchJob& job, const RegisterInstruction& n, std::index_sequence<kConstants...>,
                      const Args&... args) {
   const float* c = job.tape->floats() + n.constants;
-  [[maybe_unused]] const T constants[] = {Rowed<T>::fromConstant(c[0]),
-                                          Rowed<T>::fromConstant(c[kConstants])...};
+  [[maybe_unused]] const T constants[] = {number<T>(c[0]), number<T>(c[kConstants])...};
   float* out = job.registers[n.out];
   const std::size_t step = hn::Lanes(kD);
   for (std::size_t i = 0; i < job.count; i += 2 * step) {
     const T first = apply<op>(args(i)..., constants[kConstants + 1]...);
     const T second = apply<op>(args(i + step)..., constants[kConstants + 1]...);
-    Rowed<T>::store(first, out + i, job.stride);
-    Rowed<T>::store(second, out + i + step, job.stride);
+    store(first, out + i, job.stride);
+    store(second, out + i + step, job.stride);
   }
 }
 
@@ -154,11 +152,11 @@ HWY_NOINLINE void runPayload(const BatchJob& job, const RegisterInstruction& n, 
   payloadSlopes(part, {a.row, b.row, c.row}, job.count, kSlopes, {f[0], f[1], f[2], f[3]});
   for (std::size_t i = 0; i < job.count; i += hn::Lanes(kD)) {
     const auto row = [&](int k) HWY_ATTR { return Lanes(hn::Load(kD, f[k] + i)); };
+    float* out = job.registers[n.out] + i;
     if constexpr (kSlopes)
-      Rowed<T>::store(chain(a(i), b(i), c(i), row(0), row(1), row(2), row(3)), job.registers[n.out] + i,
-                      job.stride);
+      store(chain(a(i), b(i), c(i), row(0), row(1), row(2), row(3)), out, job.stride);
     else
-      Rowed<T>::store(row(0), job.registers[n.out] + i, job.stride);
+      store(row(0), out, job.stride);
   }
 }
 
@@ -271,23 +269,22 @@ const char* BatchEvaluator::targetName() { return HWY_DYNAMIC_DISPATCH(TargetNam
 
 namespace {
 
-std::array<const float*, kVariableCount> rowsOf(const Rows& in) {
-  return {in.x, in.y, in.z, in.nx, in.ny, in.nz};
-}
-
-// Copies the tape's value of one output, wherever it ended up, to a row of the caller.
-void copyOutput(const Tape& tape, std::size_t i, float* const* registers, std::size_t count, float* out) {
+// Copies the tape's value of one output, wherever it ended up, to a row of the caller; or its derivative, so
+// many floats further on.
+void copyOutput(const Tape& tape, std::size_t i, float* const* registers, std::size_t count, float* out,
+                std::size_t derivative = 0) {
   const Operand o = tape.programOutputs()[i];
   if (o.isConstant())
-    std::fill_n(out, count, tape.floats()[o.index()]);
+    std::fill_n(out, count, derivative == 0 ? tape.floats()[o.index()] : 0.0f);
   else
-    std::memcpy(out, registers[o.isValue() ? o.index() + kVariableCount : o.index()], count * sizeof(float));
+    std::memcpy(out, registers[o.isValue() ? o.index() + kVariableCount : o.index()] + derivative,
+                count * sizeof(float));
 }
 
 // The lanes beyond the last point repeat it: sin and pow take another way when any lane asks for it, so what
 // an earlier call left there would show in the values.
 void copyInputs(const Rows& in, std::size_t first, std::size_t count, float* const* registers) {
-  const auto rows = rowsOf(in);
+  const float* const rows[kVariableCount] = {in.x, in.y, in.z, in.nx, in.ny, in.nz};
   for (int v = 0; v < kVariableCount; ++v) {
     if (!rows[v] || count == 0) continue;
     std::memcpy(registers[v], rows[v] + first, count * sizeof(float));
@@ -324,17 +321,7 @@ void BatchEvaluator::evaluateGradient(const Tape& tape, const Rows& in, std::siz
     const std::size_t n = std::min(length, count - first);
     copyInputs(in, first, n, registers);
     HWY_DYNAMIC_DISPATCH(RunGradients)({&tape, registers, wholeVectors(n), length});
-    const Operand o = tape.programOutputs()[0];
-    copyOutput(tape, 0, registers, n, value + first);
-    for (int axis = 0; axis < 3; ++axis) {
-      float* target = targets[axis + 1] + first;
-      if (o.isConstant())
-        std::fill_n(target, n, 0.0f);
-      else
-        std::memcpy(target,
-                    registers[o.isValue() ? o.index() + kVariableCount : o.index()] + (axis + 1) * length,
-                    n * sizeof(float));
-    }
+    for (int k = 0; k < 4; ++k) copyOutput(tape, 0, registers, n, targets[k] + first, k * length);
   }
 }
 
