@@ -29,37 +29,22 @@ namespace sdf {
 template <Op kOp>
 struct OpTag {
   static constexpr Op op = kOp;
-  static constexpr int arity = sdf::arity(kOp);
 };
 
 /// apply<op>(a, …): the operation's function, found for the arguments' type. Takes exactly arity(op)
 /// arguments.
 template <Op op>
 struct Apply;
-#define SDF_UNARY(name, call) \
-  template <>                 \
-  struct Apply<Op::name> {    \
-    template <class T>        \
-    static T of(const T& a) { \
-      return call(a);         \
-    }                         \
+#define SDF_UNARY(name, call)                          \
+  template <>                                          \
+  struct Apply<Op::name> {                             \
+    template <class T, class... Others>                \
+    static T of(const T& a, const Others&... others) { \
+      return call(a, others...);                       \
+    }                                                  \
   };
-#define SDF_BINARY(name, call)            \
-  template <>                             \
-  struct Apply<Op::name> {                \
-    template <class T>                    \
-    static T of(const T& a, const T& b) { \
-      return call(a, b);                  \
-    }                                     \
-  };
-#define SDF_TERNARY(name, call)                       \
-  template <>                                         \
-  struct Apply<Op::name> {                            \
-    template <class T>                                \
-    static T of(const T& a, const T& b, const T& c) { \
-      return call(a, b, c);                           \
-    }                                                 \
-  };
+#define SDF_BINARY SDF_UNARY
+#define SDF_TERNARY SDF_UNARY
 #define SDF_FUSED(name, rows, constants, body)                                                \
   template <>                                                                                 \
   struct Apply<Op::name> {                                                                    \
@@ -98,9 +83,9 @@ template <class T, class Args>
 T evaluateOp(Op op, Args&& args) {
   if (op == Op::Claim) return args(0);
   T result{};
-  dispatch(op, [&]<class Tag>(Tag tag) {
+  dispatch(op, [&](auto tag) {
     result = [&]<int... i>(std::integer_sequence<int, i...>) { return apply<tag.op>(args(i)...); }
-    (std::make_integer_sequence<int, Tag::arity>());
+    (std::make_integer_sequence<int, arity(tag.op)>());
   });
   return result;
 }
