@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -10,31 +9,20 @@
 namespace sdf {
 namespace {
 
-/// Two values of one function that keeps their order: its arguments, and how it is made of another.
-struct Common {
-  Expr a, b;
-  Op op;
-  std::optional<Expr> term;  // what else it is made of,
-  int place = 0;             // and as which argument
-};
-
-Common commonWith(const Expr& a, const Expr& b, int place) {
-  return {a.arg(1 - place), b.arg(1 - place), a.op(), a.arg(place), place};
-}
-
-std::optional<Common> common(const Expr& a, const Expr& b) {
+// Of two values of one function that keeps their order, the place of the argument in which they differ.
+std::optional<int> difference(const Expr& a, const Expr& b) {
   if (a.op() != b.op()) return std::nullopt;
   switch (a.op()) {
     case Op::Sqrt:
-      return Common{a.arg(0), b.arg(0), Op::Sqrt, std::nullopt};
+      return 0;
     case Op::Sub:
-      if (a.arg(1) == b.arg(1)) return commonWith(a, b, 1);
+      if (a.arg(1) == b.arg(1)) return 0;
       break;
     case Op::Add:
     case Op::Mul:
       for (const int place : {0, 1})
         if (a.arg(place) == b.arg(place) && (a.op() == Op::Add || a.arg(place).range().lo >= 0.0))
-          return commonWith(a, b, place);
+          return 1 - place;
       break;
     default:
       break;
@@ -43,16 +31,17 @@ std::optional<Common> common(const Expr& a, const Expr& b) {
 }
 
 Expr chosen(Op choice, const Expr& a, const Expr& b) {
-  const std::optional<Common> g = common(a, b);
-  if (!g) return Expr::make(choice, std::array{a, b});
-  const Expr inner = chosen(choice, g->a, g->b);
-  if (!g->term) return Expr::make(g->op, std::array{inner});
-  return Expr::make(g->op, g->place == 0 ? std::array{*g->term, inner} : std::array{inner, *g->term});
+  const std::optional<int> place = difference(a, b);
+  if (!place) return Expr::make(choice, std::array{a, b});
+  std::vector<Expr> args;
+  for (int i = 0; i < arity(a.op()); ++i)
+    args.push_back(i == *place ? chosen(choice, a.arg(i), b.arg(i)) : a.arg(i));
+  return Expr::make(a.op(), args);
 }
 
 Expr isLessEqual(const Expr& a, const Expr& b) {
-  const std::optional<Common> g = common(a, b);
-  return g ? isLessEqual(g->a, g->b) : lessEqual(a, b);
+  const std::optional<int> place = difference(a, b);
+  return place ? isLessEqual(a.arg(*place), b.arg(*place)) : lessEqual(a, b);
 }
 
 // Longer lists are joined as they come: a look at all pairs would take too long.
@@ -62,7 +51,8 @@ constexpr std::size_t kMostOperands = 64;
 Expr chosen(Op choice, const std::vector<Expr>& operands) {
   std::vector<Expr> groups;
   for (const Expr& e : operands) {
-    const auto like = std::find_if(groups.begin(), groups.end(), [&](const Expr& g) { return common(g, e); });
+    const auto like = std::find_if(groups.begin(), groups.end(),
+                                   [&](const Expr& g) { return difference(g, e).has_value(); });
     if (like == groups.end())
       groups.push_back(e);
     else
@@ -72,32 +62,23 @@ Expr chosen(Op choice, const std::vector<Expr>& operands) {
   return groups.front();
 }
 
-class Hoister {
- public:
-  std::optional<Expr> operator()(const Expr& node, std::span<const Expr> args) {
+}  // namespace
+
+Expr hoisted(const Expr& e) {
+  std::unordered_map<Expr, std::vector<Expr>> lists;  // what a minimum of minima takes the least of
+  const auto operands = [&](const Expr& node, const Expr& made, Op choice) {
+    const auto list = node.op() == choice ? lists.find(node) : lists.end();
+    return list == lists.end() ? std::vector{made} : list->second;
+  };
+  const auto hoist = [&](const Expr& node, std::span<const Expr> args) -> std::optional<Expr> {
     if (node.op() != Op::Min && node.op() != Op::Max) return std::nullopt;
     std::vector<Expr> all = operands(node.arg(0), args[0], node.op());
     const std::vector<Expr> more = operands(node.arg(1), args[1], node.op());
     if (all.size() + more.size() > kMostOperands) return chosen(node.op(), args[0], args[1]);
     all.insert(all.end(), more.begin(), more.end());
-    return chosen(node.op(), operands_[node] = std::move(all));
-  }
-
- private:
-  // What a minimum of minima takes the least of.
-  std::vector<Expr> operands(const Expr& e, const Expr& done, Op choice) const {
-    const auto list = e.op() == choice ? operands_.find(e) : operands_.end();
-    return list == operands_.end() ? std::vector{done} : list->second;
-  }
-
-  std::unordered_map<Expr, std::vector<Expr>> operands_;
-};
-
-}  // namespace
-
-Expr hoisted(const Expr& e) {
-  Hoister hoister;
-  return rewrite(withoutClaims({&e, 1}), std::ref(hoister)).front();
+    return chosen(node.op(), lists[node] = std::move(all));
+  };
+  return rewrite(withoutClaims({&e, 1}), hoist).front();
 }
 
 Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers) {
