@@ -37,8 +37,7 @@ Function::Function(std::vector<Expr> outputs) {
   compiled->tape = std::make_shared<const Tape>(compiler.take());
   for (const InputPlace& input : compiled->places) {
     const ParameterInfo& info = input.parameter.parameterInfo();
-    const auto same = [&](const ParameterInfo& other) { return other.name == info.name; };
-    if (std::none_of(compiled->inputs.begin(), compiled->inputs.end(), same))
+    if (std::ranges::find(compiled->inputs, info.name, &ParameterInfo::name) == compiled->inputs.end())
       compiled->inputs.push_back(info);
   }
   compiled->outputs = std::move(outputs);
@@ -49,7 +48,7 @@ const std::vector<Expr>& Function::outputs() const { return compiled_->outputs; 
 const std::vector<ParameterInfo>& Function::inputs() const { return compiled_->inputs; }
 
 bool Function::covers(const Values& values) const {
-  return std::all_of(compiled_->places.begin(), compiled_->places.end(), [&](const InputPlace& input) {
+  return std::ranges::all_of(compiled_->places, [&](const InputPlace& input) {
     const auto it = values.find(input.parameter.parameterInfo().name);
     return it == values.end() || input.parameter.range().contains(it->second);
   });

@@ -55,10 +55,8 @@ class Likeness {
 
   /// Its constants that not all have.
   std::size_t numbersOf(const Expr& operand) const {
-    const std::vector<Expr> nodes = topologicalOrder({&operand, 1});
-    return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](const Expr& node) {
-      return node.isConstant() && !common_.contains(node);
-    }));
+    const auto own = [&](const Expr& node) { return node.isConstant() && !common_.contains(node); };
+    return static_cast<std::size_t>(std::ranges::count_if(topologicalOrder({&operand, 1}), own));
   }
 
   /// A new parameter whose default is this value.

@@ -43,9 +43,9 @@ ModelTapes Model::at(const Values& values) const {
   ModelTapes result;
   std::vector<TapePtr> tapes;
   for (const Function& f : functions()) tapes.push_back(f.at(values));
-  const bool covered = std::all_of(functions().begin(), functions().end(),
-                                   [&](const Function& f) { return f.covers(values); }) &&
-                       (!compiled_->blend || compiled_->blend->covers(values));
+  const bool covered =
+      std::ranges::all_of(functions(), [&](const Function& f) { return f.covers(values); }) &&
+      (!compiled_->blend || compiled_->blend->covers(values));
   result.slope_ = covered ? slopeOf(shape()) : kInfinity;
   for (std::uint32_t i = 0; i < tapes.size(); ++i) result.all_.push_back(i);
   if (!shape().outer) {
@@ -74,24 +74,22 @@ ModelTapes Model::at(const Values& values) const {
 // that is nearer than the gap (see booleans.h: a blend is its lesser distance where the other is k larger).
 std::vector<std::uint32_t> ModelTapes::near(const Box& box, double most,
                                             std::span<const std::uint32_t> among) const {
-  std::vector<std::uint32_t> result(among.begin(), among.end());
-  if (!tapes_) return result;
+  if (!tapes_) return {among.begin(), among.end()};
   std::vector<double> least(among.size());
   for (std::size_t i = 0; i < among.size(); ++i) {
     const Reach& reach = reaches_[among[i]];
     const double gap = gapBetween(box, reach.bounds);
     least[i] = gap > 0.0 ? gap / reach.growth : 0.0;
   }
-  double limit = most + sink_ + width_;
-  for (std::size_t kept = 0, before = ~std::size_t{0}; kept != before;) {
-    before = kept;
+  std::vector<std::uint32_t> result;
+  std::size_t before;
+  do {
+    before = result.size();
+    const double limit = most + sink_ + width_ * static_cast<double>(before + 1);
     result.clear();
     for (std::size_t i = 0; i < among.size(); ++i)
       if (least[i] <= limit) result.push_back(among[i]);
-    kept = result.size();
-    limit = most + sink_ + width_ * static_cast<double>(kept + 1);
-    if (width_ == 0.0) break;
-  }
+  } while (width_ != 0.0 && result.size() != before);
   return result;
 }
 
