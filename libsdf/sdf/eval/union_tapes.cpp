@@ -54,16 +54,14 @@ class UnionTapes::Linker {
     const Outputs b = joined(operands.subspan(half));
     const float steeper = std::max(code_->slope(a[0]), code_->slope(b[0]));
     Outputs least{append({Op::Min, {a[0], b[0]}, 0, steeper})};
-    Operand second;
-    bool asked = false;
+    std::optional<Operand> second;
     for (std::size_t k = 1; k < a.size(); ++k) {
       if (same(a[k], b[k])) {
         least.push_back(a[k]);
         continue;
       }
-      if (!asked) second = append({Op::LessEqual, {b[0], a[0]}, 0, kUnknown});
-      asked = true;
-      least.push_back(append({Op::Select, {second, b[k], a[k]}, 0, kUnknown}));
+      if (!second) second = append({Op::LessEqual, {b[0], a[0]}, 0, kUnknown});
+      least.push_back(append({Op::Select, {*second, b[k], a[k]}, 0, kUnknown}));
     }
     return least;
   }
