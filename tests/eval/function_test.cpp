@@ -8,6 +8,7 @@
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/vec.h"
+#include "support/bind.h"
 
 namespace sdf {
 namespace {
@@ -36,7 +37,7 @@ TEST(Function, SaysWhatTheBoundExpressionSays) {
     for (const double first : {0.0, 0.25, 1.0})
       for (const double second : {0.0, 0.5, 1.0}) {
         const Values values{{"a", first}, {"b", second}};
-        const Tape bound(bind(e, values));
+        const Tape bound(test::bind(e, values));
         for (const glm::dvec3& p : {glm::dvec3(0.3, -0.7, 1.1), glm::dvec3(-2.0, 0.5, 0.0)})
           EXPECT_NEAR(evaluate(*f.at(values), p), evaluate(bound, p),
                       1e-15 * (1.0 + std::abs(evaluate(bound, p))));

@@ -8,6 +8,7 @@
 #include "expr/evaluate.h"
 #include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
+#include "support/bind.h"
 #include "support/payloads.h"
 
 namespace sdf {
@@ -112,7 +113,7 @@ TEST_P(PayloadNode, IsRewrittenAsOperationsAre) {
   const Expr slope = Expr::payload({payload, 3}, coordinates());
   EXPECT_EQ(remap(slope, {kY, kZ, kX}, 1.0), Expr::payload({payload, 3}, {kY, kZ, kX}));
   const Expr a = Expr::parameter({"a", 0.5, 0.0, 1.0});
-  EXPECT_EQ(bind(Expr::payload({payload}, {kX + a, kY, kZ}), {{"a", 0.25}}),
+  EXPECT_EQ(test::bind(Expr::payload({payload}, {kX + a, kY, kZ}), {{"a", 0.25}}),
             Expr::payload({payload}, {kX + 0.25, kY, kZ}));
   EXPECT_EQ(hoisted(min(e, kX - 0.1)), min(Expr::payload({payload}, coordinates()), kX) - 0.1);
 }

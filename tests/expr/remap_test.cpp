@@ -101,28 +101,6 @@ TEST(Remap, NodesBuiltOnAClaimInheritIt) {
   EXPECT_EQ((f + kX).lipschitz(), 2.0);
 }
 
-TEST(Bind, SetsTheNamedParametersOnly) {
-  const Expr k = Expr::parameter({"k", 0.5, 0.0, 1.0}), j = Expr::parameter({"j", 2.0, 0.0, 3.0});
-  const Expr f = k * kX + j;
-  EXPECT_EQ(bind(f, {{"k", 0.75}}), 0.75 * kX + j);
-  EXPECT_EQ(bind(f, {{"other", 1.0}}), f);
-  EXPECT_EQ(bind(k + j, {{"k", 1.0}, {"j", 2.0}}), Expr(3.0));
-}
-
-TEST(Bind, KeepsClaimsForValuesInRange) {
-  const Expr k = Expr::parameter({"k", 0.5, 0.0, 1.0});
-  const Expr f = sqrt(square(kX * k) + square(kY)).claimLipschitz(1.0);
-  EXPECT_EQ(bind(f, {{"k", 0.25}}).lipschitz(), 1.0);
-}
-
-TEST(Bind, DropsFactsThatHeldForTheRangeOnly) {
-  const Expr k = Expr::parameter({"k", 0.5, 0.0, 1.0});
-  const Expr f = kX * k;
-  EXPECT_LE(f.lipschitz(), 1.0);
-  EXPECT_GE(bind(f, {{"k", 7.0}}).lipschitz(), 7.0);
-  EXPECT_TRUE(bind(abs(k), {{"k", 7.0}}).range().contains(7.0));
-}
-
 TEST(Facts, SwitchesByAParameterKeepTheSlope) {
   const Expr k = Expr::parameter({"k", 0.5, 0.0, 1.0});
   EXPECT_LE(select(less(k, 0.25), abs(kX), kY).lipschitz(), 1.0);

@@ -8,6 +8,7 @@
 #include "number/adversary.h"
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
+#include "support/bind.h"
 #include "support/float_range.h"
 
 namespace sdf::fuzz {
@@ -299,7 +300,7 @@ class GraphCheck {
     for (const Expr& n : topologicalOrder({&e_, 1}))
       if (n.op() == Op::Parameter) values[n.parameterInfo().name] = n.parameterInfo().value;
     if (values.empty()) return;
-    const Expr bound = sdf::bind(e_, values);
+    const Expr bound = test::bind(e_, values);
     const Tape tape(bound);
     for (const Point& p : points_) {
       if (formula_.evaluate({p.x, p.y, p.z}).signOfZeroMatters) continue;

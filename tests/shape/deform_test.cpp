@@ -7,6 +7,7 @@
 #include "sdf/shape/flats.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
+#include "support/bind.h"
 
 namespace sdf {
 namespace {
@@ -284,7 +285,7 @@ TEST(Bend, ByASliderFromZeroHoldsForEveryValue) {
   const Shape s = bend(bar(), slider("k", 0.5, 0.0, 1.5));
   for (const double k : {0.0, 1e-9, 0.3, 1.5}) {
     Shape now = s;
-    now.distance = bind(s.distance, {{"k", k}});
+    now.distance = test::bind(s.distance, {{"k", k}});
     expectLipschitz(now, cube(2.0), 36);
     expectBounded(now, cube(3.0), 37);
   }

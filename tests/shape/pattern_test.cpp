@@ -8,6 +8,7 @@
 #include "sdf/shape/flats.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
+#include "support/bind.h"
 
 namespace sdf {
 namespace {
@@ -140,7 +141,7 @@ TEST(RepeatGrid, BySlidersHoldsForEveryCell) {
   const Shape s = repeatGrid(odd(), Vec3E(slider("c", 1.0, 0.4, 2.0), 0.0, 0.0), glm::ivec3(4, 1, 1));
   for (const double c : {0.4, 0.7, 2.0}) {
     Shape now = s;
-    now.distance = bind(s.distance, {{"c", c}});
+    now.distance = test::bind(s.distance, {{"c", c}});
     expectSame(now, written(odd(), glm::dvec3(c, 0.0, 0.0), glm::ivec3(4, 1, 1)), cube(4.0), 10);
     expectBounded(now, cube(5.0), 11);
   }

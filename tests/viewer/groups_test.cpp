@@ -15,6 +15,7 @@
 #include "sdf/shape/operators.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
+#include "support/bind.h"
 #include "support/payloads.h"
 #include "viewer/gpu_render.h"
 #include "viewer/psnr.h"

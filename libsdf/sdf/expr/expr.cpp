@@ -275,15 +275,10 @@ Expr Expr::claimLipschitz(double bound) const {
   return NodeTable::instance().intern(std::move(n));
 }
 
-namespace {
-Expr make1(Op op, const Expr& a) { return Expr::make(op, {&a, 1}); }
-Expr make2(Op op, const Expr& a, const Expr& b) { return Expr::make(op, std::array{a, b}); }
-}  // namespace
-
 #define SDF_UNARY(name, call) \
-  Expr call(const Expr& a) { return make1(Op::name, a); }
+  Expr call(const Expr& a) { return Expr::make(Op::name, {&a, 1}); }
 #define SDF_BINARY(name, call) \
-  Expr call(const Expr& a, const Expr& b) { return make2(Op::name, a, b); }
+  Expr call(const Expr& a, const Expr& b) { return Expr::make(Op::name, std::array{a, b}); }
 #define SDF_TERNARY(name, call) \
   Expr call(const Expr& a, const Expr& b, const Expr& c) { return Expr::make(Op::name, std::array{a, b, c}); }
 #include "sdf/expr/ops.def"
@@ -320,8 +315,7 @@ std::vector<Expr> topologicalOrder(std::span<const Expr> roots) {
 }
 
 bool dependsOnSpace(const Expr& e) {
-  const auto order = topologicalOrder({&e, 1});
-  return std::any_of(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Variable; });
+  return std::ranges::any_of(topologicalOrder({&e, 1}), [](const Expr& n) { return n.op() == Op::Variable; });
 }
 
 double uniformValue(const Expr& e) {
@@ -339,11 +333,16 @@ double uniformValue(const Expr& e) {
   return values.at(e.node());
 }
 
+namespace {
+
+// The node's operation, or payload, over other arguments, as many as it has; a leaf is itself.
 Expr remade(const Expr& node, std::span<const Expr> args) {
   if (args.empty()) return node;
   if (node.op() == Op::Payload) return Expr::payload(*node.payloadPart(), {args[0], args[1], args[2]});
-  return node.op() == Op::Claim ? args[0].claimLipschitz(node.lipschitz()) : Expr::make(node.op(), args);
+  return Expr::make(node.op(), args);
 }
+
+}  // namespace
 
 std::vector<Expr> rewrite(std::span<const Expr> roots, const Replacement& replacement) {
   std::unordered_map<const Node*, Expr> made;
@@ -375,49 +374,19 @@ std::vector<Expr> withoutClaims(std::span<const Expr> roots) {
   });
 }
 
-namespace {
-
-// Rewrites with leaves replaced by leaf(e); facts carry over, multiplied by `stretch`.
-template <class Leaf>
-std::vector<Expr> withLeaves(std::span<const Expr> roots, double stretch, Leaf leaf) {
+std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch) {
   constexpr double kRounding = 1e-12;  // a claim that gains no more than rounding loses is not worth a node
-  return rewrite(roots, [&](const Expr& n, std::span<const Expr> args) -> std::optional<Expr> {
+  return rewrite(es, [&](const Expr& n, std::span<const Expr> args) -> std::optional<Expr> {
     const double bound = n.lipschitz() * stretch;
     if (n.op() == Op::Claim) return args[0].claimLipschitz(bound);
-    const Expr e = args.empty() ? leaf(n) : remade(n, args);
+    const bool coordinate = n.op() == Op::Variable && n.variableIndex() <= Variable::Z;
+    const Expr e = coordinate ? position[static_cast<int>(n.variableIndex())] : remade(n, args);
     return bound < e.lipschitz() * (1.0 - kRounding) ? e.claimLipschitz(bound) : e;
-  });
-}
-
-}  // namespace
-
-std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch) {
-  return withLeaves(es, stretch, [&](const Expr& leaf) {
-    const bool coordinate = leaf.op() == Op::Variable && leaf.variableIndex() <= Variable::Z;
-    return coordinate ? position[static_cast<int>(leaf.variableIndex())] : leaf;
   });
 }
 
 Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch) {
   return remap({&e, 1}, position, stretch).front();
-}
-
-Expr bind(const Expr& e, const std::map<std::string, double>& values) {
-  // Facts hold for parameters in their ranges; a value beyond leaves only what the new graph says of itself.
-  double stretch = 1.0;
-  for (const Expr& n : topologicalOrder({&e, 1})) {
-    if (n.op() != Op::Parameter) continue;
-    const auto it = values.find(n.parameterInfo().name);
-    if (it != values.end() && !n.range().contains(it->second))
-      stretch = std::numeric_limits<double>::infinity();
-  }
-  return withLeaves({&e, 1}, stretch,
-                    [&](const Expr& leaf) {
-                      if (leaf.op() != Op::Parameter) return leaf;
-                      const auto it = values.find(leaf.parameterInfo().name);
-                      return it == values.end() ? leaf : Expr(it->second);
-                    })
-      .front();
 }
 
 }  // namespace sdf

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -129,10 +128,6 @@ bool dependsOnSpace(const Expr& e);
 /// Value of an expression that does not depend on space, with parameters at their defaults.
 double uniformValue(const Expr& e);
 
-/// The node's operation, or payload, over other arguments, as many as it has; a leaf is itself. A claim keeps
-/// its bound, which must hold for the new argument.
-Expr remade(const Expr& node, std::span<const Expr> args);
-
 /// What stands for a node, given what stands for its arguments; nothing where the node is to be remade.
 using Replacement = std::function<std::optional<Expr>(const Expr& node, std::span<const Expr> args)>;
 /// The graphs with nodes replaced, arguments first and each node once. Claims about what has changed are
@@ -150,10 +145,6 @@ std::vector<Expr> withoutClaims(std::span<const Expr> roots);
 Expr remap(const Expr& e, const std::array<Expr, 3>& position, double stretch);
 /// Several at once, sharing the work.
 std::vector<Expr> remap(std::span<const Expr> es, const std::array<Expr, 3>& position, double stretch);
-
-/// The expression with parameters of these names as constants of these values. Facts carry over where the
-/// values lie in their parameters' ranges. Readings of many values take a Function instead.
-Expr bind(const Expr& e, const std::map<std::string, double>& values);
 
 }  // namespace sdf
 
