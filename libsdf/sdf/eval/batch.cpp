@@ -163,7 +163,7 @@ HWY_NOINLINE void runPayload(const BatchJob& job, const RegisterInstruction& n, 
 template <class T>
 HWY_INLINE void runInstruction(const BatchJob& job, const RegisterInstruction& n) {
   if (const PayloadPart* part = job.tape->payload(n); HWY_UNLIKELY(part)) return runPayload<T>(job, n, *part);
-  dispatch(n.op, [&](auto tag) HWY_ATTR { runInstruction<T, tag.op>(job, n); });
+  dispatch(n.op, [&](auto tag) HWY_ATTR { runInstruction<T, tag.value>(job, n); });
 }
 
 void RunValues(const BatchJob& job) {
@@ -208,7 +208,6 @@ void RunBalls(const BallJob& job) {
   }
 }
 
-std::size_t LaneCount() { return hn::Lanes(kD); }
 const char* TargetName() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE
@@ -221,7 +220,6 @@ namespace sdf {
 HWY_EXPORT(RunValues);
 HWY_EXPORT(RunGradients);
 HWY_EXPORT(RunBalls);
-HWY_EXPORT(LaneCount);
 HWY_EXPORT(TargetName);
 
 namespace {

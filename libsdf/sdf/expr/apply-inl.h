@@ -1,6 +1,6 @@
 // The one dispatch from an operation code to its function, for any number type.
 //
-//   dispatch(op, [&](auto tag) { ... apply<tag.op>(a, b) ... });
+//   dispatch(op, [&](auto tag) { ... apply<tag.value>(a, b) ... });
 //
 // Re-included once per SIMD target by Highway's foreach_target; the number type's functions must be visible
 // before.
@@ -12,6 +12,7 @@
 #endif
 
 #include <cassert>
+#include <type_traits>
 #include <utility>
 
 #include "sdf/expr/op.h"
@@ -25,11 +26,6 @@ namespace HWY_NAMESPACE {
 #else
 namespace sdf {
 #endif
-
-template <Op kOp>
-struct OpTag {
-  static constexpr Op op = kOp;
-};
 
 /// apply<op>(a, …): the operation's function, found for the arguments' type. Takes exactly arity(op)
 /// arguments.
@@ -62,13 +58,13 @@ auto apply(const Ts&... args) {
   return Apply<op>::of(args...);
 }
 
-/// Calls f with the tag of `op`, which must be an operation of ops.def.
+/// Calls f with `op` as a type, which must be an operation of ops.def.
 template <class F>
 void dispatch(Op op, F&& f) {
   switch (op) {
 #define SDF_UNARY(name, call) \
   case Op::name:              \
-    return f(OpTag<Op::name>{});
+    return f(std::integral_constant<Op, Op::name>{});
 #define SDF_BINARY SDF_UNARY
 #define SDF_TERNARY SDF_UNARY
 #define SDF_FUSED(name, rows, constants, body) SDF_UNARY(name, body)
@@ -84,8 +80,8 @@ T evaluateOp(Op op, Args&& args) {
   if (op == Op::Claim) return args(0);
   T result{};
   dispatch(op, [&](auto tag) {
-    result = [&]<int... i>(std::integer_sequence<int, i...>) { return apply<tag.op>(args(i)...); }
-    (std::make_integer_sequence<int, arity(tag.op)>());
+    result = [&]<int... i>(std::integer_sequence<int, i...>) { return apply<tag.value>(args(i)...); }
+    (std::make_integer_sequence<int, arity(tag.value)>());
   });
   return result;
 }
