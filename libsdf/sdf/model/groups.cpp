@@ -105,9 +105,6 @@ struct Members {
   }
 };
 
-// A union's later operand wins a tie.
-bool inOrder(const NumberedOperand& a, const NumberedOperand& b) { return a.number < b.number; }
-
 // How many of so many operands a group takes: half as many as there are groups then.
 std::size_t sizeOf(std::size_t operands, std::size_t numbersEach) {
   const auto root = static_cast<std::size_t>(std::lround(std::sqrt(0.5 * static_cast<double>(operands))));
@@ -141,8 +138,8 @@ bool split(std::span<const NumberedOperand> alike, std::vector<OperandGroup>& re
   while (placed.size() % size != 0) placed.push_back(placed.back());
   for (std::size_t i = 0; i < placed.size(); i += size) {
     const std::span group(placed.data() + i, size);
-    std::sort(group.begin(), group.end(),
-              [](const Placed& a, const Placed& b) { return inOrder(a.operand, b.operand); });
+    // A union's later operand wins a tie.
+    std::ranges::sort(group, {}, [](const Placed& p) { return p.operand.number; });
     Members members;
     for (const Placed& p : group)
       members.add(likeness.withParameters(p.operand.distance), likeness.parameter(p.operand.number));
@@ -205,7 +202,7 @@ std::vector<OperandGroup> groupsOf(std::span<const NumberedOperand> operands) {
     if (alike.size() < kMany || !split(alike, result))
       others.insert(others.end(), alike.begin(), alike.end());
   }
-  std::sort(others.begin(), others.end(), inOrder);
+  std::ranges::sort(others, {}, &NumberedOperand::number);
   Members rest;
   for (const NumberedOperand& e : others) rest.add(e.distance, e.number);
   if (!others.empty()) result.push_back(rest.joined());
