@@ -78,10 +78,9 @@ Interval evaluate(const Tape& tape, const Box& box, ScalarReading<Interval>& wor
 double lipschitzOver(const Tape& tape, const Box& box) {
   using D = Dual<Interval, 3>;
   const auto v = variables(box);
-  const Interval zero(0.0), one(1.0);
   ScalarReading<D> reading;
-  reading.run(tape, {D{v[0], {one, zero, zero}}, D{v[1], {zero, one, zero}}, D{v[2], {zero, zero, one}},
-                     D{v[3], {zero, zero, zero}}, D{v[4], {zero, zero, zero}}, D{v[5], {zero, zero, zero}}});
+  reading.run(tape, {D{v[0], {1.0, 0.0, 0.0}}, D{v[1], {0.0, 1.0, 0.0}}, D{v[2], {0.0, 0.0, 1.0}},
+                     D{v[3], {}}, D{v[4], {}}, D{v[5], {}}});
   const D r = reading.output();
   const double slope = std::hypot(std::hypot(r.d[0].magnitude(), r.d[1].magnitude()), r.d[2].magnitude());
   return std::nextafter(slope, kInfinity);
