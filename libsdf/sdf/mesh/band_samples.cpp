@@ -1,4 +1,5 @@
 // What a band's samples say where they come close to zero: films to be dropped, and surface passed unseen.
+#include <openvdb/tools/Dense.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -21,9 +22,6 @@ constexpr float kHalfDiagonal = 0.8660254f;
 // it.
 constexpr float kFall = 0.1f;
 
-// Leaves that one task takes; fixed, so that the order of what it finds does not depend on the threads.
-constexpr std::size_t kLeavesATask = 64;
-
 constexpr int kSide = Leaf::DIM;
 constexpr int kBefore = 1, kAfter = 2;  // samples around a leaf that are looked at
 constexpr int kPadded = kBefore + kSide + kAfter;
@@ -31,14 +29,10 @@ constexpr int kPadded = kBefore + kSide + kAfter;
 /// A leaf's samples and those around it: [x][y][z] from -kBefore on.
 class Samples {
  public:
-  Samples(const Leaf& leaf, openvdb::FloatGrid::ConstAccessor& accessor) : origin_(leaf.origin()) {
-    for (int n = 0; n < 27; ++n) {
-      const Coord way(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-      const Coord origin(origin_.x() + way.x() * kSide, origin_.y() + way.y() * kSide,
-                         origin_.z() + way.z() * kSide);
-      const Leaf* neighbour = n == 13 ? &leaf : accessor.probeConstLeaf(origin);
-      copy(neighbour, neighbour ? 0.0f : accessor.getValue(origin), way);
-    }
+  Samples(const Leaf& leaf, const openvdb::FloatTree& tree) : origin_(leaf.origin()) {
+    openvdb::tools::Dense<float> cube({coord(-kBefore, -kBefore, -kBefore), coord(kLast, kLast, kLast)},
+                                      &v_[0][0][0]);
+    openvdb::tools::copyToDense(tree, cube, true);
   }
 
   Coord coord(int x, int y, int z) const { return origin_.offsetBy(x, y, z); }
@@ -46,24 +40,7 @@ class Samples {
   float at(const Coord& c) const { return at(c.x(), c.y(), c.z()); }
 
  private:
-  // What a neighbour (or the tile in its place) has of the cube; `way` points to it.
-  void copy(const Leaf* leaf, float tile, const Coord& way) {
-    Coord from, to;
-    for (int axis = 0; axis < 3; ++axis) {
-      from[axis] = way[axis] < 0 ? -kBefore : way[axis] * kSide;
-      to[axis] = way[axis] < 0 ? 0 : way[axis] == 0 ? kSide : kSide + kAfter;
-    }
-    const float* values = leaf ? leaf->buffer().data() : nullptr;
-    for (int x = from.x(); x < to.x(); ++x)
-      for (int y = from.y(); y < to.y(); ++y) {
-        float* out = &v_[x + kBefore][y + kBefore][from.z() + kBefore];
-        const int count = to.z() - from.z(), first = from.z() & (kSide - 1);
-        if (values)
-          std::copy_n(values + ((x & (kSide - 1)) << 6 | (y & (kSide - 1)) << 3 | first), count, out);
-        else
-          std::fill_n(out, count, tile);
-      }
-  }
+  static constexpr int kLast = kSide + kAfter - 1;
 
   Coord origin_;
   float v_[kPadded][kPadded][kPadded];
@@ -86,17 +63,13 @@ void forEach(const Test& test, const Visit& visit) {
 
 Coord unitStep(int axis) { return Coord(axis == 0, axis == 1, axis == 2); }
 
-/// Runs work(leaf, accessor, results) over all leaves in parallel and joins the results in the leaves' order.
+/// Runs work(leaf, results) over all leaves in parallel and joins the results in the leaves' order.
 template <class Result, class Work>
 std::vector<Result> overLeaves(const openvdb::FloatTree& tree, const Work& work) {
   std::vector<const Leaf*> leaves;
   tree.getNodes(leaves);
-  std::vector<std::vector<Result>> found((leaves.size() + kLeavesATask - 1) / kLeavesATask);
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t task) {
-    openvdb::FloatGrid::ConstAccessor accessor(tree);
-    const std::size_t end = std::min(leaves.size(), (task + 1) * kLeavesATask);
-    for (std::size_t i = task * kLeavesATask; i < end; ++i) work(*leaves[i], accessor, found[task]);
-  });
+  std::vector<std::vector<Result>> found(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) { work(*leaves[i], found[i]); });
   std::vector<Result> all;
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
   return all;
@@ -193,11 +166,11 @@ void NarrowBand::settleZeros() {
     float value;
   };
   auto& tree = grid_->grid->tree();
-  const auto changes = overLeaves<Change>(tree, [&](const Leaf& leaf, auto& accessor, auto& found) {
+  const auto changes = overLeaves<Change>(tree, [&](const Leaf& leaf, auto& found) {
     if (!leaf.transientData()) return;
     const float slope = static_cast<float>(grid_->slopeAt(leaf.origin()) * grid_->voxelSize);
     const float film = kFilm * slope;
-    const Samples samples(leaf, accessor);
+    const Samples samples(leaf, tree);
     const auto near = [&](int x, int y, int z) { return std::abs(samples.at(x, y, z)) <= film; };
     forEach(near, [&](int x, int y, int z) {
       const int sign = settledSign(samples, Coord(x, y, z), film, kSteep * slope);
@@ -210,9 +183,10 @@ void NarrowBand::settleZeros() {
 
 std::vector<NarrowBand::Suspect> NarrowBand::suspects() const {
   const float h = static_cast<float>(grid_->voxelSize);
-  return overLeaves<Suspect>(grid_->grid->tree(), [&](const Leaf& leaf, auto& accessor, auto& found) {
+  const auto& tree = grid_->grid->tree();
+  return overLeaves<Suspect>(tree, [&](const Leaf& leaf, auto& found) {
     const float slope = static_cast<float>(grid_->slopeAt(leaf.origin())) * h;
-    const Samples samples(leaf, accessor);
+    const Samples samples(leaf, tree);
     const auto suspect = [&](const Coord& c, const glm::vec3& along, float share) {
       const Coord at = samples.coord(c.x(), c.y(), c.z());
       found.push_back({glm::vec3(at.x(), at.y(), at.z()) * h, along, share, samples.at(c)});
