@@ -105,13 +105,15 @@ class BandSampler {
 
   Result<NarrowBand> run() {
     if (auto s = placeRoot(); !s) return s.error();
-    const int levels = levelCount();
-    for (int level = 0; size_ > kLeaf; ++level) {
-      stageShare_ = {static_cast<double>(level) / levels, 1.0 / levels};
+    for (level_ = 0; level_ < levels_; ++level_) {
       if (size_ > kLeaf * kBranch)
-        subdivide();
+        cells_ = overChildren<Cell>(
+            [](Cell child, Workspace&, auto& found) { found.push_back(std::move(child)); });
       else
-        sampleLeaves();
+        leaves_ = overChildren<BandLeaf>([&](const Cell& cell, Workspace& w, auto& found) {
+          BandLeaf leaf = sampleLeaf(cell, w);
+          if (leaf.leaf) found.push_back(std::move(leaf));
+        });
       if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
       if (auto s = checkMemory(); !s) return s.error();
     }
@@ -125,22 +127,15 @@ class BandSampler {
     const double voxels = b.longestSide() / h_;
     if (!(voxels < 1e8)) return tooLarge(kBytesPerSurfaceVoxel * voxels * voxels);
     for (int axis = 0; axis < 3; ++axis) {
-      low_[axis] = static_cast<int>(std::floor(b.min[axis] / h_)) - 1;
-      high_[axis] = static_cast<int>(std::ceil(b.max[axis] / h_)) + 1;
+      voxels_.min()[axis] = static_cast<int>(std::floor(b.min[axis] / h_)) - 1;
+      voxels_.max()[axis] = static_cast<int>(std::ceil(b.max[axis] / h_)) + 1;
     }
-    const openvdb::Coord first(low_.x() & ~(kLeaf - 1), low_.y() & ~(kLeaf - 1), low_.z() & ~(kLeaf - 1));
-    const openvdb::Coord span = high_ - first;
+    const openvdb::Coord first = voxels_.min() & ~(kLeaf - 1), span = voxels_.max() - first;
     size_ = kLeaf * kBranch;
-    while (size_ <= std::max({span.x(), span.y(), span.z()})) size_ *= kBranch;
+    for (levels_ = 1; size_ <= std::max({span.x(), span.y(), span.z()}); ++levels_) size_ *= kBranch;
     cells_ = {{first, model_.whole(), std::make_shared<const std::vector<std::uint32_t>>(model_.all()),
                model_.slope()}};
     return okStatus();
-  }
-
-  int levelCount() const {
-    int n = 0;
-    for (int s = size_; s > kLeaf; s /= kBranch) ++n;
-    return n;
   }
 
   Status tooLarge(double bytes) const {
@@ -165,38 +160,36 @@ class BandSampler {
     return {(origin.x() + half) * h_, (origin.y() + half) * h_, (origin.z() + half) * h_};
   }
 
-  double slack(const glm::dvec3& c) const { return distanceRounding(c, options_.bounds.longestSide()); }
-
-  bool inBounds(const openvdb::Coord& o, int size) const {
-    return o.x() <= high_.x() && o.y() <= high_.y() && o.z() <= high_.z() && o.x() + size > low_.x() &&
-           o.y() + size > low_.y() && o.z() + size > low_.z();
+  // The places where a cell's tape holds.
+  Box reached(const openvdb::Coord& origin, int size) const {
+    const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
+    return {c - half, c + half};
   }
+
+  double slack(const glm::dvec3& c) const { return distanceRounding(c, options_.bounds.longestSide()); }
 
   // Calls visit(child) for each child of the cell that the surface may meet.
   template <class Visit>
   void forSurvivingChildren(const Cell& cell, Workspace& w, const Visit& visit) const {
     const int size = size_ / kBranch;
     openvdb::Coord origin[kChildren];
-    float x[kChildren], y[kChildren], z[kChildren], value[kChildren];
+    PointRows centres;
+    float value[kChildren];
     int count = 0;
     for (int i = 0; i < kChildren; ++i) {
       const openvdb::Coord o = cell.origin.offsetBy(i / (kBranch * kBranch) * size,
                                                     i / kBranch % kBranch * size, i % kBranch * size);
-      if (!inBounds(o, size)) continue;
-      const glm::dvec3 c = centre(o, size);
+      if (!voxels_.hasOverlap(openvdb::CoordBBox::createCube(o, size))) continue;
       origin[count] = o;
-      x[count] = static_cast<float>(c.x), y[count] = static_cast<float>(c.y),
-      z[count] = static_cast<float>(c.z);
-      ++count;
+      centres.set(count++, glm::vec3(centre(o, size)));
     }
     if (count == 0) return;
     const Tape& tape = *cell.tape;
     const double margin = slack(centre(cell.origin, size_));
     w.linked.clear();
     w.local.clear();
-    w.batch.evaluateBalls(tape, {.x = x, .y = y, .z = z}, count,
-                          static_cast<float>(kSqrt3 * reach(size, kMargin)), static_cast<float>(margin),
-                          value, w.decisions);
+    w.batch.evaluateBalls(tape, centres.rows(), count, static_cast<float>(kSqrt3 * reach(size, kMargin)),
+                          static_cast<float>(margin), value, w.decisions);
     for (int k = 0; k < count; ++k) {
       double slope = std::min<double>(tape.lipschitz(), cell.slope);
       if (!mayMeet(tape, origin[k], size, value[k], margin, slope, w)) continue;
@@ -225,9 +218,8 @@ class BandSampler {
   // Those of the cell's operands that can matter in a child where samples are looked at.
   Places operandsNear(const Cell& cell, const openvdb::Coord& origin, int size) const {
     if (cell.operands->size() == 1 || model_.slope() == kInfinity) return cell.operands;
-    const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
-    std::vector<std::uint32_t> near =
-        model_.near({c - half, c + half}, kExact * h_ * model_.slope() + slack(c), *cell.operands);
+    const double most = kExact * h_ * model_.slope() + slack(centre(origin, size));
+    std::vector<std::uint32_t> near = model_.near(reached(origin, size), most, *cell.operands);
     if (near.size() == cell.operands->size()) return cell.operands;
     return std::make_shared<const std::vector<std::uint32_t>>(std::move(near));
   }
@@ -259,8 +251,7 @@ class BandSampler {
     const double radius = kSqrt3 * reach(size, 1);
     if (std::abs(value) > slope * radius + margin) return false;
     if (slope <= 1.0 || !std::isfinite(value)) return true;
-    const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
-    const Box box{c - half, c + half};
+    const Box box = reached(origin, size);
     const Interval range = evaluate(tape, box, w.intervals);
     if (!range.nan && (range.lo > margin || range.hi < -margin)) return false;
     // Sampling a leaf costs less than the interval derivatives that might spare it.
@@ -272,49 +263,32 @@ class BandSampler {
   // Adds to what the slopes decided what intervals decide.
   const Decision* refineDecisions(const Tape& tape, const openvdb::Coord& origin, int size,
                                   const Decision* known, std::size_t& stride, Workspace& w) const {
-    const glm::dvec3 c = centre(origin, size), half(reach(size, kMargin));
-    evaluate(tape, Box{c - half, c + half}, w.intervals, w.decisionsOfOne);
+    evaluate(tape, reached(origin, size), w.intervals, w.decisionsOfOne);
     for (std::size_t i = 0; i < w.decisionsOfOne.size(); ++i)
       if (w.decisionsOfOne[i] == Decision::Open) w.decisionsOfOne[i] = known[i * stride];
     stride = 1;
     return w.decisionsOfOne.data();
   }
 
-  // Runs work(cell index, workspace) over all cells in parallel, with progress, until stopped.
-  template <class Work>
-  void forEachCell(const Work& work) {
+  // Replaces the cells by what take(child, workspace, found) makes of their children that the surface may
+  // meet; in parallel, with progress, until stopped.
+  template <class Item, class Take>
+  std::vector<Item> overChildren(const Take& take) {
+    std::vector<std::vector<Item>> found(cells_.size());
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
       if (progress_.stopped()) return;
-      work(i, workspaces_.local());
-      progress_.update(stageShare_.first + stageShare_.second * ++done / cells_.size());
-    });
-  }
-
-  void subdivide() {
-    std::vector<std::vector<Cell>> children(cells_.size());
-    forEachCell([&](std::size_t i, Workspace& w) {
-      forSurvivingChildren(cells_[i], w, [&](Cell child) { children[i].push_back(std::move(child)); });
-      samples_ += kChildren;
-    });
-    cells_.clear();
-    for (auto& list : children) std::move(list.begin(), list.end(), std::back_inserter(cells_));
-    size_ /= kBranch;
-  }
-
-  void sampleLeaves() {
-    std::vector<std::vector<BandLeaf>> leaves(cells_.size());
-    forEachCell([&](std::size_t i, Workspace& w) {
-      forSurvivingChildren(cells_[i], w, [&](const Cell& cell) {
-        BandLeaf leaf = sampleLeaf(cell, w);
-        if (leaf.leaf) leaves[i].push_back(std::move(leaf));
-      });
+      Workspace& w = workspaces_.local();
+      forSurvivingChildren(cells_[i], w, [&](Cell child) { take(std::move(child), w, found[i]); });
       cells_[i].tape.reset();
       samples_ += kChildren;
+      progress_.update((level_ + static_cast<double>(++done) / cells_.size()) / levels_);
     });
-    for (auto& list : leaves) std::move(list.begin(), list.end(), std::back_inserter(leaves_));
     cells_.clear();
-    size_ = kLeaf;
+    size_ /= kBranch;
+    std::vector<Item> all;
+    for (auto& list : found) std::move(list.begin(), list.end(), std::back_inserter(all));
+    return all;
   }
 
   // The samples of a leaf; empty where no edge of the lattice that starts or ends in it can cross the
@@ -355,22 +329,20 @@ class BandSampler {
   // Samples those blocks of a leaf that are not far, one after the other; the number of samples.
   int sampleBlocks(const openvdb::Coord& origin, const Tape& distance, double slope, Blocks& blocks,
                    float* sampled, BatchEvaluator& batch) {
-    float x[kLeafVoxels], y[kLeafVoxels], z[kLeafVoxels];
-    for (int b = 0; b < kBlocks; ++b) {
-      const glm::dvec3 c = centre(origin + blockStart(b), kBlock);
-      x[b] = static_cast<float>(c.x), y[b] = static_cast<float>(c.y), z[b] = static_cast<float>(c.z);
-    }
-    batch.evaluate(distance, {.x = x, .y = y, .z = z}, kBlocks, blocks.middle);
+    static_assert(kLeafVoxels <= kBatchPoints);
+    PointRows places;
+    for (int b = 0; b < kBlocks; ++b) places.set(b, glm::vec3(centre(origin + blockStart(b), kBlock)));
+    batch.evaluate(distance, places.rows(), kBlocks, blocks.middle);
     const double far = slope * (kSqrt3 * reach(kBlock, 0) + kExact * h_) + slack(centre(origin, kLeaf));
     int count = 0;
     for (int b = 0; b < kBlocks; ++b) {
       blocks.far[b] = std::abs(blocks.middle[b]) > far && std::isfinite(blocks.middle[b]);
       if (blocks.far[b]) continue;
-      placeBlock(origin + blockStart(b), x + count, y + count, z + count);
+      placeBlock(origin + blockStart(b), places.x + count, places.y + count, places.z + count);
       count += kBlockVoxels;
     }
     samples_ += static_cast<std::uint64_t>(kBlocks + count);
-    if (count > 0) batch.evaluate(distance, {.x = x, .y = y, .z = z}, count, sampled);
+    if (count > 0) batch.evaluate(distance, places.rows(), count, sampled);
     return count;
   }
 
@@ -443,15 +415,15 @@ class BandSampler {
   const BandOptions& options_;
   Progress& progress_;
   double h_;
-  openvdb::Coord low_, high_;  // first and last voxel that matter
-  int size_ = 0;               // of the present cells, in voxels
+  openvdb::CoordBBox voxels_;  // that matter
+  int levels_ = 0, level_ = 0;
+  int size_ = 0;  // of the present cells, in voxels
   std::vector<Cell> cells_;
   std::vector<BandLeaf> leaves_;
   std::atomic<std::uint64_t> samples_{0};
   std::mutex notNumbersMutex_;
   std::uint64_t notNumbers_ = 0;
   openvdb::Coord firstNotNumber_;
-  std::pair<double, double> stageShare_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
 
