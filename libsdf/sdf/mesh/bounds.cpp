@@ -21,14 +21,12 @@ bool provenOutside(const Tape& tape, const Box& box, int splits) {
   return provenOutside(tape, low, splits - 1) && provenOutside(tape, high, splits - 1);
 }
 
-// The part of `box` beyond `at` on one side of an axis.
-Box beyond(const Box& box, int axis, bool positive, double at) {
-  Box b = box;
-  if (positive)
-    b.min[axis] = at;
-  else
-    b.max[axis] = at;
-  return b;
+double& sideOf(Box& box, int axis, bool positive) { return (positive ? box.max : box.min)[axis]; }
+
+// The part of a box beyond `at` on one side of an axis.
+Box beyond(Box box, int axis, bool positive, double at) {
+  sideOf(box, axis, !positive) = at;
+  return box;
 }
 
 // A place on one side of an axis beyond which the box is proven empty; infinite where none is found.
@@ -41,8 +39,8 @@ double searchSide(const Tape& tape, const Box& box, int axis, bool positive) {
 
 // Moves one side inward as far as the slab that it leaves is proven empty.
 void tightenSide(const Tape& tape, Box& box, int axis, bool positive) {
-  double& side = positive ? box.max[axis] : box.min[axis];
-  double inside = positive ? box.min[axis] : box.max[axis];
+  double& side = sideOf(box, axis, positive);
+  double inside = sideOf(box, axis, !positive);
   for (int i = 0; i < kTighteningSteps; ++i) {
     const double middle = (inside + side) / 2.0;
     if (provenOutside(tape, beyond(box, axis, positive, middle), kSplits))
@@ -55,23 +53,21 @@ void tightenSide(const Tape& tape, Box& box, int axis, bool positive) {
 }  // namespace
 
 Box findBounds(const Shape& shape) {
-  Box bounds = shape.bounds;
+  Box bounds = shape.bounds, given = bounds;
   if (bounds.finite() || bounds.empty()) return bounds;
   const Tape tape(shape.distance);
   Box searched = intersect(bounds, {glm::dvec3(-kFar), glm::dvec3(kFar)});
-  bool searchedSide[3][2] = {};
   for (int axis = 0; axis < 3; ++axis)
     for (const bool positive : {false, true}) {
-      double& side = positive ? bounds.max[axis] : bounds.min[axis];
+      double& side = sideOf(bounds, axis, positive);
       if (std::isfinite(side)) continue;
       side = searchSide(tape, searched, axis, positive);
-      searchedSide[axis][positive] = std::isfinite(side);
-      if (std::isfinite(side)) (positive ? searched.max : searched.min)[axis] = side;
+      if (std::isfinite(side)) sideOf(searched, axis, positive) = side;
     }
   if (!bounds.finite()) return bounds;
   for (int axis = 0; axis < 3; ++axis)
     for (const bool positive : {false, true})
-      if (searchedSide[axis][positive]) tightenSide(tape, bounds, axis, positive);
+      if (!std::isfinite(sideOf(given, axis, positive))) tightenSide(tape, bounds, axis, positive);
   return bounds;
 }
 
