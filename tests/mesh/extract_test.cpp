@@ -8,9 +8,9 @@
 #include <random>
 
 #include "mesh/scenes.h"
+#include "sdf/mesh/band_grid-inl.h"
 #include "sdf/mesh/cell_patches.h"
-#include "sdf/mesh/extract-inl.h"
-#include "sdf/mesh/measure.h"
+#include "sdf/mesh/stages.h"
 
 namespace sdf::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "mesh/scenes.h"
 #include "sdf/eval/batch.h"
-#include "sdf/mesh/measure.h"
+#include "sdf/mesh/stages.h"
 
 namespace sdf::test {
 namespace {

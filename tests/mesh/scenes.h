@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "sdf/mesh/color.h"
 #include "sdf/mesh/narrow_band.h"
+#include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/pattern.h"
 #include "sdf/shape/place.h"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "mesh/scenes.h"
-#include "sdf/mesh/refine.h"
+#include "sdf/mesh/stages.h"
 
 namespace sdf::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf/mesh/color.h"
+#include "sdf/mesh/stages.h"
 
 #include <algorithm>
 #include <cmath>

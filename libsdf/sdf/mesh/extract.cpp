@@ -10,8 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "sdf/mesh/band_grid-inl.h"
 #include "sdf/mesh/cell_patches.h"
-#include "sdf/mesh/extract-inl.h"
 
 namespace sdf {
 namespace {

@@ -4,11 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sdf/mesh/color.h"
-#include "sdf/mesh/measure.h"
 #include "sdf/mesh/narrow_band.h"
-#include "sdf/mesh/refine.h"
-#include "sdf/mesh/unresolved.h"
+#include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "sdf/mesh/band_grid-inl.h"
-#include "sdf/mesh/extract-inl.h"
 
 namespace sdf {
 

@@ -1,4 +1,4 @@
-#include "sdf/mesh/refine.h"
+#include "sdf/mesh/stages.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

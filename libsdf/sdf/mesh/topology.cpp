@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sdf/mesh/measure.h"
+#include "sdf/mesh/stages.h"
 
 namespace sdf {
 namespace {

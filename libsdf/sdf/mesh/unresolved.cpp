@@ -1,4 +1,4 @@
-#include "sdf/mesh/unresolved.h"
+#include "sdf/mesh/stages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 
 #include "accuracy/operator_meshes.h"
 #include "probe.h"
-#include "sdf/mesh/measure.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/mesh/stages.h"
 #include "sdf/shape/operators.h"
 #include "sdf/shape/solids.h"
 

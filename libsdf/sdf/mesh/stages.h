@@ -1,0 +1,43 @@
+// What a mesh goes through between its samples and the file.
+#pragma once
+#include "sdf/mesh/mesh.h"
+#include "sdf/mesh/narrow_band.h"
+#include "sdf/mesh/surface_points.h"
+
+namespace sdf {
+
+/// Looks at the band's suspects (NarrowBand::suspects) and counts those beside which the surface does pass
+/// unseen: solids and gaps thinner than a voxel. Of a distance that never exceeds the true one, each point of
+/// the surface lies within half a cell's diagonal of a sample that is a suspect or has a neighbour of the
+/// other sign; a suspect is confirmed by seven probes. Call before NarrowBand::extract. Fills
+/// stats.unresolved and stats.firstUnresolved.
+void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& progress, MeshStats& stats);
+
+/// Newton's method along the gradient, at most kRefineSteps steps and no farther than a voxel from where
+/// extraction put the vertex; the best position met is kept. `normals` receives the unit gradient there
+/// (exact derivatives).
+void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
+                    const LocalField& field, Progress& progress);
+
+inline constexpr int kRefineSteps = 3;
+
+/// Root mean square (weighted by area) and maximum of the first-order distance to the zero set, over every
+/// vertex and over four points inside each triangle (its centroid, and midway from there to each corner).
+/// One-sided: from the mesh to the surface. Where the first-order figure exceeds half a voxel, the surface is
+/// looked for along the gradient instead. Triangles with more than a tenth of a voxel, under
+/// which the surface has an edge, are looked at in 36 points for the maximum.
+void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
+                     const LocalField& field, Progress& progress, MeshStats& stats);
+
+/// Watertight, manifold, components (by shared vertices) and Euler characteristic of an indexed mesh. Cost: n
+/// log n.
+void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t vertices, MeshStats& stats);
+
+/// Fills colors, triangleMaterial and materials, orders the triangles by material, and repeats vertices where
+/// materials meet (copyOf), each copy coloured on its own side of the border. positions, normals, triangles
+/// and welded are given; `values` are the inputs' that the field was made for. Once progress is stopped the
+/// mesh may be left unfinished.
+void colorMesh(const Shape& shape, const Values& values, const LocalField& field, Progress& progress,
+               Mesh& mesh);
+
+}  // namespace sdf
