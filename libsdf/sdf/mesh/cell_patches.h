@@ -38,7 +38,8 @@ constexpr CellPatches cellPatches(unsigned inside) {
   const auto crossed = [&](int e) {
     return ((inside >> lowerCorner(e) ^ inside >> (lowerCorner(e) | cornerBit(e / 4))) & 1u) != 0;
   };
-  int ambiguous = 0, face = 0, faceEdges[4]{};
+  int ambiguous = 0, face = 0;
+  std::array<int, 4> faceEdges{};
   for (int e = 0; e < kCellEdges; ++e) p.of[e] = crossed(e) ? e : CellPatches::kNone;
   const auto join = [&](int a, int b) {
     const std::uint8_t from = p.of[a], to = p.of[b];
@@ -47,8 +48,8 @@ constexpr CellPatches cellPatches(unsigned inside) {
   };
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) {
-      const int edges[4] = {cellEdge(axis + 1, 0, side), cellEdge(axis + 2, side, 1),
-                            cellEdge(axis + 1, 1, side), cellEdge(axis + 2, side, 0)};
+      const std::array<int, 4> edges{cellEdge(axis + 1, 0, side), cellEdge(axis + 2, side, 1),
+                                     cellEdge(axis + 1, 1, side), cellEdge(axis + 2, side, 0)};
       int crossings[4]{}, count = 0;
       for (const int e : edges)
         if (crossed(e)) crossings[count++] = e;
@@ -57,8 +58,7 @@ constexpr CellPatches cellPatches(unsigned inside) {
       // Each edge meets the next in a corner; edges[3] and edges[0] meet in the face's first.
       const bool first = (inside >> side * cornerBit(axis) & 1u) != 0;
       for (int i = 0; i < 4; i += 2) join(edges[i], edges[first ? i + 1 : (i + 3) % 4]);
-      ++ambiguous, face = 1 + 2 * axis + side;
-      for (int i = 0; i < 4; ++i) faceEdges[i] = edges[i];
+      ++ambiguous, face = 1 + 2 * axis + side, faceEdges = edges;
     }
   if (ambiguous == 1 && p.of[faceEdges[0]] == p.of[faceEdges[2]]) p.twiceCrossed = face;
   // The patches were called after one of their edges; they are numbered by their first.

@@ -1,5 +1,4 @@
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
+#include <tbb/concurrent_set.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -171,10 +170,8 @@ class Extraction {
   }
 
   template <class Work>
-  void forEachBlock(const Work& work, std::size_t first = kTiles) {
-    tbb::parallel_for(tbb::blocked_range(first, blocks_.size(), kBlocksATask), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) work(blocks_[i]);
-    });
+  void forEachBlock(const Work& work) {
+    tbb::parallel_for(std::size_t{kTiles}, blocks_.size(), [&](std::size_t i) { work(blocks_[i]); });
   }
 
   void addTiles() {
@@ -188,17 +185,15 @@ class Extraction {
   }
 
   void addBlocks(const std::vector<Leaf*>& leaves) {
-    const std::size_t first = blocks_.size();
     for (Leaf* leaf : leaves) {
       leaf->setTransientData(static_cast<openvdb::Index32>(blocks_.size()));
       blocks_.emplace_back().leaf = leaf;
     }
-    forEachBlock(
-        [&](Block& b) {
-          b.samples = b.leaf->buffer().data();
-          for (int x = 0; x < kSide; ++x) b.inside[x] = planeOf(b.samples + x * kSide * kSide);
-        },
-        first);
+    forEachBlock([&](Block& b) {
+      if (b.samples) return;
+      b.samples = b.leaf->buffer().data();
+      for (int x = 0; x < kSide; ++x) b.inside[x] = planeOf(b.samples + x * kSide * kSide);
+    });
     forEachBlock([&](Block& b) {
       Accessor accessor(tree_);
       for (int i = 0; i < 8; ++i)
@@ -219,21 +214,17 @@ class Extraction {
   // The cells around an edge that a sample of a leaf belongs to may have their lowest corner in no leaf: such
   // leaves are added, with the tile's value.
   std::vector<Leaf*> addMissingLeaves() {
-    tbb::enumerable_thread_specific<std::vector<Coord>> missing;
+    tbb::concurrent_set<Coord> missing;
     forEachBlock([&](Block& b) {
       const unsigned below = neededBelow(b);
       Accessor accessor(tree_);
       for (int i = 1; i < 8; ++i) {
         const Coord origin = offset(b, i, -kSide);
-        if ((below >> i & 1u) && !accessor.probeConstLeaf(origin)) missing.local().push_back(origin);
+        if ((below >> i & 1u) && !accessor.probeConstLeaf(origin)) missing.insert(origin);
       }
     });
-    std::vector<Coord> all;
-    for (const auto& some : missing) all.insert(all.end(), some.begin(), some.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
     std::vector<Leaf*> added;
-    for (const Coord& origin : all) {
+    for (const Coord& origin : missing) {
       added.push_back(new Leaf(origin, tree_.getValue(origin), true));
       tree_.addLeaf(added.back());
     }
@@ -379,13 +370,9 @@ class Extraction {
       const glm::vec3 d = surface_.points[q[i]] - surface_.points[q[k]];
       return glm::dot(d, d);
     };
-    if (squared(0, 2) <= squared(1, 3)) {
-      triangles[0] = {q[0], q[1], q[2]};
-      triangles[1] = {q[0], q[2], q[3]};
-    } else {
-      triangles[0] = {q[1], q[2], q[3]};
-      triangles[1] = {q[1], q[3], q[0]};
-    }
+    const int first = squared(0, 2) <= squared(1, 3) ? 0 : 1;
+    triangles[0] = {q[first], q[first + 1], q[first + 2]};
+    triangles[1] = {q[first], q[first + 2], q[(first + 3) % 4]};
   }
 
   openvdb::FloatTree& tree_;
