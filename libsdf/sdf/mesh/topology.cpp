@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "sdf/mesh/stages.h"
 
@@ -23,24 +24,12 @@ class Incidence {
     std::rotate(first_.begin(), first_.end() - 1, first_.end());
     first_[0] = 0;
   }
-  const std::uint32_t* begin(std::size_t v) const { return list_.data() + first_[v]; }
-  const std::uint32_t* end(std::size_t v) const { return list_.data() + first_[v + 1]; }
+  std::span<const std::uint32_t> of(std::size_t v) const {
+    return {list_.data() + first_[v], list_.data() + first_[v + 1]};
+  }
 
  private:
   std::vector<std::uint32_t> first_, list_;
-};
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
 };
 
 struct Summary {
@@ -69,11 +58,12 @@ class VertexExaminer {
       : triangles_(triangles), incidence_(incidence) {}
 
   void examine(std::uint32_t v, Summary& s) {
-    if (incidence_.begin(v) == incidence_.end(v)) return;
+    const std::span<const std::uint32_t> around = incidence_.of(v);
+    if (around.empty()) return;
     ++s.vertices;
     spokes_.clear();
-    for (const std::uint32_t* t = incidence_.begin(v); t != incidence_.end(v); ++t) {
-      const glm::uvec3& c = triangles_[*t];
+    for (const std::uint32_t t : around) {
+      const glm::uvec3& c = triangles_[t];
       const int k = c.x == v ? 0 : c.y == v ? 1 : 2;
       const std::size_t next = spoke(c[(k + 1) % 3]), previous = spoke(c[(k + 2) % 3]);
       ++spokes_[next].outgoing;
@@ -112,13 +102,18 @@ class VertexExaminer {
 
 int countComponents(const std::vector<glm::uvec3>& triangles, std::size_t vertices,
                     std::ptrdiff_t usedVertices) {
-  DisjointSets sets(vertices);
+  std::vector<std::uint32_t> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
   for (const glm::uvec3& t : triangles) {
-    sets.join(t.x, t.y);
-    sets.join(t.y, t.z);
+    parent[root(t.x)] = root(t.y);
+    parent[root(t.y)] = root(t.z);
   }
   std::ptrdiff_t roots = 0;
-  for (std::uint32_t v = 0; v < vertices; ++v) roots += sets.find(v) == v;
+  for (std::uint32_t v = 0; v < vertices; ++v) roots += parent[v] == v;
   return static_cast<int>(
       roots - (static_cast<std::ptrdiff_t>(vertices) - usedVertices));  // an unused vertex is a root
 }
