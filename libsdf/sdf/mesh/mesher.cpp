@@ -2,9 +2,7 @@
 
 #include <chrono>
 #include <cmath>
-#include <type_traits>
 
-#include "sdf/mesh/narrow_band.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/place.h"
@@ -41,22 +39,18 @@ class Mesher {
 
   Result<MeshedShape> run(Shape shape) {
     if (!shape.ok()) return sceneError(name_, *shape.error);
-    const Result<Box> bounds = time("bounds", [&] { return boundsOf(shape); });
+    begin("bounds");
+    const Result<Box> bounds = boundsOf(shape);
     if (!bounds) return bounds.error();
+    begin("sampling");
     const double h =
         options_.voxelSize > 0.0 ? options_.voxelSize : bounds->longestSide() / kDefaultResolution;
-    const BandOptions band{h, *bounds, options_.maxMemory};
     LocalTapes whole;
-    auto sampled = time("sampling", [&] {
-      const ModelTapes model = Model(shape).at(options_.values);
-      whole = {model.whole(), model.whole()->firstOutputOnly()};
-      auto result = sampleNarrowBand(model, band, progress_);
-      if (result) findUnresolved(*result, BandField(*result, whole), progress_, result_.stats);
-      return result;
-    });
+    Result<NarrowBand> sampled = sample(shape, {h, *bounds, options_.maxMemory}, whole);
     if (!sampled) return sampled.error();
     const BandField field(*sampled, std::move(whole));
-    RawSurface raw = time("extraction", [&] { return sampled->extract(); });
+    begin("extraction");
+    RawSurface raw = sampled->extract();
     if (raw.triangles.empty())
       return sceneError(
           name_,
@@ -66,19 +60,14 @@ class Mesher {
     mesh.positions = std::move(raw.points);
     mesh.triangles = std::move(raw.triangles);
     mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
-    time("projection", [&] {
-      refineVertices(mesh.positions, mesh.normals, field, progress_);
-      return 0;
-    });
-    time("measuring", [&] {
-      measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
-      measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
-      return 0;
-    });
-    time("colouring", [&] {
-      colorMesh(shape, options_.values, field, progress_, mesh);
-      return 0;
-    });
+    begin("projection");
+    refineVertices(mesh.positions, mesh.normals, field, progress_);
+    begin("measuring");
+    measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
+    measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
+    begin("colouring");
+    colorMesh(shape, options_.values, field, progress_, mesh);
+    end();
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     result_.stats.voxels = sampled->sampleCount();
     result_.stats.voxelSize = h;
@@ -91,12 +80,9 @@ class Mesher {
   // The finite box to mesh in; clips the shape where the options say so.
   Result<Box> boundsOf(Shape& shape) {
     Box bounds = findBounds(shape);
-    if (options_.bounds) {
-      const bool inside = options_.bounds->contains(bounds);
-      if (!inside) {
-        shape = clipped(shape, *options_.bounds);
-        bounds = intersect(bounds, *options_.bounds);
-      }
+    if (options_.bounds && !options_.bounds->contains(bounds)) {
+      shape = clipped(shape, *options_.bounds);
+      bounds = intersect(bounds, *options_.bounds);
     }
     if (bounds.empty())
       return sceneError(name_, "nothing inside the bounds; enlarge the bounds or move the shape");
@@ -108,20 +94,33 @@ class Mesher {
     return bounds;
   }
 
-  template <class Stage>
-  std::invoke_result_t<const Stage&> time(const char* stage, const Stage& work) {
-    progress_.beginStage(stage);
-    const auto start = std::chrono::steady_clock::now();
-    auto value = work();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    result_.stageSeconds.emplace_back(stage, seconds.count());
-    return value;
+  // The band of samples, in which surface passed unseen has been counted; `whole` receives the model's tapes.
+  Result<NarrowBand> sample(const Shape& shape, const BandOptions& band, LocalTapes& whole) {
+    const ModelTapes model = Model(shape).at(options_.values);
+    whole = {model.whole(), model.whole()->firstOutputOnly()};
+    auto result = sampleNarrowBand(model, band, progress_);
+    if (result) findUnresolved(*result, BandField(*result, whole), progress_, result_.stats);
+    return result;
   }
 
+  // Ends the present stage, if there is one, and begins another.
+  void begin(const char* stage) {
+    end();
+    progress_.beginStage(stage);
+    result_.stageSeconds.emplace_back(stage, 0.0);
+    began_ = Clock::now();
+  }
+  void end() {
+    if (result_.stageSeconds.empty()) return;
+    result_.stageSeconds.back().second = std::chrono::duration<double>(Clock::now() - began_).count();
+  }
+
+  using Clock = std::chrono::steady_clock;
   const std::string& name_;
   const MeshOptions& options_;
   Progress& progress_;
   MeshedShape result_;
+  Clock::time_point began_;
 };
 
 }  // namespace
