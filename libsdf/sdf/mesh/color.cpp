@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "sdf/eval/scalar_reading.h"
 
@@ -32,14 +33,11 @@ SurfaceSamples sampleSurface(std::size_t count, const Point& point, const Normal
   constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
   SurfaceSamples s{std::vector<glm::vec3>(count), std::vector<int>(count)};
   forEachRun(count, point, field, progress, [&](const PointRun& run) {
-    PointRows points, normals;
+    PointRows normals;
     float values[kOutputs][kBatchPoints];
-    for (std::size_t i = 0; i < run.count; ++i) {
-      points.set(i, point(run.first + i));
-      normals.set(i, normal(run.first + i));
-    }
+    for (std::size_t i = 0; i < run.count; ++i) normals.set(i, normal(run.first + i));
     float* const out[kOutputs] = {values[0], values[1], values[2], values[3], values[4]};
-    run.batch.evaluate(*run.tapes.surface, points.rows(normals), run.count, out);
+    run.batch.evaluate(*run.tapes.surface, run.points.rows(normals), run.count, out);
     for (std::size_t i = 0; i < run.count; ++i) {
       s.colors[run.first + i] = {unit(values[1][i]), unit(values[2][i]), unit(values[3][i])};
       s.ids[run.first + i] = static_cast<int>(std::lround(values[4][i]));
@@ -68,18 +66,12 @@ std::vector<int> assignMaterials(const Shape& shape, const std::vector<int>& ids
 
 void orderByMaterial(Mesh& mesh) {
   std::vector<std::uint32_t> order(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return mesh.triangleMaterial[a] < mesh.triangleMaterial[b];
-  });
-  std::vector<glm::uvec3> triangles(order.size());
-  std::vector<std::uint32_t> materials(order.size());
-  for (std::size_t t = 0; t < order.size(); ++t) {
-    triangles[t] = mesh.triangles[order[t]];
-    materials[t] = mesh.triangleMaterial[order[t]];
-  }
-  mesh.triangles = std::move(triangles);
-  mesh.triangleMaterial = std::move(materials);
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return mesh.triangleMaterial[t]; });
+  std::ranges::sort(mesh.triangleMaterial);
+  const std::vector<glm::uvec3> triangles = std::move(mesh.triangles);
+  mesh.triangles.clear();
+  for (const std::uint32_t t : order) mesh.triangles.push_back(triangles[t]);
 }
 
 // A vertex where materials meet, as one of them sees it.
@@ -92,16 +84,13 @@ struct BorderPoint {
 // Gives each material its own copy of the vertices that it shares with an earlier one. Returns all vertices
 // of borders, originals included.
 std::vector<BorderPoint> splitBorders(Mesh& mesh) {
-  constexpr std::uint32_t kNone = ~0u;
-  std::vector<std::uint32_t> owner(mesh.positions.size(), kNone);
-  std::vector<bool> border(mesh.positions.size(), false);
+  // Of each vertex the first and the last material; the triangles are ordered by theirs.
+  std::vector<std::uint32_t> first(mesh.positions.size(), ~0u), last(mesh.positions.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[t][k];
-      if (owner[v] == kNone)
-        owner[v] = mesh.triangleMaterial[t];
-      else if (owner[v] != mesh.triangleMaterial[t])
-        border[v] = true;
+      first[v] = std::min(first[v], mesh.triangleMaterial[t]);
+      last[v] = mesh.triangleMaterial[t];
     }
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t>
       pointOf;  // (vertex, material) -> its border point
@@ -110,11 +99,11 @@ std::vector<BorderPoint> splitBorders(Mesh& mesh) {
     const glm::vec3 middle = centroid(mesh, mesh.triangles[t]);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[t][k], material = mesh.triangleMaterial[t];
-      if (v >= border.size() || !border[v]) continue;
+      if (first[v] == last[v]) continue;
       const auto [it, fresh] = pointOf.try_emplace({v, material}, points.size());
       if (fresh) {
         std::uint32_t place = v;
-        if (owner[v] != material) {
+        if (first[v] != material) {
           place = static_cast<std::uint32_t>(mesh.positions.size());
           mesh.positions.push_back(glm::vec3(mesh.positions[v]));
           mesh.normals.push_back(glm::vec3(mesh.normals[v]));
@@ -149,18 +138,16 @@ void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt,
 // triangles.
 void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
   const TapePtr tape = Function({shape.surface.begin(), shape.surface.end()}).at(values);
-  const std::size_t count = mesh.materials.size();
-  std::vector<std::vector<std::size_t>> trianglesOf(count);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) trianglesOf[mesh.triangleMaterial[t]].push_back(t);
-  for (std::size_t m = 0; m < count; ++m) {
-    const auto& mine = trianglesOf[m];
-    const std::size_t stride = std::max<std::size_t>(1, mine.size() / kMaterialSamples);
+  for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
+    const auto begin = mesh.triangleMaterial.begin();
+    const auto [from, to] = std::equal_range(begin, mesh.triangleMaterial.end(), m);
+    const std::size_t stride = std::max<std::size_t>(1, (to - from) / kMaterialSamples);
     std::array<double, kAttributeCount> sum{};
     double samples = 0.0;
-    for (std::size_t i = 0; i < mine.size(); i += stride, ++samples) {
-      const glm::uvec3& t = mesh.triangles[mine[i]];
+    for (std::size_t t = from - begin; t < static_cast<std::size_t>(to - begin); t += stride, ++samples) {
+      const glm::uvec3& corners = mesh.triangles[t];
       const std::vector<double> v =
-          evaluateAll(*tape, glm::dvec3(centroid(mesh, t)), glm::dvec3(mesh.normals[t.x]));
+          evaluateAll(*tape, glm::dvec3(centroid(mesh, corners)), glm::dvec3(mesh.normals[corners.x]));
       for (int a = 0; a < kAttributeCount; ++a) sum[a] += std::isfinite(v[a]) ? v[a] : 0.0;
     }
     auto mean = [&](Attribute a) {

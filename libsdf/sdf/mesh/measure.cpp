@@ -41,11 +41,6 @@ glm::vec3 samplePoint(const std::vector<glm::vec3>& p, const glm::uvec3& t, int 
   return k == 0 ? centroid : 0.5f * (centroid + p[t[k - 1]]);
 }
 
-float slopeOf(const LocalTapes& tapes) {
-  const float l = tapes.distance->lipschitz();
-  return std::isfinite(l) ? l : 1.0f;
-}
-
 // Distance from p to where f changes sign along a unit direction, at most `reach` away to either side;
 // infinite where it does not. Any point of the surface bounds the distance from above.
 double distanceAlong(const PointRun& run, const glm::dvec3& p, bool inside, const glm::dvec3& direction,
@@ -73,15 +68,14 @@ double distanceAlong(const PointRun& run, const glm::dvec3& p, bool inside, cons
 }
 
 // |distance| of point i of a run.
-float distanceOf(const PointRun& run, const RunGradients& g, std::size_t i, const glm::vec3& p,
-                 double voxel) {
-  const float first = std::abs(g.distance(i, slopeOf(run.tapes)));
-  if (!(first > kDoubtful * voxel)) return first;
+float distanceOf(const PointRun& run, const RunGradients& g, std::size_t i) {
+  const float first = std::abs(g.distance(i));
+  if (!(first > kDoubtful * run.voxel)) return first;
   const glm::dvec3 gradient(g.gradient(i));
   const double length = glm::length(gradient);
   if (!(length > 0.0)) return first;
-  const double found =
-      distanceAlong(run, glm::dvec3(p), g.value[i] < 0.0f, gradient / length, kSearchVoxels * voxel);
+  const double found = distanceAlong(run, glm::dvec3(run.points.at(i)), g.value[i] < 0.0f, gradient / length,
+                                     kSearchVoxels * run.voxel);
   return std::min(first, static_cast<float>(found));
 }
 
@@ -91,13 +85,19 @@ template <class Point, class Take>
 void forEachDistance(std::size_t count, const Point& point, const LocalField& field, Progress& progress,
                      const Take& take) {
   forEachRun(count, point, field, progress, [&](const PointRun& run) {
-    PointRows points;
-    for (std::size_t i = 0; i < run.count; ++i) points.set(i, point(run.first + i));
     RunGradients g;
-    g.evaluate(run, points);
-    for (std::size_t i = 0; i < run.count; ++i)
-      take(run.first + i, distanceOf(run, g, i, points.at(i), run.voxel), run.voxel);
+    g.evaluate(run, run.points);
+    for (std::size_t i = 0; i < run.count; ++i) take(run.first + i, distanceOf(run, g, i), run.voxel);
   });
+}
+
+// |distance| at each of `count` points.
+template <class Point>
+std::vector<float> distancesAt(std::size_t count, const Point& point, const LocalField& field,
+                               Progress& progress) {
+  std::vector<float> all(count);
+  forEachDistance(count, point, field, progress, [&](std::size_t i, float d, double) { all[i] = d; });
+  return all;
 }
 
 struct TriangleError {
@@ -106,27 +106,12 @@ struct TriangleError {
   float voxels = 0.0f;  // the largest in voxels
 };
 
-// The largest distance over the triangles of `list`, looked for closely.
-double largestOver(const std::vector<std::uint32_t>& list, const std::vector<glm::vec3>& positions,
-                   const std::vector<glm::uvec3>& triangles, const LocalField& field, Progress& progress) {
-  std::vector<float> distances(kFine * list.size());
-  forEachDistance(
-      distances.size(),
-      [&](std::size_t i) {
-        return finePoint(positions, triangles[list[i / kFine]], static_cast<int>(i % kFine));
-      },
-      field, progress, [&](std::size_t i, float d, double) { distances[i] = d; });
-  return distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end());
-}
-
 }  // namespace
 
 void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
                      const LocalField& field, Progress& progress, MeshStats& stats) {
-  std::vector<float> atVertices(positions.size());
-  forEachDistance(
-      positions.size(), [&](std::size_t i) { return positions[i]; }, field, progress,
-      [&](std::size_t i, float d, double) { atVertices[i] = d; });
+  const std::vector<float> atVertices = distancesAt(
+      positions.size(), [&](std::size_t i) { return positions[i]; }, field, progress);
   static_assert(kRunChunk % kInside == 0, "a triangle's samples must lie in one chunk");
   std::vector<TriangleError> inside(triangles.size());
   forEachDistance(
@@ -154,7 +139,11 @@ void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<
   std::vector<std::uint32_t> edges;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     if (inside[t].voxels > kEdge && inside[t].largest > 0.5 * largest) edges.push_back(t);
-  largest = std::max(largest, largestOver(edges, positions, triangles, field, progress));
+  const auto fine = [&](std::size_t i) {
+    return finePoint(positions, triangles[edges[i / kFine]], static_cast<int>(i % kFine));
+  };
+  for (const float d : distancesAt(kFine * edges.size(), fine, field, progress))
+    largest = std::max<double>(largest, d);
   stats.rmsDistance = area > 0.0 ? std::sqrt(squares / area) : 0.0;
   stats.maxDistance = largest;
 }

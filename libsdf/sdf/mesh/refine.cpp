@@ -1,10 +1,13 @@
 #include "sdf/mesh/stages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace sdf {
 namespace {
+
+constexpr int kRefineSteps = 3;
 
 glm::vec3 unit(const glm::vec3& g) {
   const float length = glm::length(g);
@@ -13,28 +16,22 @@ glm::vec3 unit(const glm::vec3& g) {
 
 void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
   const float reach = static_cast<float>(run.voxel);
-  PointRows trial;
+  PointRows trial = run.points;
   RunGradients g;
   float best[kBatchPoints];
-  glm::vec3 start[kBatchPoints];
-  const float slope = std::isfinite(run.tapes.distance->lipschitz()) ? run.tapes.distance->lipschitz() : 1.0f;
-  for (std::size_t i = 0; i < run.count; ++i) {
-    start[i] = positions[i];
-    best[i] = HUGE_VALF;
-    trial.set(i, positions[i]);
-  }
+  std::fill_n(best, run.count, HUGE_VALF);
   for (int step = 0; step <= kRefineSteps; ++step) {
     g.evaluate(run, trial);
     bool moved = false;
     for (std::size_t i = 0; i < run.count; ++i) {
-      const float distance = std::abs(g.distance(i, slope));
+      const float distance = std::abs(g.distance(i));
       if (distance < best[i]) {
         best[i] = distance;
         positions[i] = trial.at(i);
         normals[i] = unit(g.gradient(i));
       }
-      const glm::vec3 target = trial.at(i) + g.step(i, slope);
-      if (!(glm::distance(target, start[i]) <= reach)) continue;
+      const glm::vec3 target = trial.at(i) + g.step(i);
+      if (!(glm::distance(target, run.points.at(i)) <= reach)) continue;
       moved = moved || target != trial.at(i);
       trial.set(i, target);
     }
@@ -47,9 +44,8 @@ void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
 void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
                     const LocalField& field, Progress& progress) {
   normals.assign(positions.size(), glm::vec3(0.0f, 1.0f, 0.0f));
-  const std::vector<glm::vec3> where = positions;  // runs are formed by where extraction put the vertices
   forEachRun(
-      positions.size(), [&](std::size_t i) { return where[i]; }, field, progress,
+      positions.size(), [&](std::size_t i) { return positions[i]; }, field, progress,
       [&](const PointRun& run) { refineRun(run, &positions[run.first], &normals[run.first]); });
 }
 

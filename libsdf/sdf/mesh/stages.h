@@ -13,13 +13,11 @@ namespace sdf {
 /// stats.unresolved and stats.firstUnresolved.
 void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& progress, MeshStats& stats);
 
-/// Newton's method along the gradient, at most kRefineSteps steps and no farther than a voxel from where
+/// Newton's method along the gradient, at most three steps and no farther than a voxel from where
 /// extraction put the vertex; the best position met is kept. `normals` receives the unit gradient there
 /// (exact derivatives).
 void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
                     const LocalField& field, Progress& progress);
-
-inline constexpr int kRefineSteps = 3;
 
 /// Root mean square (weighted by area) and maximum of the first-order distance to the zero set, over every
 /// vertex and over four points inside each triangle (its centroid, and midway from there to each corner).

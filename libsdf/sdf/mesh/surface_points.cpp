@@ -27,27 +27,36 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
     if (progress.stopped()) return;
     const std::size_t end = std::min(count, (chunk + 1) * kRunChunk);
     const auto finder = field.finder();
+    PointRows points;
     for (std::size_t first = chunk * kRunChunk; first < end;) {
       const LocalField::Local here = finder->at(point(first));
-      const auto same = [&](const LocalField::Local& next) {
-        return next.tapes.surface == here.tapes.surface && next.voxel == here.voxel;
-      };
-      std::size_t next = first + 1;
-      while (next < end && next - first < kBatchPoints && same(finder->at(point(next)))) ++next;
-      work({first, next - first, here.tapes, here.voxel, evaluators.local()});
-      first = next;
+      std::size_t taken = 0;
+      for (; taken < kBatchPoints && first + taken < end; ++taken) {
+        const glm::vec3 p = point(first + taken);
+        const LocalField::Local there = finder->at(p);
+        if (there.tapes.surface != here.tapes.surface || there.voxel != here.voxel) break;
+        points.set(taken, p);
+      }
+      work({first, taken, points, here.tapes, here.voxel, evaluators.local()});
+      first += taken;
     }
     progress.update(static_cast<double>(++done) / chunks);
   });
 }
 
-float RunGradients::distance(std::size_t i, float slope) const {
+void RunGradients::evaluate(const PointRun& run, const PointRows& at) {
+  run.batch.evaluateGradient(*run.tapes.distance, at.rows(), run.count, value, gradients.x, gradients.y,
+                             gradients.z);
+  slope = std::isfinite(run.tapes.distance->lipschitz()) ? run.tapes.distance->lipschitz() : 1.0f;
+}
+
+float RunGradients::distance(std::size_t i) const {
   const glm::vec3 g = gradient(i);
   const float length = std::hypot(g.x, g.y, g.z);
   return length > kVanishing * slope ? value[i] / length : value[i] / slope;
 }
 
-glm::vec3 RunGradients::step(std::size_t i, float slope) const {
+glm::vec3 RunGradients::step(std::size_t i) const {
   const glm::vec3 g = gradient(i);
   const float squared = glm::dot(g, g);
   if (!(squared > kVanishing * kVanishing * slope * slope)) return glm::vec3(0.0f);

@@ -14,6 +14,7 @@ namespace sdf {
 struct PointRun {
   std::size_t first;  ///< index of the first point
   std::size_t count;  ///< at most kBatchPoints
+  const PointRows& points;
   const LocalTapes& tapes;
   double voxel;  ///< the resolution there, scene units
   BatchEvaluator& batch;
@@ -34,16 +35,14 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
 struct RunGradients {
   float value[kBatchPoints];
   PointRows gradients;
+  float slope;  ///< the field's slope bound; 1 where none is known
 
-  void evaluate(const PointRun& run, const PointRows& at) {
-    run.batch.evaluateGradient(*run.tapes.distance, at.rows(), run.count, value, gradients.x, gradients.y,
-                               gradients.z);
-  }
+  void evaluate(const PointRun& run, const PointRows& at);
   glm::vec3 gradient(std::size_t i) const { return gradients.at(i); }
-  /// Signed; where the gradient vanishes the value itself, divided by `slope`, the field's slope bound.
-  float distance(std::size_t i, float slope) const;
+  /// Signed; where the gradient vanishes the value itself, divided by the slope bound.
+  float distance(std::size_t i) const;
   /// The step from the point to the first-order zero set, along the gradient.
-  glm::vec3 step(std::size_t i, float slope) const;
+  glm::vec3 step(std::size_t i) const;
 };
 
 }  // namespace sdf

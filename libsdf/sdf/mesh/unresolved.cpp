@@ -9,14 +9,19 @@
 namespace sdf {
 namespace {
 
-// Around the expected crossing: along the edge, and to its sides, where solids that touch part.
-constexpr std::size_t kProbes = 7;
-constexpr float kAlongEdge[kProbes] = {0.0f, -0.1f, 0.1f, 0.0f, 0.0f, 0.0f, 0.0f};
-constexpr float kAside[kProbes][2] = {{0, 0}, {0, 0}, {0, 0}, {0.4f, 0}, {-0.4f, 0}, {0, 0.4f}, {0, -0.4f}};
-// Beyond the expected surface, as shares of a voxel.
-constexpr float kBeyond[kProbes] = {0.002f, 0.01f, 0.02f, 0.05f, 0.1f, 0.2f, 0.4f};
-// Beyond what is thinner than a voxel, but not beyond the tip of something larger that is seen elsewhere.
-constexpr float kThrough = 1.0f;
+// Where a suspect's sign is looked at. Of an edge, around the expected crossing: along it, and to its sides,
+// where solids that touch part. Else beyond the expected surface. In shares of a voxel.
+struct Probe {
+  float along, aside[2];
+  float beyond;
+};
+constexpr Probe kAcross[] = {{0.0f, {0.0f, 0.0f}, 0.002f}, {-0.1f, {0.0f, 0.0f}, 0.01f},
+                             {0.1f, {0.0f, 0.0f}, 0.02f},  {0.0f, {0.4f, 0.0f}, 0.05f},
+                             {0.0f, {-0.4f, 0.0f}, 0.1f},  {0.0f, {0.0f, 0.4f}, 0.2f},
+                             {0.0f, {0.0f, -0.4f}, 0.4f}};
+// Where the sign must be the suspect's again: at the edge's start, or beyond what is thinner than a voxel,
+// but not beyond the tip of something larger that is seen elsewhere.
+constexpr Probe kThrough = {-1.0f, {0.0f, 0.0f}, 1.0f};
 // Half a cell's diagonal, and the least of what is looked beyond.
 constexpr float kReach = 0.8660254f + 0.02f;
 // Of a distance's rounding: what it may make of a zero where solids touch, which few operations lead to.
@@ -30,43 +35,31 @@ glm::vec3 beyond(const NarrowBand::Suspect& s, float further, const glm::vec3& g
   return s.at - gradient * std::copysign((distance + further) / length, s.value);
 }
 
-/// Where probe k of a suspect is to look; `gradient` is the distance's at the suspect.
-glm::vec3 probeAt(const NarrowBand::Suspect& s, std::size_t k, const glm::vec3& gradient, float voxel) {
-  if (s.along == glm::vec3(0.0f)) return beyond(s, kBeyond[k] * voxel, gradient, voxel);
+/// Where a suspect's probe is to look; `gradient` is the distance's at the suspect.
+glm::vec3 probeAt(const NarrowBand::Suspect& s, const Probe& probe, const glm::vec3& gradient, float voxel) {
+  if (s.along == glm::vec3(0.0f)) return beyond(s, probe.beyond * voxel, gradient, voxel);
   const glm::vec3 u(s.along.y, s.along.z, s.along.x), v(s.along.z, s.along.x, s.along.y);
-  return s.at + s.along * std::clamp(s.share + kAlongEdge[k], 0.0f, 1.0f) + kAside[k][0] * u +
-         kAside[k][1] * v;
+  return s.at + s.along * std::clamp(s.share + probe.along, 0.0f, 1.0f) + probe.aside[0] * u +
+         probe.aside[1] * v;
 }
-
-/// Where the sign must be the suspect's again.
-glm::vec3 probeThrough(const NarrowBand::Suspect& s, const glm::vec3& gradient, float voxel) {
-  return s.along == glm::vec3(0.0f) ? beyond(s, kThrough * voxel, gradient, voxel) : s.at;
-}
-
-/// One run's points, and which of them lie beyond a sign change.
-struct Probes : PointRows {
-  float value[kBatchPoints];
-
-  void evaluate(const PointRun& run) { run.batch.evaluate(*run.tapes.distance, rows(), run.count, value); }
-  bool isAcross(std::size_t i, float suspect, float voxel) const {
-    return (suspect < 0.0f ? value[i] : -value[i]) > kOfRounding * distanceRounding(at(i), voxel);
-  }
-};
 
 /// Marks the suspects of a run that the probes confirm.
 void confirm(const PointRun& run, const NarrowBand::Suspect* suspects, float voxel, char* confirmed) {
-  Probes probes;
-  for (std::size_t i = 0; i < run.count; ++i) probes.set(i, suspects[i].at);
   RunGradients at;
-  at.evaluate(run, probes);
-  for (std::size_t k = 0; k < kProbes; ++k) {
-    for (std::size_t i = 0; i < run.count; ++i) probes.set(i, probeAt(suspects[i], k, at.gradient(i), voxel));
-    probes.evaluate(run);
-    for (std::size_t i = 0; i < run.count; ++i) confirmed[i] |= probes.isAcross(i, suspects[i].value, voxel);
-  }
-  for (std::size_t i = 0; i < run.count; ++i) probes.set(i, probeThrough(suspects[i], at.gradient(i), voxel));
-  probes.evaluate(run);
-  for (std::size_t i = 0; i < run.count; ++i) confirmed[i] &= !probes.isAcross(i, suspects[i].value, voxel);
+  at.evaluate(run, run.points);
+  PointRows places;
+  float value[kBatchPoints];
+  // Calls take(i, whether the probe of suspect i lies beyond a change of sign).
+  const auto look = [&](const Probe& probe, const auto& take) {
+    for (std::size_t i = 0; i < run.count; ++i)
+      places.set(i, probeAt(suspects[i], probe, at.gradient(i), voxel));
+    run.batch.evaluate(*run.tapes.distance, places.rows(), run.count, value);
+    for (std::size_t i = 0; i < run.count; ++i)
+      take(i, (suspects[i].value < 0.0f ? value[i] : -value[i]) >
+                  kOfRounding * distanceRounding(places.at(i), voxel));
+  };
+  for (const Probe& probe : kAcross) look(probe, [&](std::size_t i, bool across) { confirmed[i] |= across; });
+  look(kThrough, [&](std::size_t i, bool across) { confirmed[i] &= !across; });
 }
 
 }  // namespace
