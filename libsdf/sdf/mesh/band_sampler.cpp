@@ -404,6 +404,7 @@ class BandSampler {
       band.grid_->tapes.emplace(l.leaf->origin(), std::move(l.tapes));
       tree.addLeaf(l.leaf.release());
     }
+    band.settleZeros();  // tiles take their sign from the samples at leaves' corners, and are neutral yet
     constexpr openvdb::Index kAboveLeaves = 1;  // these have no values to be filled
     openvdb::tools::signedFloodFillWithValues(tree, static_cast<float>(3 * h_), static_cast<float>(-3 * h_),
                                               true, 1, kAboveLeaves);
