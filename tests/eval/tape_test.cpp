@@ -163,6 +163,17 @@ TEST(Specialisation, DropsABlendWithFarOperands) {
   }
 }
 
+// 0 times infinity or NaN is NaN.
+TEST(Specialisation, KeepsWhatAFactorDecidedToBeZeroStandsBeside) {
+  const Vec3E p = position();
+  for (const Expr& beside : {1.0 / p.x, Expr(kInfinity), Expr(std::nan(""))}) {
+    const Tape tape(max(p.y, 0.0) * beside + p.z);
+    const TapePtr special = specialiseOnce(tape, {1.0, -1.0, 0.0}, 0.5, false);
+    ASSERT_TRUE(special);
+    EXPECT_TRUE(std::isnan(evaluate(*special, {0.0, -1.0, 0.0})));
+  }
+}
+
 TEST(Specialisation, KeepsAFactorThatIsWrittenAsZero) {
   const Vec3E p = position();
   const Tape tape(min((1.0 / p.x) * 0.0, 1.0) + max(p.y, 0.0));

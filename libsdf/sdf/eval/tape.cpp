@@ -99,12 +99,17 @@ Instruction withoutZeros(Instruction n) {
 }
 
 // The operand that an instruction stands for under decision d, its arguments resolved to `in`. A factor that
-// a decision turned into 0, as a blend's width where nothing is blended, makes its product 0.
+// a decision turned into 0, as a blend's width where nothing is blended, makes its product with a finite
+// constant 0.
 Operand resolve(const Tape& tape, const Instruction& instruction, Operand self, Decision d,
                 const std::array<Operand, 3>& in) {
   if (isComparison(instruction.op) && d != Decision::Open)
     return Operand::constant(d == Decision::First ? kOne : kZero);
   const auto vanished = [&](int k) { return in[k] == kZeroOperand && instruction.in[k].isValue(); };
+  const auto finite = [&](int k) {
+    return in[k].isConstant() && std::isfinite(tape.constant(in[k].index()));
+  };
+  const auto vanishes = [&] { return (vanished(0) && finite(1)) || (vanished(1) && finite(0)); };
   switch (instruction.op) {
     case Op::Select:
       if (in[0].isConstant()) d = tape.constant(in[0].index()) != 0.0 ? Decision::First : Decision::Second;
@@ -119,9 +124,9 @@ Operand resolve(const Tape& tape, const Instruction& instruction, Operand self, 
     case Op::Square:
       return vanished(0) ? kZeroOperand : self;
     case Op::Mul:
-      return vanished(0) || vanished(1) ? kZeroOperand : self;
+      return vanishes() ? kZeroOperand : self;
     case Op::MulAdd:
-      return vanished(0) || vanished(1) ? in[2] : self;
+      return vanishes() ? in[2] : self;
     default:
       return self;
   }

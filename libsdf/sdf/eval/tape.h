@@ -101,9 +101,8 @@ class Tape {
   bool hasSlopes() const { return code_->hasSlopes; }
 
   /// The tape with decided branches dropped, and all that only they needed. Values are unchanged wherever the
-  /// decisions hold (the batch reading's up to its rounding, as other operations may be fused), but that a
-  /// factor decided to be 0 makes its product 0 beside infinity, too. nullptr where nothing can be dropped.
-  /// decisions[i * stride] belongs to the i-th decidable instruction.
+  /// decisions hold (the batch reading's up to its rounding, as other operations may be fused). nullptr where
+  /// nothing can be dropped. decisions[i * stride] belongs to the i-th decidable instruction.
   std::shared_ptr<const Tape> specialised(const Decision* decisions, std::size_t stride) const;
   /// The tape of output 0 alone.
   std::shared_ptr<const Tape> firstOutputOnly() const;
