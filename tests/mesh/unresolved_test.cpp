@@ -93,6 +93,15 @@ TEST(Films, ACutThatEndsInAFaceLeavesNone) {
   }
 }
 
+TEST(Films, ThoseThatCrossLeaveNothingWhereTheyMeet) {
+  const Shape plates = box(Vec3E(1e-30, 0.25, 0.25)) | box(Vec3E(0.25, 0.25, 1e-30));
+  for (const Shape& s : {besideABall(plates), box(Vec3E(0.5)) - plates}) {
+    const MeshStats stats = meshed(s);
+    EXPECT_EQ(stats.components, 1);
+    EXPECT_EQ(stats.eulerCharacteristic, 2);
+  }
+}
+
 TEST(Films, SolidsThatTouchInAPointOfTheLatticeStayTwo) {
   const MeshStats stats = meshed(translate(sphere(0.5), {-0.5, 0, 0}) | translate(sphere(0.5), {0.5, 0, 0}));
   EXPECT_EQ(stats.components, 2);

@@ -75,9 +75,19 @@ std::vector<Result> overLeaves(const openvdb::FloatTree& tree, const Work& work)
   return all;
 }
 
+/// 1 where no sample around c is inside, -1 where none is outside, else 0.
+int signAround(const Samples& samples, const Coord& c, float film) {
+  bool inside = false, outside = false;
+  for (int i = 0; i < 27; ++i) {
+    const float v = samples.at(c.offsetBy(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1));
+    inside |= v<-film, outside |= v> film;
+  }
+  return inside == outside ? 0 : outside ? 1 : -1;
+}
+
 /// The sign that a sample of zero has to get: -1 between samples inside (a slit of no width), 1 between
-/// samples outside (a film of no thickness) and where solids touch in a point or along a line, 0 where either
-/// will do.
+/// samples outside (a film of no thickness) and where solids touch in a point or along a line, that of all
+/// samples around it where films or slits cross, 0 where either will do.
 int settledSign(const Samples& samples, const Coord& c, float film, float steep) {
   bool slit = false, sheet = false, open = false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -86,7 +96,7 @@ int settledSign(const Samples& samples, const Coord& c, float film, float steep)
     sheet |= before > steep && after > steep;
     open |= before > film && after > film;
   }
-  return sheet || (slit && open) ? 1 : slit ? -1 : 0;
+  return sheet || (slit && open) ? 1 : slit ? -1 : signAround(samples, c, film);
 }
 
 /// Could the lattice edge from `value` to `next` cross the surface twice? The distance falls towards the edge
