@@ -318,5 +318,16 @@ TEST(MeshShape, MakesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST(MeshShape, HasUnitNormalsHoweverSlightOrSteepTheFieldIs) {
+  const Vec3E p = position();
+  for (const double scale : {1e-30, 1e-22, 1e-19, 1.0, 1e19, 1e25}) {
+    const Mesh mesh =
+        meshed(field((dot(p, p) - 1.0) * scale), {.voxelSize = 0.25, .bounds = region(1.5)}).mesh;
+    ASSERT_FALSE(mesh.positions.empty()) << scale;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      EXPECT_NEAR(glm::distance(mesh.normals[i], glm::normalize(mesh.positions[i])), 0.0f, 1e-5f) << scale;
+  }
+}
+
 }  // namespace
 }  // namespace sdf::test

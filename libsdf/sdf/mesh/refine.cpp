@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace sdf {
@@ -9,9 +10,12 @@ namespace {
 
 constexpr int kRefineSteps = 3;
 
+// Scaled by a power of two first, which rounds nothing: squares then neither vanish nor overflow.
 glm::vec3 unit(const glm::vec3& g) {
-  const float length = glm::length(g);
-  return length > 0.0f && std::isfinite(length) ? g / length : glm::vec3(0.0f, 1.0f, 0.0f);
+  const float size = std::abs(g.x) + std::abs(g.y) + std::abs(g.z);
+  if (!(size > 0.0f && std::isfinite(size))) return {0.0f, 1.0f, 0.0f};
+  const glm::vec3 scaled = glm::ldexp(g, glm::ivec3(-std::ilogb(size)));
+  return scaled / glm::length(scaled);
 }
 
 void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
