@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "script/run.h"
 #include "sdf/eval/glsl.h"
@@ -55,11 +56,28 @@ TEST(Settings, LightsArriveInOrder) {
   EXPECT_TRUE(scene.lights[2].castsShadow);
 }
 
-TEST(Settings, AreOneLightWhereNothingIsSaidOfLight) {
-  ASSERT_EQ(withSphere("").lights.size(), 1u);
-  expectVector(withSphere("").lights[0].vector, 1, 1, 1);
-  EXPECT_TRUE(withSphere("ambient(0.5)").lights.empty());
-  EXPECT_EQ(withSphere("point_light()").lights.size(), 1u);
+TEST(Settings, LightsAreTheStandardOnesWhereNothingIsSaidOfLight) {
+  const auto toScene = [](const std::string& text) { return withSphere(text).lights.size(); };
+  EXPECT_EQ(toScene(""), standardLights().size());
+  EXPECT_EQ(toScene("ambient(0.5)"), 0u);
+  EXPECT_EQ(toScene("point_light()"), 1u);
+  EXPECT_TRUE(withSphere("").background == standardBackground());
+  EXPECT_TRUE(withSphere("background(0.5)").background == Vec3E(Expr(0.5)));
+  EXPECT_TRUE(withSphere("ambient(0.5)").background == Scene().background);
+}
+
+TEST(Settings, StandardLightsTellTheSidesOfABoxApart) {
+  double side[3] = {};  // towards x, y and z
+  for (const Light& light : standardLights()) {
+    const glm::dvec3 towards(uniformValue(light.vector.x), uniformValue(light.vector.y),
+                             uniformValue(light.vector.z));
+    for (int i = 0; i < 3; ++i)
+      side[i] += std::max(glm::normalize(towards)[i], 0.0) * uniformValue(light.intensity);
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LT(side[i], 1.0);
+    EXPECT_GT(std::abs(side[i] - side[(i + 1) % 3]), 0.15);
+  }
 }
 
 TEST(Settings, TheRestArrives) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "sdf/scene/patterns.h"
 #include "sdf/shape/booleans.h"
 
 namespace sdf {
@@ -25,6 +26,15 @@ Shape Scene::whole() const {
   for (const Part& part : parts) shapes.push_back(part.shape);
   return unite(shapes);
 }
+
+std::vector<Light> standardLights() {
+  const Light key{.vector = {-2.0, 6.0, 4.0}, .color = {1.0, 0.96, 0.9}, .intensity = 0.9};
+  const Light fill{
+      .vector = {6.0, 1.0, 3.0}, .color = {0.6, 0.75, 1.0}, .intensity = 0.3, .castsShadow = false};
+  return {key, fill};
+}
+
+Vec3E standardBackground() { return verticalGradient({0.16, 0.17, 0.19}, {0.01, 0.012, 0.018}); }
 
 Result<Scene> checked(Scene scene) {
   if (scene.parts.empty()) return Error{ErrorKind::Scene, "the scene is empty; add a shape to it"};

@@ -82,6 +82,13 @@ struct Scene {
   Shape whole() const;
 };
 
+/// The lights of a scene that names none: a key light from above, to the right of the camera's usual place,
+/// and a weak one from the left that casts no shadow. They light each side of a box along the axes
+/// differently.
+std::vector<Light> standardLights();
+/// What stands behind a scene that names no lights: grey, darker upwards.
+Vec3E standardBackground();
+
 /// The scene if it can be used: at least one part, no failed shape, unique names. Otherwise what is wrong.
 Result<Scene> checked(Scene scene);
 

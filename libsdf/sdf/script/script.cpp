@@ -51,8 +51,10 @@ Result<Scene> runScene(const std::string& text, const std::string& name, const S
   if (const Status known = checkOverrides(context.scene, options, name); !known) return known.error();
   if (context.scene.parts.empty())
     return sceneError(name, "the scene is empty; add a shape with part(name, shape) or return one");
-  if (context.scene.lights.empty() && !context.settingLines.contains("ambient"))
-    context.scene.lights.emplace_back();  // else shapes are flat spots of their colour
+  if (context.scene.lights.empty() && !context.settingLines.contains("ambient")) {
+    context.scene.lights = standardLights();  // else shapes are flat spots of their colour
+    if (!context.settingLines.contains("background")) context.scene.background = standardBackground();
+  }
   Result<Scene> scene = checked(std::move(context.scene));
   if (!scene) return sceneError(name, scene.error().message);
   return scene;
