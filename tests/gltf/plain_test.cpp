@@ -32,7 +32,7 @@ bool closed(const Loaded& mesh) {
 
 glm::vec3 toGlm(const OpenMesh::Vec3f& v) { return {v[0], v[1], v[2]}; }
 
-TEST(PlainFormats, UniteAllPartsWeldedAndClosed) {
+TEST(PlainFormats, HoldAllPartsWeldedAndClosed) {
   const Folder folder;
   const Mesh one = twoColoredSphere(6, 8), two = sphere(5, 9, {4.0f, 0.0f, 0.0f});
   for (const char* name : {"a.stl", "a.ply", "a.obj", "a.STL"}) {

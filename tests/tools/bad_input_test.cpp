@@ -125,7 +125,11 @@ TEST_F(BadInput, NoSurfaceInTheBoundsIsSaid) {
 }
 
 TEST_F(BadInput, UnboundedPartsAreNamed) {
-  expectBadScene("part('ball', sphere(1)) part('floor', plane({0, 1, 0}))", {"floor", "unbounded", "bounds"});
+  const std::string open = "part('ball', sphere(1)) part('floor', plane({0, 1, 0}))";
+  expectBadScene(open, {"'floor'", "unbounded", "bounds"});
+  for (const char* name : {"a.glb", "a.stl"})
+    expectRefusal(run({scene(open), "-o", out(name), "--voxel-size", "0.1"}), kScene,
+                  {"'floor'", "unbounded"});
 }
 
 TEST_F(BadInput, TooSmallVoxelsAreRefusedBeforeTheWorkStarts) {

@@ -1,14 +1,52 @@
 // What the program writes and prints when all is well.
+// OpenMesh leaves new colours uninitialised before it sets them, and g++ 12 sees it.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <nlohmann/json.hpp>
 
+#include "sdf/mesh/stages.h"
 #include "sdf2gltf.h"
 
 namespace sdf {
 namespace {
 
 using Json = nlohmann::json;
+using Loaded = OpenMesh::TriMesh_ArrayKernelT<>;
+
+Loaded load(const std::string& file) {
+  Loaded mesh;
+  mesh.request_vertex_colors();
+  OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexColor);
+  EXPECT_TRUE(OpenMesh::IO::read_mesh(mesh, file, options)) << file;
+  return mesh;
+}
+
+std::vector<glm::uvec3> trianglesOf(const Loaded& mesh) {
+  std::vector<glm::uvec3> triangles;
+  for (const auto face : mesh.faces()) {
+    glm::uvec3 corners;
+    int k = 0;
+    for (const auto vertex : mesh.fv_range(face)) corners[k++] = static_cast<unsigned>(vertex.idx());
+    triangles.push_back(corners);
+  }
+  return triangles;
+}
+
+MeshStats topologyOf(const Loaded& mesh) {
+  MeshStats stats;
+  measureTopology(trianglesOf(mesh), mesh.n_vertices(), stats);
+  return stats;
+}
+
+double volumeOf(const Loaded& mesh) {
+  const auto corner = [&](unsigned v) {
+    return OpenMesh::Vec3d(mesh.point(OpenMesh::VertexHandle(static_cast<int>(v))));
+  };
+  double sum = 0.0;
+  for (const glm::uvec3& t : trianglesOf(mesh)) sum += (corner(t.x) | (corner(t.y) % corner(t.z))) / 6.0;
+  return sum;
+}
 
 class Export : public Sdf2gltf {
  protected:
@@ -79,6 +117,53 @@ TEST_F(Export, WritesPlainFormatsThatLoadBackClosed) {
     EXPECT_TRUE(std::none_of(mesh.halfedges_begin(), mesh.halfedges_end(),
                              [&](auto h) { return mesh.is_boundary(h); }));
   }
+}
+
+/// Two cubes of side 2 that overlap in half of each: 8 + 8 - 4 = 12.
+constexpr const char* kOverlappingCubes =
+    "part('left', box(1):paint{1, 0, 0}) part('right', box(1):translate(1, 0, 0):paint{0, 0, 1})";
+
+TEST_F(Export, UnitesThePartsWhereTheFormatKnowsNone) {
+  const std::string cubes = scene(kOverlappingCubes);
+  const double h = 0.05;
+  // Edges, 28 long together, are cut off within the voxels that they pass.
+  const double edges = 28.0 * h * h;
+  for (const char* name : {"a.stl", "a.ply", "a.obj"}) {
+    SCOPED_TRACE(name);
+    const Json output = report({cubes, "-o", out(name), "--voxel-size", std::to_string(h)})["outputs"][0];
+    ASSERT_EQ(output["parts"].size(), 1u);
+    EXPECT_EQ(output["parts"][0]["name"], "all parts united");
+    EXPECT_EQ(output["parts"][0]["united"], (Json{"left", "right"}));
+    const Loaded mesh = load(out(name));
+    EXPECT_NEAR(volumeOf(mesh), 12.0, edges);
+    const MeshStats topology = topologyOf(mesh);
+    EXPECT_TRUE(topology.watertight && topology.manifold);
+    EXPECT_EQ(topology.components, 1);
+    EXPECT_EQ(topology.eulerCharacteristic, 2);
+  }
+  const Json apart = report({cubes, "-o", out("a.glb")})["outputs"][0]["parts"];
+  ASSERT_EQ(apart.size(), 2u);
+  EXPECT_EQ(apart[0]["united"], Json::array());
+}
+
+TEST_F(Export, ColoursWhatItUnitesAsThePartsAre) {
+  expectSuccess(run({scene(kOverlappingCubes), "-o", out("a.ply"), "--voxel-size", "0.1"}));
+  const Loaded mesh = load(out("a.ply"));
+  // The left cube's surface is seen up to x = 0, where the right one begins; from there to 1 both are.
+  for (const auto v : mesh.vertices()) {
+    const double x = mesh.point(v)[0];
+    if (x < -0.1) {
+      EXPECT_EQ(mesh.color(v), Loaded::Color(255, 0, 0)) << "at x = " << x;
+    } else if (x > 1.1) {
+      EXPECT_EQ(mesh.color(v), Loaded::Color(0, 0, 255)) << "at x = " << x;
+    }
+  }
+}
+
+TEST_F(Export, UnitesOnlyThePartAskedFor) {
+  const Json output = report({scene(kOverlappingCubes), "-o", out("a.stl"), "--only", "right"})["outputs"][0];
+  EXPECT_EQ(output["parts"][0]["name"], "right");
+  EXPECT_NEAR(volumeOf(load(out("a.stl"))), 8.0, 24.0 * 0.01 * 0.01);  // 24: its edges; 1/200 of its side
 }
 
 TEST_F(Export, ReportsEveryFigureOfEachPartAndInTotal) {

@@ -56,7 +56,7 @@ class FrameExport {
     report.time = time;
     if (Status s = load(time); !s) return s;
     if (Status s = chooseVoxelSize(voxelSize); !s) return s;
-    if (Status s = meshParts(*voxelSize); !s) return s;
+    if (Status s = meshParts(exportedParts(scene, target), *voxelSize); !s) return s;
     progress_.setSubject(subject_);
     progress_.beginStage("writing");
     if (Status s = stage("writing", [&] { return writeMeshes(target, scene, parts_); }); !s) return s;
@@ -83,8 +83,8 @@ class FrameExport {
     return interrupted();
   }
 
+  // Also refuses parts that are unbounded, by their own names.
   Status chooseVoxelSize(std::optional<double>& voxelSize) {
-    if (voxelSize) return okStatus();
     progress_.beginStage("bounds");
     Box all;
     for (const Part& part : scene.parts) {
@@ -99,18 +99,19 @@ class FrameExport {
       }
       all = unite(all, box);
     }
-    voxelSize = all.finite() ? all.longestSide() / kDefaultVoxels : 0.0;
+    if (!voxelSize) voxelSize = all.finite() ? all.longestSide() / kDefaultVoxels : 0.0;
     return okStatus();
   }
 
-  Status meshParts(double voxelSize) {
-    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-      const Part& part = scene.parts[i];
-      const std::string place =
-          " (" + std::to_string(i + 1) + " of " + std::to_string(scene.parts.size()) + ")";
+  Status meshParts(const std::vector<Part>& parts, double voxelSize) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Part& part = parts[i];
+      const std::string place = " (" + std::to_string(i + 1) + " of " + std::to_string(parts.size()) + ")";
       progress_.setSubject(subject_ + (subject_.empty() ? "" : ", ") + "part '" + part.name + "'" + place);
       ReportLine& line = report.parts.emplace_back();
       line.name = part.name;
+      if (parts.size() < scene.parts.size())
+        for (const Part& one : scene.parts) line.united.push_back(one.name);
       Result<MeshedShape> meshed = timed(
           line.seconds, [&] { return meshShape(part.shape, part.name, meshOptions(voxelSize), progress_); });
       if (!meshed) return meshed.error();

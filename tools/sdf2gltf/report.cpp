@@ -51,6 +51,7 @@ Json json(const ReportLine& line) {
   for (const auto& [name, seconds] : line.stages) stages[name] = seconds;
   const MeshStats& stats = line.stats;
   return {{"name", line.name},
+          {"united", line.united},
           {"seconds", line.seconds},
           {"stage_seconds", stages},
           {"peak_memory_bytes", static_cast<std::uint64_t>(line.peakMemory)},
@@ -83,7 +84,7 @@ void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
 }
 
 void printWarnings(std::ostream& out, const FileReport& report) {
-  for (const auto& [name, stats, stages, seconds, memory] : report.parts) {
+  for (const auto& [name, united, stats, stages, seconds, memory] : report.parts) {
     const std::string part = "sdf2gltf: warning: part '" + name + "': ";
     if (stats.unresolved > 0)
       out << part << "solids or gaps thinner than a voxel were missed at " << grouped(stats.unresolved)

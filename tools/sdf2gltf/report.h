@@ -19,6 +19,7 @@ void addSeconds(StageSeconds& stages, const std::string& name, double seconds);
 
 struct ReportLine {
   std::string name;
+  std::vector<std::string> united;  ///< the scene's parts that this one unites; empty where it is one of them
   MeshStats stats;
   StageSeconds stages;
   double seconds = 0.0;

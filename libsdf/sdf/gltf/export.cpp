@@ -67,6 +67,12 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
   return all;
 }
 
+std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path& target) {
+  const bool apart = std::holds_alternative<GltfContainer>(findFormat(target)->encoding);
+  if (apart || scene.parts.size() < 2) return scene.parts;
+  return {Part{"all parts united", scene.whole()}};
+}
+
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,
                    const std::vector<ExportPart>& parts) {
   if (Status known = checkExtension(target); !known) return known;

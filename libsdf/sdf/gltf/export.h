@@ -23,13 +23,19 @@ MeshStats combined(const std::vector<ExportPart>& parts);
 /// (Usage).
 Status checkExtension(const std::filesystem::path& target);
 
+/// The bodies that the format of `target` holds apart, to be meshed and handed to writeMeshes: the scene's
+/// parts; in .stl, .ply and .obj, which know no parts, their union as one, by the name "all parts united".
+/// Precondition: checkExtension(target).
+std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path& target);
+
 /// Writes all parts to `target`, whose extension picks the format. The file appears under its name only when
 /// complete.
 /// - .glb, .gltf: one file (the .gltf's buffer is embedded); a node for each part, a primitive for each
 ///   material of it, materials by toMetallicRoughness (pbr.h), camera and lights as in view.h; measured
 ///   errors in `extras`.
-/// - .stl, .ply (both binary), .obj: all parts in one body of welded triangles, Y up. PLY and OBJ carry
-///   normals, PLY also vertex colours, as sRGB; STL has neither.
+/// - .stl, .ply (both binary), .obj: welded triangles of all parts in one list, Y up; meshes that overlap go
+///   on doing so, exportedParts unites them before. PLY and OBJ carry normals, PLY also vertex colours, as
+///   sRGB; STL has neither.
 /// The bytes depend on nothing but the arguments.
 /// Errors: Usage (unknown extension), Files (cannot be written), Limits (a .glb over 4 GiB), Interrupted.
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,

@@ -14,7 +14,7 @@ Status encodeGltf(std::ostream& out, GltfContainer container, const Scene& scene
                   const std::vector<ExportPart>& parts);
 
 enum class PlainFormat { Stl, Ply, Obj };
-/// All parts as one body of welded triangles: binary STL; binary PLY with normals and sRGB colours; OBJ with
+/// Welded triangles of all parts in one list: binary STL; binary PLY with normals and sRGB colours; OBJ with
 /// normals.
 Status encodePlain(std::ostream& out, PlainFormat format, const std::vector<ExportPart>& parts);
 
