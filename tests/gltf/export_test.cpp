@@ -64,6 +64,7 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   a.stats.voxels = 10;
   b.stats.voxels = 5;
   b.stats.maxDistance = 2.0;
+  b.stats.farthest = {7, 8, 9};
   b.stats.manifold = false;
   b.stats.unresolved = 2;
   b.stats.firstUnresolved = {1, 2, 3};
@@ -76,6 +77,7 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   EXPECT_EQ(all.components, 2);
   EXPECT_EQ(all.eulerCharacteristic, 4);
   EXPECT_EQ(all.maxDistance, 2.0);
+  EXPECT_EQ(all.farthest, glm::vec3(7, 8, 9));
   EXPECT_TRUE(all.watertight);
   EXPECT_FALSE(all.manifold);
   EXPECT_EQ(all.unresolved, 2u);

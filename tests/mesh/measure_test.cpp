@@ -166,5 +166,36 @@ TEST(MeasureDistance, LooksForTheSurfaceWhereTheSlopeSaysLittle) {
   EXPECT_NEAR(s.maxDistance, 1.0 - at, 2.0 * h / 16.0 * 0x1p-20 + 8.0 * kRoundoff);
 }
 
+// What is measured of a triangle that is hardly larger than a point, across x.
+MeshStats distanceOfPoint(const Expr& formula, double h, const glm::vec3& p) {
+  return distanceTo(field(formula, region(1.0), kInfinity), h,
+                    {p, p + glm::vec3(0, 0x1p-20f, 0), p + glm::vec3(0, 0, 0x1p-20f)}, {{0, 1, 2}});
+}
+
+TEST(MeasureDistance, LooksAroundWhereTheGradientLeadsNowhere) {
+  // Half a ball, by a jump and by a root of negative numbers: the gradient beside its flat face runs along
+  // it.
+  const Expr ball = length(position()) - 1.0, x = position().x;
+  const double h = 1.0 / 16, precision = kFarthestVoxels * h / 16.0 * 0x1p-20 + 8.0 * kRoundoff;
+  for (const float at : {-0.03125f, 0.03125f}) {
+    const glm::vec3 p(at, 0.3125f, 0.0f);
+    const MeshStats jump = distanceOfPoint(select(less(x, 0.0), ball, 1.0), h, p);
+    EXPECT_NEAR(jump.maxDistance, std::abs(at), precision);
+    EXPECT_LE(glm::distance(jump.farthest, p), 0x1p-19f);
+    const MeshStats root = distanceOfPoint(ball + 0.0 * sqrt(x), h, p);
+    EXPECT_NEAR(root.maxDistance, std::abs(at), precision);
+    EXPECT_NEAR(root.rmsDistance, std::abs(at), precision);
+  }
+}
+
+TEST(MeasureDistance, KeepsTheFirstOrderFigureBeyondTheFarthestOfARightMesh) {
+  const Expr ball = length(position()) - 1.0;
+  const double h = 1.0 / 16, away = kFarthestVoxels * h;
+  for (const double d : {1.5 * away, 0.5 * away}) {
+    const MeshStats s = distanceOfPoint(ball, h, {0.0f, 1.0f - static_cast<float>(d), 0.0f});
+    EXPECT_NEAR(s.maxDistance, d, 8.0 * kRoundoff);
+  }
+}
+
 }  // namespace
 }  // namespace sdf::test

@@ -185,6 +185,7 @@ TEST_F(Export, ReportsEveryFigureOfEachPartAndInTotal) {
     EXPECT_LE(line["rms_distance"], line["max_distance"]);
     EXPECT_LT(line["max_distance"].get<double>(),
               0.0625);  // vertices lie on the surface and edges are voxels long
+    EXPECT_EQ(line["farthest"].size(), 3u);
     EXPECT_EQ(line["watertight"], true);
     EXPECT_EQ(line["manifold"], true);
     EXPECT_FALSE(line["stage_seconds"].empty());

@@ -42,8 +42,9 @@ std::string place(const glm::vec3& p) {
   return "(" + formatted("%.4g", p.x) + ", " + formatted("%.4g", p.y) + ", " + formatted("%.4g", p.z) + ")";
 }
 
+Json placeJson(const glm::vec3& p) { return {p.x, p.y, p.z}; }
 Json placeJson(std::uint64_t count, const glm::vec3& first) {
-  return count == 0 ? Json(nullptr) : Json{first.x, first.y, first.z};
+  return count == 0 ? Json(nullptr) : placeJson(first);
 }
 
 Json json(const ReportLine& line) {
@@ -61,6 +62,7 @@ Json json(const ReportLine& line) {
           {"triangles", stats.triangles},
           {"rms_distance", stats.rmsDistance},
           {"max_distance", stats.maxDistance},
+          {"farthest", placeJson(stats.farthest)},
           {"watertight", stats.watertight},
           {"manifold", stats.manifold},
           {"components", stats.components},

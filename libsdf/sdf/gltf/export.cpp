@@ -52,7 +52,7 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
     all.vertices += one.vertices;
     all.triangles += one.triangles;
     all.voxelSize = std::max(all.voxelSize, one.voxelSize);
-    all.maxDistance = std::max(all.maxDistance, one.maxDistance);
+    if (one.maxDistance > all.maxDistance) all.maxDistance = one.maxDistance, all.farthest = one.farthest;
     all.watertight = all.watertight && one.watertight;
     all.manifold = all.manifold && one.manifold;
     all.components += one.components;

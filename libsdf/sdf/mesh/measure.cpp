@@ -67,16 +67,43 @@ double distanceAlong(const PointRun& run, const glm::dvec3& p, bool inside, cons
   return std::abs(near + width);
 }
 
-// |distance| of point i of a run.
+// Distance from p to where f changes sign on the way to the nearest sample of the lattice on the other side;
+// infinite where none is within kFarthestVoxels. What is not a number is outside, as it is for the mesher.
+double distanceAround(const PointRun& run, const glm::dvec3& p, bool inside) {
+  constexpr int kReach = static_cast<int>(kFarthestVoxels), kSide = 2 * kReach + 1;
+  constexpr std::size_t kCount = kSide * kSide * kSide;
+  static_assert(kCount <= kBatchPoints);
+  const glm::dvec3 first = glm::round(p / run.voxel) - static_cast<double>(kReach);
+  PointRows at;
+  float f[kBatchPoints];
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const glm::dvec3 offset(i / (kSide * kSide), i / kSide % kSide, i % kSide);
+    at.set(i, glm::vec3((first + offset) * run.voxel));
+  }
+  run.batch.evaluate(*run.tapes.distance, at.rows(), kCount, f);
+  double nearest = kFarthestVoxels * run.voxel;
+  glm::dvec3 across(0.0);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const glm::dvec3 way = glm::dvec3(at.at(i)) - p;
+    if (!(inside ? !(f[i] < 0.0f) : f[i] <= 0.0f) || !(glm::length(way) <= nearest)) continue;
+    nearest = glm::length(way);
+    across = way;
+  }
+  if (across == glm::dvec3(0.0)) return kInfinity;
+  return std::min(nearest, distanceAlong(run, p, inside, across / nearest, nearest));
+}
+
+// |distance| of point i of a run; infinite where it is no number and there is no surface in reach.
 float distanceOf(const PointRun& run, const RunGradients& g, std::size_t i) {
   const float first = std::abs(g.distance(i));
-  if (!(first > kDoubtful * run.voxel)) return first;
-  const glm::dvec3 gradient(g.gradient(i));
-  const double length = glm::length(gradient);
-  if (!(length > 0.0)) return first;
-  const double found = distanceAlong(run, glm::dvec3(run.points.at(i)), g.value[i] < 0.0f, gradient / length,
-                                     kSearchVoxels * run.voxel);
-  return std::min(first, static_cast<float>(found));
+  if (first <= kDoubtful * run.voxel) return first;
+  const glm::dvec3 p(run.points.at(i)), gradient(g.gradient(i));
+  const bool inside = g.value[i] < 0.0f;
+  double found = kInfinity;
+  if (const double length = glm::length(gradient); length > 0.0 && std::isfinite(length))
+    found = distanceAlong(run, p, inside, gradient / length, kSearchVoxels * run.voxel);
+  if (found == kInfinity) found = distanceAround(run, p, inside);
+  return first < found ? first : static_cast<float>(found);  // the first may be no number
 }
 
 // Calls take(i, |distance|, voxel) for each of `count` points; points of one chunk in order, chunks in
@@ -104,6 +131,18 @@ struct TriangleError {
   float squares = 0.0f;  // mean over the samples
   float largest = 0.0f;
   float voxels = 0.0f;  // the largest in voxels
+  int where = 0;        // sample of the largest
+};
+
+// The largest distance so far, and its place.
+struct Farthest {
+  double distance = 0.0;
+  glm::vec3 at{0.0f};
+
+  template <class Point>
+  void take(double d, const Point& point) {
+    if (d > distance) distance = d, at = point();
+  }
 };
 
 }  // namespace
@@ -123,29 +162,32 @@ void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<
       [&](std::size_t i, float d, double voxel) {
         TriangleError& e = inside[i / kInside];
         e.squares += d * d / kInside;
-        e.largest = std::max(e.largest, d);
+        if (d > e.largest) e.largest = d, e.where = static_cast<int>(i % kInside);
         e.voxels = std::max(e.voxels, static_cast<float>(d / voxel));
       });
-  double area = 0.0, squares = 0.0, largest = 0.0;
-  for (const float d : atVertices) largest = std::max<double>(largest, d);
+  double area = 0.0, squares = 0.0;
+  Farthest farthest;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    farthest.take(atVertices[i], [&] { return positions[i]; });
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const glm::uvec3& v = triangles[t];
     const double a =
         0.5 * glm::length(glm::cross(positions[v.y] - positions[v.x], positions[v.z] - positions[v.x]));
     area += a;
     squares += a * inside[t].squares;
-    largest = std::max<double>(largest, inside[t].largest);
+    farthest.take(inside[t].largest, [&] { return samplePoint(positions, v, inside[t].where); });
   }
   std::vector<std::uint32_t> edges;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (inside[t].voxels > kEdge && inside[t].largest > 0.5 * largest) edges.push_back(t);
+    if (inside[t].voxels > kEdge && inside[t].largest > 0.5 * farthest.distance) edges.push_back(t);
   const auto fine = [&](std::size_t i) {
     return finePoint(positions, triangles[edges[i / kFine]], static_cast<int>(i % kFine));
   };
-  for (const float d : distancesAt(kFine * edges.size(), fine, field, progress))
-    largest = std::max<double>(largest, d);
+  const std::vector<float> atFine = distancesAt(kFine * edges.size(), fine, field, progress);
+  for (std::size_t i = 0; i < atFine.size(); ++i) farthest.take(atFine[i], [&] { return fine(i); });
   stats.rmsDistance = area > 0.0 ? std::sqrt(squares / area) : 0.0;
-  stats.maxDistance = largest;
+  stats.maxDistance = farthest.distance;
+  stats.farthest = farthest.at;
 }
 
 }  // namespace sdf
