@@ -85,6 +85,12 @@ TEST(MeasureTopology, TellsHandMadeMeshesApart) {
   }
 }
 
+TEST(OpenVertex, LiesWhereATriangleIsMissing) {
+  const Triangles open{{4, 6, 5}, {4, 5, 7}, {5, 6, 7}};  // the tetrahedron without its last one, {6, 4, 7}
+  EXPECT_EQ(openVertex(open, 8), 4u);
+  EXPECT_EQ(openVertex(kTetrahedron + open, 8), 4u);
+}
+
 // The regular octahedron with corners at this distance from the origin.
 struct Octahedron {
   std::vector<glm::vec3> positions;

@@ -266,6 +266,52 @@ TEST(MeshShape, SaysWhenThereIsNothingToMesh) {
   }
 }
 
+// The unit ball by a formula that is steep near one point of its surface only: up to 21 there.
+Expr steepSomewhere() {
+  const Vec3E p = position(), q = p - Vec3E(0.6, 0.6, 0.53);
+  return (length(p) - 1.0) * (20.0 * exp(-200.0 * dot(q, q)) + 1.0);
+}
+
+TEST(MeshShape, RefusesWhatContradictsTheBoundsAndSlopeStatedForIt) {
+  const Expr ball = length(position()) - 1.0;
+  struct Case {
+    const char* says;
+    Expr formula;
+    Box bounds;
+    double slope;
+    Box trueBounds;
+    double trueSlope;
+  };
+  for (const Case& c : {
+           // Closed, but beyond its bounds; cut open by them; without the pieces where the slope is false:
+           // with
+           // its sides open, and as a dent with walls.
+           Case{"the surface leaves the bounds (-1, -1, -1) to (1, 1, 0.95)",
+                ball,
+                {glm::dvec3(-1.0), {1.0, 1.0, 0.95}},
+                1.0,
+                region(1.0),
+                1.0},
+           Case{"the surface leaves the bounds (-0.5, -1, -1) to (1, 1, 1)",
+                ball,
+                {{-0.5, -1.0, -1.0}, glm::dvec3(1.0)},
+                1.0,
+                region(1.0),
+                1.0},
+           Case{"the mesh is torn open at (", ball * 2.0, region(1.1), 1.0, region(1.1), 2.0},
+           Case{"the mesh is off by about 0.11", steepSomewhere(), region(1.2), 1.0, region(1.2), kInfinity},
+       }) {
+    SCOPED_TRACE(c.says);
+    const auto refused = tryMesh(field(c.formula, c.bounds, c.slope), {.voxelSize = 0.02});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::Scene);
+    EXPECT_EQ(refused.error().message.find("part 'floor': " + std::string(c.says)), 0u)
+        << refused.error().message;
+    EXPECT_NE(refused.error().message.find("of its field, or leave them out"), std::string::npos);
+    EXPECT_TRUE(tryMesh(field(c.formula, c.trueBounds, c.trueSlope), {.voxelSize = 0.02}).ok());
+  }
+}
+
 TEST(MeshShape, RefusesWhatWouldNotFit) {
   const auto m = tryMesh(sphere(1.0), {.voxelSize = 1e-4, .maxMemory = double(1 << 28)});
   ASSERT_FALSE(m.ok());

@@ -132,6 +132,22 @@ TEST_F(BadInput, UnboundedPartsAreNamed) {
                   {"'floor'", "unbounded"});
 }
 
+TEST_F(BadInput, MeshesThatContradictWhatIsStatedOfAFieldAreNotWritten) {
+  const std::string ball = "function(x, y, z) return (sqrt(x * x + y * y + z * z) - 1)";
+  const auto part = [&](const std::string& formula, const std::string& stated) {
+    return "part('ball', field(" + ball + formula + " end, {" + stated + "}))";
+  };
+  expectBadScene(
+      part("", "bounds = {{-1, -1, -1}, {1, 1, 0.9}}"),
+      {"part 'ball': the surface leaves the bounds (-1, -1, -1) to (1, 1, 0.9)", "at (", "enlarge"});
+  expectBadScene(part(" * 2", "bounds = {{-1, -1, -1}, {1, 1, 1}}, lipschitz = 1"),
+                 {"part 'ball': the mesh is torn open at (", "Enlarge the lipschitz", "leave them out"});
+  expectBadScene(part(" * (1 + 20 * exp(-200 * ((x - 0.6) ^ 2 + (y - 0.6) ^ 2 + (z - 0.53) ^ 2)))",
+                      "bounds = {{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}}, lipschitz = 1"),
+                 {"part 'ball': the mesh is off by about 0.115", "voxels, at (0.6", "Enlarge the lipschitz"},
+                 kScene, {"--voxel-size", "0.02"});
+}
+
 TEST_F(BadInput, TooSmallVoxelsAreRefusedBeforeTheWorkStarts) {
   const Outcome outcome =
       run({scene(kSphere), "-o", out("a.glb"), "--voxel-size", "1e-5", "--max-memory", "0.5"});

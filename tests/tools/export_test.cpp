@@ -242,18 +242,6 @@ TEST_F(Export, WarnsOfADistanceThatIsNotANumber) {
       << outcome.err;
 }
 
-TEST_F(Export, WarnsOfAMeshThatItsStatedBoundsCutOpen) {
-  const std::string file = scene(
-      "part('ball', field(function(x, y, z) return x * x + y * y + z * z - 1 end,"
-      " {bounds = {{-0.5, -2, -2}, {2, 2, 2}}}))");
-  const Outcome outcome = run({file, "-o", out("a.glb"), "--voxel-size", "0.1"});
-  EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(
-      outcome.err,
-      "sdf2gltf: warning: part 'ball': the mesh is not closed. A solid reaches beyond the bounds that are "
-      "stated for it: enlarge the bounds of its field, or leave them out\n");
-}
-
 TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
   const Json output = report({scene(kTwoParts), "-o", out("a.glb")})["outputs"][0];
   // Both together reach from -1 to 2.5.

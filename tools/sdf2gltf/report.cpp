@@ -98,10 +98,6 @@ void printWarnings(std::ostream& out, const FileReport& report) {
           << " samples, the first near " << place(stats.firstNotNumber)
           << "; they were taken as outside. Check for divisions by zero, roots and logarithms of negative "
              "numbers\n";
-    if (!stats.watertight)
-      out << part
-          << "the mesh is not closed. A solid reaches beyond the bounds that are stated for it: enlarge "
-             "the bounds of its field, or leave them out\n";
   }
 }
 

@@ -147,8 +147,9 @@ struct Farthest {
 
 }  // namespace
 
-void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                     const LocalField& field, Progress& progress, MeshStats& stats) {
+std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
+                                   const std::vector<glm::uvec3>& triangles, const LocalField& field,
+                                   Progress& progress, MeshStats& stats) {
   const std::vector<float> atVertices = distancesAt(
       positions.size(), [&](std::size_t i) { return positions[i]; }, field, progress);
   static_assert(kRunChunk % kInside == 0, "a triangle's samples must lie in one chunk");
@@ -188,6 +189,7 @@ void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<
   stats.rmsDistance = area > 0.0 ? std::sqrt(squares / area) : 0.0;
   stats.maxDistance = farthest.distance;
   stats.farthest = farthest.at;
+  return atVertices;
 }
 
 }  // namespace sdf

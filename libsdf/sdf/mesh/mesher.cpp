@@ -1,10 +1,12 @@
 #include "sdf/mesh/mesher.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
+#include "sdf/shape/catalog.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
 
@@ -20,6 +22,16 @@ std::string unboundedAxes(const Box& b) {
     if (std::isinf(b.min[axis]) || std::isinf(b.max[axis]))
       text = "xyz"[axis] + std::string(left == 0 ? "" : left == 1 ? " and " : ", ") + text, ++left;
   return text;
+}
+
+std::string place(const glm::dvec3& p) {
+  return "(" + shown(p.x) + ", " + shown(p.y) + ", " + shown(p.z) + ")";
+}
+
+// How far a point is beyond the sides of a box; negative inside.
+double beyond(const Box& box, const glm::dvec3& p) {
+  const glm::dvec3 d = glm::max(box.min - p, p - box.max);
+  return std::max({d.x, d.y, d.z});
 }
 
 Error sceneError(const std::string& name, const std::string& what) {
@@ -63,8 +75,11 @@ class Mesher {
     begin("projection");
     refineVertices(mesh.positions, mesh.normals, field, progress_);
     begin("measuring");
-    measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
+    const std::vector<float> distances =
+        measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
     measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
+    if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
+    if (Status s = checkClaims(*bounds, h, distances); !s) return s.error();
     begin("colouring");
     colorMesh(shape, options_.values, field, progress_, mesh);
     end();
@@ -101,6 +116,35 @@ class Mesher {
     auto result = sampleNarrowBand(model, band, progress_);
     if (result) findUnresolved(*result, BandField(*result, whole), progress_, result_.stats);
     return result;
+  }
+
+  // Refuses a mesh that contradicts the bounds and the slope that the shape claims. `distances` are the
+  // vertices' to the surface.
+  Status checkClaims(const Box& bounds, double voxel, const std::vector<float>& distances) const {
+    const Mesh& mesh = result_.mesh;
+    const MeshStats& stats = result_.stats;
+    // Refinement may move a vertex by a voxel, and the surface be as far from it.
+    double farthest = voxel;
+    const glm::vec3* outside = nullptr;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      if (const double d = beyond(bounds, mesh.positions[i]); d > farthest && distances[i] < voxel)
+        farthest = d, outside = &mesh.positions[i];
+    if (outside)
+      return sceneError(name_, "the surface leaves the bounds " + place(bounds.min) + " to " +
+                                   place(bounds.max) + " that are stated for it, at " + place(*outside) +
+                                   "; enlarge the bounds of its field, or leave them out");
+    const std::string advice =
+        ": what is stated of the shape does not hold there. Enlarge the lipschitz and the bounds of its "
+        "field, or leave them out; a shape without a field has to be made in another way";
+    if (!stats.watertight) {
+      const std::uint32_t open = openVertex(mesh.triangles, mesh.positions.size());
+      return sceneError(name_, "the mesh is torn open at " + place(mesh.positions[open]) + advice);
+    }
+    if (stats.maxDistance > kFarthestVoxels * voxel)
+      return sceneError(name_, "the mesh is off by about " + shown(stats.maxDistance) + ", " +
+                                   shown(stats.maxDistance / voxel) + " voxels, at " + place(stats.farthest) +
+                                   advice);
+    return okStatus();
   }
 
   // Ends the present stage, if there is one, and begins another.

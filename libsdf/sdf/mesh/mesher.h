@@ -32,8 +32,10 @@ struct MeshedShape {
 Box findBounds(const Shape& shape);
 
 /// Meshes one shape. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the
-/// calling thread's oneTBB arena; the result does not depend on the number of threads. Errors: Scene (failed
-/// shape, unbounded, no surface), Limits (memory), Interrupted.
+/// calling thread's oneTBB arena; the result does not depend on the number of threads. What is stated of a
+/// field, its bounds and its slope, is relied on, and found out where the mesh leaves the bounds, is not
+/// closed or is farther from the surface than a right one can be. Errors: Scene (failed shape, unbounded, no
+/// surface, false statements), Limits (memory), Interrupted.
 Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
                               Progress& progress);
 

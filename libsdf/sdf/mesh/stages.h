@@ -29,14 +29,20 @@ inline constexpr double kFarthestVoxels = 3.0;
 /// One-sided: from the mesh to the surface. Where the first-order figure exceeds half a voxel or is no
 /// number, the surface is looked for along the gradient, and where it is not met there, at the samples of the
 /// lattice up to kFarthestVoxels away. Triangles with more than a tenth of a voxel, under which the surface
-/// has an edge, are looked at in 36 points for the maximum. Fills stats.rmsDistance,
-/// stats.maxDistance and stats.farthest.
-void measureDistance(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                     const LocalField& field, Progress& progress, MeshStats& stats);
+/// has an edge, are looked at in 36 points for the maximum. A mesh whose maximum is beyond kFarthestVoxels is
+/// not the shape's. Fills stats.rmsDistance, stats.maxDistance and stats.farthest; returns the vertices'
+/// distances.
+std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
+                                   const std::vector<glm::uvec3>& triangles, const LocalField& field,
+                                   Progress& progress, MeshStats& stats);
 
 /// Watertight, manifold, components (by shared vertices) and Euler characteristic of an indexed mesh. Cost: n
 /// log n.
 void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t vertices, MeshStats& stats);
+
+/// A vertex on an edge that is not balanced: with more triangles one way than the other. Precondition: there
+/// is one (measureTopology: not watertight).
+std::uint32_t openVertex(const std::vector<glm::uvec3>& triangles, std::size_t vertices);
 
 /// Fills colors, triangleMaterial and materials, orders the triangles by material, and repeats vertices where
 /// materials meet (copyOf), each copy coloured on its own side of the border. positions, normals, triangles

@@ -139,4 +139,13 @@ void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t verti
       static_cast<int>(s.vertices - s.edges + static_cast<std::ptrdiff_t>(triangles.size()));
 }
 
+std::uint32_t openVertex(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
+  const Incidence incidence(triangles, vertices);
+  VertexExaminer examiner(triangles, incidence);
+  Summary sum;
+  std::uint32_t v = 0;
+  for (examiner.examine(v, sum); sum.balanced; examiner.examine(v, sum)) ++v;
+  return v;
+}
+
 }  // namespace sdf
