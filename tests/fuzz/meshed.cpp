@@ -180,10 +180,14 @@ std::string glbOf(const MeshedShape& meshed) {
 
 // --- an input ---
 
+// Nothing false is stated of catalog entries, so a mesh that is refused for leaving its bounds or being open
+// is the mesher's fault.
 void checkError(const Error& error) {
   if (error.kind != ErrorKind::Scene || !error.message.starts_with("part 'part': ") ||
       error.message.find('\n') != std::string::npos)
     find("an error that does not say which part: '" + error.message + "'");
+  for (const char* fault : {"is torn open", "leaves the bounds"})
+    if (error.message.find(fault) != std::string::npos) find(error.message);
 }
 
 Box clipOf(Bytes& bytes) {
