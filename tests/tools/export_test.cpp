@@ -249,6 +249,21 @@ TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
   EXPECT_DOUBLE_EQ(output["parts"][1]["voxel_size"].get<double>(), 3.5 / 200);
 }
 
+TEST_F(Export, MeshesAnySizeAlike) {
+  const auto totalAt = [&](const std::string& size) {
+    const std::string file = scene("local s = " + size + " return box(s, 0.51 * s, 0.33 * s)");
+    return report({file, "-o", out("a.glb")})["outputs"][0]["total"];
+  };
+  const Json one = totalAt("1");
+  for (const char* size : {"1e-6", "1e6"}) {
+    const Json other = totalAt(size);
+    for (const char* figure : {"triangles", "watertight", "unresolved", "components", "euler_characteristic"})
+      EXPECT_EQ(other[figure], one[figure]) << size << " " << figure;
+    const double scale = std::stod(size), voxel = one["voxel_size"];
+    EXPECT_NEAR(other["voxel_size"].get<double>() / scale, voxel, 1e-12 * voxel) << size;
+  }
+}
+
 TEST_F(Export, GivesTheSameBytesForAnyNumberOfThreads) {
   const std::string file = scene(kTwoParts);
   for (const char* extension : {".glb", ".stl"}) {

@@ -398,7 +398,6 @@ class BandSampler {
         notNumbers_,
         glm::vec3(firstNotNumber_.x(), firstNotNumber_.y(), firstNotNumber_.z()) * static_cast<float>(h_)};
     auto& tree = band.grid_->grid->tree();
-    band.grid_->grid->setTransform(openvdb::math::Transform::createLinearTransform(h_));
     band.grid_->tapes.reserve(leaves_.size());
     for (BandLeaf& l : leaves_) {
       band.grid_->tapes.emplace(l.leaf->origin(), std::move(l.tapes));

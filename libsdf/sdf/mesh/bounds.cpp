@@ -6,7 +6,8 @@
 namespace sdf {
 namespace {
 
-constexpr double kFar = 1e6;         // scene units; what lies beyond is not looked for
+constexpr double kFar = 0x1p40;      // scene units; what lies beyond is not looked for
+constexpr double kNear = 0x1p-40;    // scene units; from here on a side moves to 0
 constexpr int kSplits = 12;          // halvings of a region before its emptiness counts as unproven
 constexpr int kTighteningSteps = 8;  // bisections of each side
 
@@ -22,6 +23,7 @@ bool provenOutside(const Tape& tape, const Box& box, int splits) {
 }
 
 double& sideOf(Box& box, int axis, bool positive) { return (positive ? box.max : box.min)[axis]; }
+double sideOf(const Box& box, int axis, bool positive) { return (positive ? box.max : box.min)[axis]; }
 
 // The part of a box beyond `at` on one side of an axis.
 Box beyond(Box box, int axis, bool positive, double at) {
@@ -29,12 +31,21 @@ Box beyond(Box box, int axis, bool positive, double at) {
   return box;
 }
 
-// A place on one side of an axis beyond which the box is proven empty; infinite where none is found.
-double searchSide(const Tape& tape, const Box& box, int axis, bool positive) {
-  const double sign = positive ? 1.0 : -1.0;
-  for (double distance = 1.0; distance < kFar; distance *= 2.0)
-    if (provenOutside(tape, beyond(box, axis, positive, sign * distance), kSplits)) return sign * distance;
-  return sign * kInfinity;
+// Halves the sides that are not given, in turn, while what that cuts off is proven empty. Each cut lies
+// within a factor of two of the side, so that intervals are as tight at any scale.
+void halveSides(const Tape& tape, const Box& given, Box& box) {
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const bool positive : {false, true}) {
+        double& side = sideOf(box, axis, positive);
+        if (std::isfinite(sideOf(given, axis, positive)) || side == 0.0) continue;
+        const double inward = std::abs(side) > kNear ? side / 2.0 : 0.0;
+        if (!provenOutside(tape, beyond(box, axis, positive, inward), kSplits)) continue;
+        side = inward;
+        moved = true;
+      }
+  }
 }
 
 // Moves one side inward as far as the slab that it leaves is proven empty.
@@ -53,21 +64,20 @@ void tightenSide(const Tape& tape, Box& box, int axis, bool positive) {
 }  // namespace
 
 Box findBounds(const Shape& shape) {
-  Box bounds = shape.bounds, given = bounds;
-  if (bounds.finite() || bounds.empty()) return bounds;
+  const Box given = shape.bounds;
+  if (given.finite() || given.empty()) return given;
   const Tape tape(shape.distance);
-  Box searched = intersect(bounds, {glm::dvec3(-kFar), glm::dvec3(kFar)});
+  Box bounds = {glm::max(given.min, glm::dvec3(-kFar)), glm::min(given.max, glm::dvec3(kFar))};
+  if (bounds.empty()) return given;
+  halveSides(tape, given, bounds);
   for (int axis = 0; axis < 3; ++axis)
-    for (const bool positive : {false, true}) {
-      double& side = sideOf(bounds, axis, positive);
-      if (std::isfinite(side)) continue;
-      side = searchSide(tape, searched, axis, positive);
-      if (std::isfinite(side)) sideOf(searched, axis, positive) = side;
-    }
+    for (const bool positive : {false, true})
+      if (double& side = sideOf(bounds, axis, positive); std::abs(side) == kFar)
+        side = sideOf(given, axis, positive);
   if (!bounds.finite()) return bounds;
   for (int axis = 0; axis < 3; ++axis)
     for (const bool positive : {false, true})
-      if (!std::isfinite(sideOf(given, axis, positive))) tightenSide(tape, bounds, axis, positive);
+      if (std::isinf(sideOf(given, axis, positive))) tightenSide(tape, bounds, axis, positive);
   return bounds;
 }
 

@@ -28,7 +28,7 @@ struct MeshedShape {
 };
 
 /// Box that contains the shape's surface: its own bounds, tightened or (for fields) found by interval
-/// arithmetic. Infinite sides remain where the shape is unbounded.
+/// arithmetic, as far as 2^40 from the origin. Infinite sides remain where the shape is unbounded.
 Box findBounds(const Shape& shape);
 
 /// Meshes one shape. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the
