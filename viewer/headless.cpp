@@ -10,6 +10,7 @@
 #include "sdf/script/script.h"
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/picture.h"
+#include "viewer/render/in_view.h"
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {
@@ -23,8 +24,8 @@ double millisecondsSince(Clock::time_point start) {
 
 class Headless {
  public:
-  Headless(const Options& options, Scene scene)
-      : options_(options), scene_(std::move(scene)), look_(scene_) {}
+  Headless(const Options& options, Scene scene, LookFunction look)
+      : options_(options), scene_(std::move(scene)), look_(std::move(look)) {}
 
   Status pictures() {
     const int count = options_.frames.value_or(1);
@@ -108,7 +109,8 @@ class Headless {
   Frame frame(double time) const {
     Values parameters = options_.parameters;
     parameters["time"] = time;
-    Frame f = frameOf(look_, std::move(parameters));
+    const double aspect = static_cast<double>(options_.width) / options_.height;
+    Frame f = frameOf(look_, std::move(parameters), aspect);
     if (options_.eye) f.look.eye = *options_.eye;
     f.samples = options_.samples;
     f.maxSteps = options_.maxSteps;
@@ -151,7 +153,8 @@ class Headless {
 Status runHeadless(const Options& options, std::ostream& out) {
   auto scene = loadScene(options.scene, {.values = options.parameters, .time = options.time});
   if (!scene) return scene.error();
-  Headless headless(options, std::move(*scene));
+  LookFunction look = lookOf(*scene, options.scene, options.parameters);
+  Headless headless(options, std::move(*scene), std::move(look));
   if (options.glsl)
     if (auto s = headless.shader(); !s) return s;
   if (!options.picture && !options.bench) return okStatus();

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
 #include <numbers>
+
+#include "sdf/shape/place.h"
+#include "sdf/shape/solids.h"
 
 namespace sdf {
 namespace {
@@ -32,6 +37,29 @@ TEST(ViewCamera, LooksFromItsPlaceAtItsTarget) {
   EXPECT_LT(camera->near, camera->far);
 }
 
+// A scene that leaves the camera open: all of it is in view, in pictures of kPictureAspect.
+TEST(ViewCamera, ShowsAllOfASceneOfAnySize) {
+  for (const double s : {1e-6, 1.0, 1e6}) {
+    Scene scene;
+    scene.add("", translate(box(Vec3E(3.0 * s, s, s)), {10.0 * s, 0.0, 0.0}));
+    const auto camera = viewCamera(scene);
+    ASSERT_TRUE(camera);
+    const double top = std::tan(0.5 * camera->verticalFov);
+    double outermost = 0.0, farthest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p(corner & 4 ? 13.0 : 7.0, corner & 2 ? 1.0 : -1.0, corner & 1 ? 1.0 : -1.0);
+      const glm::dvec3 seen = glm::inverse(camera->placement.rotation) * (s * p - camera->placement.position);
+      outermost = std::max({outermost, std::abs(seen.y) / (-seen.z * top),
+                            std::abs(seen.x) / (-seen.z * top * kPictureAspect)});
+      farthest = std::max(farthest, -seen.z);
+      EXPECT_LT(camera->near, -seen.z);
+    }
+    EXPECT_NEAR(outermost, 1.0 / 1.05, kRounding) << "a twentieth is left";
+    EXPECT_LT(farthest, camera->far);
+    EXPECT_LT(camera->far, 100.0 * farthest);
+  }
+}
+
 TEST(ViewCamera, TakesAnotherUpWhereItsOwnLiesAlongTheView) {
   for (const glm::dvec3& up :
        {glm::dvec3(0, 1, 0), glm::dvec3(0, 1e-14, 1), glm::dvec3(0, -7, 0), glm::dvec3(0, 0, 0)}) {
@@ -52,8 +80,8 @@ TEST(ViewCamera, IsLeftOutWhereItsNumbersMakeNone) {
     spoil(scene);
     return !viewCamera(scene);
   };
-  EXPECT_TRUE(none([](Scene& s) { s.camera.to = s.camera.from; }));
-  EXPECT_TRUE(none([&](Scene& s) { s.camera.from.x = nan; }));
+  EXPECT_TRUE(none([](Scene& s) { s.camera.to = s.camera.eye(); }));
+  EXPECT_TRUE(none([&](Scene& s) { s.camera.from = Vec3E(nan, 0.0, 0.0); }));
   EXPECT_TRUE(none([](Scene& s) { s.camera.fov = 180.0; }));
   EXPECT_TRUE(none([](Scene& s) { s.camera.fov = 0.0; }));
   EXPECT_TRUE(none([&](Scene& s) { s.camera.fov = nan; }));

@@ -23,7 +23,7 @@ Scene sceneInCpp() {
   const Shape body = round(box({1.0, 0.5, 1.0}), 0.1);
   const Shape dome = translate(sphere(0.7), {0.0, 0.6, 0.0});
   const Shape hole = rotate(cylinder(0.3, 2.0), {kQuarterTurn, 0.0, 0.0});
-  scene.camera = {.from = {3.0, 2.5, 4.0}, .to = {0.0, 0.3, 0.0}};
+  scene.camera = {.from = Vec3E(3.0, 2.5, 4.0), .to = {0.0, 0.3, 0.0}};
   scene.lights = {{.vector = {1.0, 2.0, 1.0}}};
   scene.add("body", (unite(body, dome, Blend::quadratic(k)) - hole).paint(clay));
   scene.add("floor", plane({0.0, 1.0, 0.0}, -0.6).paint({.color = checkerboard(Expr(0.2), Expr(0.35))}));

@@ -152,6 +152,23 @@ TEST_F(SessionTest, BeginsWithWhatItIsGiven) {
   EXPECT_EQ(refused.error().kind, ErrorKind::Scene);
 }
 
+// The camera of a scene that has none follows the window's shape and the file, and not the clock.
+TEST_F(SessionTest, FitsTheSceneWhereItHasNoCamera) {
+  write("return sphere(3):translate(time, 0, 0)");
+  start.time = 1.5;
+  Session session = open();
+  const Eye wide = session.eye();
+  EXPECT_EQ(wide.to, glm::dvec3(0.0)) << "at time 0";
+  session.controls.time = 2.0;
+  EXPECT_EQ(session.eye(), wide);
+  session.aspect = 0.5;
+  EXPECT_GT(session.eye().from.z, 1.5 * wide.from.z);
+  session.aspect = kPictureAspect;
+  write("return sphere(300)");
+  session.followFile();
+  EXPECT_NEAR(session.eye().from.z, 100.0 * wide.from.z, 1e-10 * wide.from.z);
+}
+
 TEST_F(SessionTest, ReloadsASavedFileAndKeepsSlidersAndCamera) {
   Session session = open();
   session.controls.parameters = {{"x", 1.5}, {"size", 0.7}};

@@ -18,6 +18,7 @@ using viewer::Picture;
 constexpr const char* kBall = "return sphere(1)";
 // Moves with time, and grows with its parameter.
 constexpr const char* kMoving =
+    "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}\n"
     "part('ball', sphere(param('size', 1, {min = 0.1, max = 2})):translate(time, 0, 0))";
 constexpr int kUsage = 2, kScene = 3, kLimits = 4, kFiles = 5, kGraphics = 6;
 
@@ -223,6 +224,26 @@ TEST_F(Sdfview, HeedsItsOptions) {
     EXPECT_NE(drawn(kMoving, options).bytes, plain) << options[0] << " " << options[1];
   EXPECT_NE(drawn(kMoving, {"--view", "steps"}).bytes,
             drawn(kMoving, {"--view", "steps", "--method", "plain"}).bytes);
+}
+
+// A scene without a camera of its own fills its picture, whatever its size. An animation has one camera.
+TEST_F(Sdfview, FitsTheCameraWhereTheSceneHasNone) {
+  const auto shown = [](const Picture& picture) {
+    double count = 0.0;
+    for (std::size_t i = 4; i < picture.bytes.size(); i += 4)
+      count += !std::equal(&picture.bytes[i], &picture.bytes[i + 4], picture.bytes.data());
+    return count / (picture.width * picture.height);
+  };
+  for (const char* text :
+       {"background(0) return box(50, 20, 30)", "background(0) return box(0.05, 0.02, 0.03)"}) {
+    EXPECT_GT(shown(drawn(text, {})), 0.3) << text;
+    EXPECT_LT(shown(drawn(text, {})), 0.9) << text;
+  }
+  const char* moving = "background(0) return sphere(1):translate(time, 0, 0)";
+  EXPECT_GT(shown(drawn(moving, {})), 0.2);
+  EXPECT_NE(drawn(moving, {"--time", "0.5"}).bytes, drawn(moving, {}).bytes);
+  EXPECT_EQ(drawn("return sphere(param('size', 1, {min = 0.5, max = 9}))", {"-D", "size=4"}).bytes,
+            drawn("return sphere(4)", {}).bytes);
 }
 
 // As people look at plans: straight down, and up.

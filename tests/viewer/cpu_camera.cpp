@@ -9,7 +9,7 @@
 namespace sdf::test {
 
 Pinhole::Pinhole(const Camera& camera, int width, int height)
-    : width_(width), height_(height), from_(uniform(camera.from)) {
+    : width_(width), height_(height), from_(uniform(camera.eye())) {
   const glm::dvec3 ahead = glm::normalize(uniform(camera.to) - from_);
   right_ = glm::normalize(glm::cross(ahead, uniform(camera.up)));
   up_ = glm::cross(right_, ahead);

@@ -6,7 +6,7 @@
 
 namespace sdf::test {
 
-/// A scene's camera with its formulas read, before a picture of this size.
+/// A camera that its scene places, with its formulas read, before a picture of this size.
 class Pinhole {
  public:
   Pinhole(const Camera& camera, int width, int height);

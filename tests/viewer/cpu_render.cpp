@@ -12,6 +12,7 @@
 #include "sdf/march/ambient_occlusion.h"
 #include "sdf/march/normals.h"
 #include "sdf/march/shadow.h"
+#include "sdf/scene/fit.h"
 #include "viewer/cpu_camera.h"
 #include "viewer/cpu_uniform.h"
 
@@ -84,7 +85,10 @@ struct Seen {
 class Eye {
  public:
   Eye(const Scene& scene, const Present& present)
-      : scene_(scene), now_(present), marcher_(take(Marcher::make(present.field, present.march))) {}
+      : scene_(scene),
+        lengths_(viewLengths(scene, std::nullopt)),
+        now_(present),
+        marcher_(take(Marcher::make(present.field, present.march))) {}
 
   Seen look(const Rays& rays, int bouncesLeft) {
     Seen seen{{}, std::vector<glm::dvec3>(rays.size(), glm::dvec3(0.0)), take(marcher_.trace(rays))};
@@ -141,7 +145,7 @@ class Eye {
   std::vector<double> tapOcclusion(const Surface& s) const {
     const AmbientOcclusion& o = scene_.ambientOcclusion;
     if (o.kind != AmbientOcclusion::Kind::Taps) return std::vector<double>(s.ray.size(), 1.0);
-    const TapOptions options{o.count, o.spacing, now_.occlusionStrength, TapWeights::Relative};
+    const TapOptions options{o.count, lengths_.tapSpacing, now_.occlusionStrength, TapWeights::Relative};
     return take(occlusionByTaps(now_.shadeField, s.points, s.normals, options));
   }
 
@@ -174,11 +178,11 @@ class Eye {
       return std::vector<double>(s.ray.size(), 1.0);
     // The kinds after None are the methods, in their order.
     const auto method = static_cast<ShadowMethod>(static_cast<int>(shadow.kind) - 1);
-    const ShadowOptions options{method, now_.sharpness, std::min(kShadowEpsilon, 0.5 * shadow.start),
-                                shadow.steps};
-    Rays way = light.isPoint ? raysToPoint(s.points, light.vector, shadow.start)
-                             : raysTowards(s.points, light.vector, shadow.start, shadow.reach);
-    for (double& end : way.tMax) end = std::min(end, std::max(shadow.start, shadow.reach));
+    const double start = lengths_.shadowStart, reach = lengths_.shadowReach;
+    const ShadowOptions options{method, now_.sharpness, std::min(kShadowEpsilon, 0.5 * start), shadow.steps};
+    Rays way = light.isPoint ? raysToPoint(s.points, light.vector, start)
+                             : raysTowards(s.points, light.vector, start, reach);
+    for (double& end : way.tMax) end = std::min(end, std::max(start, reach));
     return take(shadows(now_.shadeField, way, options)).light;
   }
 
@@ -192,7 +196,7 @@ class Eye {
       if (w <= 0.0) continue;
       of.push_back(i);
       weight.push_back(w);
-      mirrored.add(s.points[i], glm::normalize(glm::reflect(d, n)), kMirrorStart, scene_.maxDistance);
+      mirrored.add(s.points[i], glm::normalize(glm::reflect(d, n)), kMirrorStart, lengths_.maxDistance);
     }
     if (of.empty()) return;
     const Seen seen = look(mirrored, bouncesLeft - 1);
@@ -207,6 +211,7 @@ class Eye {
   }
 
   const Scene& scene_;
+  ViewLengths lengths_;
   const Present& now_;
   Marcher marcher_;
   ScalarReading<double> reading_;
@@ -232,7 +237,7 @@ Rays raysOfRow(const Scene& scene, const CpuRenderOptions& o, int row) {
     for (int sample = 0; sample < o.samples * o.samples; ++sample)
       rays.add(camera.from(),
                camera.through(within(column, sample % o.samples), within(row, sample / o.samples)), 0.0,
-               scene.maxDistance);
+               viewLengths(scene, std::nullopt).maxDistance);
   return rays;
 }
 

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "sdf/scene/fit.h"
 #include "sdf/script/script.h"
 #include "viewer/psnr.h"
 #include "viewer/truth.h"
@@ -27,7 +28,7 @@ TEST(CpuRender, TellsDepthAndNormalOfEachPixel) {
       if (std::abs(miss - 1.0) < rim) continue;
       ASSERT_EQ(picture.hit(column, row), miss < 1.0) << column << ", " << row;
       if (miss > 1.0) {
-        ASSERT_EQ(picture.depth[i], scene.maxDistance);
+        ASSERT_EQ(picture.depth[i], viewLengths(scene, std::nullopt).maxDistance);
         ASSERT_EQ(picture.normal[i], glm::dvec3(0.0));
         continue;
       }

@@ -33,7 +33,8 @@ Drawn draw(const Scene& scene, const GpuRenderOptions& options) {
   auto renderer = take(viewer::Renderer::make(scene, options.shader));
   auto target = take(viewer::Target::create(options.width, options.height,
                                             {viewer::PixelFormat::Rgba32f, viewer::PixelFormat::Rgba32f}));
-  viewer::Frame frame = viewer::frameOf(viewer::LookFunction(scene), options.parameters);
+  viewer::Frame frame = viewer::frameOf(viewer::LookFunction(scene), options.parameters,
+                                        static_cast<double>(options.width) / options.height);
   frame.samples = options.samples;
   frame.filter = options.filter;
   frame.maxSteps = options.maxSteps;

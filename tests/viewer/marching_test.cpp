@@ -49,7 +49,7 @@ class Grazing : public testing::TestWithParam<Method> {
   // Counts the pixels whose rays meet the ground within reach and show sky, and those that ran out of steps.
   static void expectNoHoles(const Scene& scene, double reach, const GpuRenderOptions& options) {
     const auto picture = renderOnGpu(scene, options);
-    const glm::dvec3 from = uniform(scene.camera.from), forward = uniform(scene.camera.to) - from;
+    const glm::dvec3 from = uniform(scene.camera.eye()), forward = uniform(scene.camera.to) - from;
     const glm::dvec3 right(1.0, 0.0, 0.0), up = glm::cross(right, forward);
     int onGround = 0, holes = 0, spent = 0;
     for (int row = 0; row < options.height; ++row)

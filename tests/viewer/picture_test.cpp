@@ -38,7 +38,7 @@ class PictureOf : public testing::TestWithParam<std::string> {
     auto loaded = loadScene(SDF_SOURCE_DIR "/samples/" + GetParam() + ".lua");
     ASSERT_TRUE(loaded) << loaded.error().message;
     scene = std::move(*loaded);
-    scene.camera.from = scene.camera.from + kAside;
+    scene.camera.from = scene.camera.eye() + kAside;
   }
 
   Picture drawOnCpu(double epsilon) const {

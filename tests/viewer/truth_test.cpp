@@ -1,6 +1,7 @@
 // Every renderer against what geometry says: light on surfaces, shadows, mirrors, fog, and the camera.
 #include <glm/trigonometric.hpp>
 
+#include "sdf/scene/fit.h"
 #include "sdf/scene/patterns.h"
 #include "sdf/shape/booleans.h"
 #include "viewer/truth.h"
@@ -94,10 +95,11 @@ TEST_P(Truth, TheUmbraOfABallIsAnEllipse) {
 
 // How far the ball covers the sun as the soft formulas see it, without their gaps: the least k g / t.
 double leastRatio(const glm::dvec3& q, const glm::dvec3& sun, const glm::dvec3& center, double radius,
-                  const Shadow& shadow) {
-  const double sharpness = uniformValue(shadow.sharpness);
+                  const Scene& scene) {
+  const double sharpness = uniformValue(scene.shadow.sharpness);
   double least = 1.0;
-  for (double t = shadow.start; t < shadow.reach; t += 0x1p-6) {
+  const ViewLengths lengths = viewLengths(scene, std::nullopt);
+  for (double t = lengths.shadowStart; t < lengths.shadowReach; t += 0x1p-6) {
     const glm::dvec3 p = q + t * sun;
     const double g = std::min(p.z, glm::length(p - center) - radius);
     least = std::min(least, sharpness * g / t);
@@ -109,13 +111,13 @@ double leastRatio(const glm::dvec3& q, const glm::dvec3& sun, const glm::dvec3& 
 // ball is nearest, the nearer one lies no farther from there than s with g(s) = 2 s, g = sqrt(past^2 + s^2) -
 // r.
 double sparseRatio(const glm::dvec3& q, const glm::dvec3& sun, const glm::dvec3& center, double radius,
-                   const Shadow& shadow) {
+                   const Scene& scene) {
   const double past = approach(q, sun, center), r = radius;
   const double s = (std::sqrt(16.0 * r * r + 12.0 * (past * past - r * r)) - 4.0 * r) / 6.0;
   const double t = glm::dot(center - q, sun) - s, g = 2.0 * s;
-  if (t < shadow.start || t <= g) return 1.0;
+  if (t < viewLengths(scene, std::nullopt).shadowStart || t <= g) return 1.0;
   // Improved divides by up to sqrt(t^2 - g^2) instead of t.
-  return std::min(1.0, uniformValue(shadow.sharpness) * g / std::sqrt(t * t - g * g));
+  return std::min(1.0, uniformValue(scene.shadow.sharpness) * g / std::sqrt(t * t - g * g));
 }
 
 double signedCurve(double x) { return 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x); }
@@ -142,8 +144,8 @@ TEST_P(Truth, SoftShadowsAreDarkInTheUmbraAndFadeAsTheBallIsPassedFartherOff) {
       if (miss < radius) return Expected{kRed, rounding()};
       const bool isSigned = kind == Shadow::Kind::Signed;
       if (past < radius) return between(0.0, isSigned ? 0.5 : 0.0, slack);
-      const double least = leastRatio(q, sun, center, radius, scene.shadow);
-      const double most = sparseRatio(q, sun, center, radius, scene.shadow);
+      const double least = leastRatio(q, sun, center, radius, scene);
+      const double most = sparseRatio(q, sun, center, radius, scene);
       if (isSigned) return between(signedCurve(least), signedCurve(most), slack);
       return between(kind == Shadow::Kind::Improved ? worst * least : least, most, slack);
     });
@@ -307,7 +309,7 @@ TEST_P(Truth, OcclusionTapsCountTheMissingShareOfTheirHeights) {
     if (x < 0.0) return Expected{kBlack, rounding()};
     double sum = 0.0, slope = 0.0;
     for (int tap = 1; tap <= o.count; ++tap) {
-      const double h = tap * o.spacing;
+      const double h = tap * *o.spacing;
       sum += (h - std::min(h, x)) / h;
       slope += 1.0 / h;
     }

@@ -167,10 +167,11 @@ TEST(Views, OcclusionIsTheTapsShareAsGrey) {
       const double x = onWall(column, row).x + 1.0;
       if (x < 0.1) continue;
       double sum = 0.0;
-      for (int tap = 1; tap <= o.count; ++tap) sum += std::max(0.0, tap * o.spacing - x) / (tap * o.spacing);
+      for (int tap = 1; tap <= o.count; ++tap)
+        sum += std::max(0.0, tap * *o.spacing - x) / (tap * *o.spacing);
       // Planes are met exactly; a tap's share is off by a position's rounding over the least height.
       ASSERT_LE(farthest(glm::dvec3(picture[at(column, row)]), glm::dvec3(1.0 - 0.15 * sum)),
-                kFloat + 0.15 * o.count * 0x1p-20 / o.spacing)
+                kFloat + 0.15 * o.count * 0x1p-20 / *o.spacing)
           << "pixel " << column << ", " << row;
     }
 }

@@ -64,10 +64,12 @@ bool coloredLight(glm::vec4& product) {
   return moved;
 }
 
-bool lightControls(LookLight& light) {
+/// `speed` is how far a drag of a pixel moves a light's place, scene units.
+bool lightControls(LookLight& light, float speed) {
   const bool point = light.vector.w > 0.0f;
   glm::vec3 vector(light.vector);
-  bool moved = ImGui::DragFloat3(point ? "position" : "towards it", glm::value_ptr(vector), 0.01f);
+  bool moved =
+      ImGui::DragFloat3(point ? "position" : "towards it", glm::value_ptr(vector), point ? speed : 0.01f);
   const float length = glm::length(vector);
   if (moved && (point || length > 0.0f))
     light.vector = glm::vec4(point ? vector : vector / length, light.vector.w);
@@ -114,11 +116,12 @@ void parameterSliders(Session& session) {
 void lightPanel(Session& session) {
   Look look = session.look();
   LookEdits& edits = session.controls.look;
+  const float speed = static_cast<float>(0.002 * glm::length(look.eye.to - look.eye.from));
   for (std::size_t i = 0; i < look.lights.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     const bool point = look.lights[i].vector.w > 0.0f;
     ImGui::Text("light %zu, %s", i + 1, point ? "a point" : "far away");
-    if (lightControls(look.lights[i])) edits.lights[i] = look.lights[i];
+    if (lightControls(look.lights[i], speed)) edits.lights[i] = look.lights[i];
     ImGui::PopID();
   }
   if (ImGui::ColorEdit3("ambient", glm::value_ptr(look.ambient), kColor)) edits.ambient = look.ambient;

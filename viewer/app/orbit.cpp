@@ -14,7 +14,7 @@ namespace {
 const double kSteepest = glm::half_pi<double>() - 1e-4;
 const double kTurnOfHeight = glm::pi<double>();
 constexpr double kDolly = 0.9;
-constexpr double kNearest = 1e-6, kFarthest = 1e6;  // of a dolly, scene units
+constexpr double kNearest = 1e-12, kFarthest = 1e12;  // of a dolly, scene units
 
 Eye shifted(Eye eye, const glm::dvec3& shift) {
   eye.from += shift;

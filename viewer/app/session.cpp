@@ -6,6 +6,7 @@
 
 #include "sdf/script/script.h"
 #include "viewer/app/materials.h"
+#include "viewer/render/in_view.h"
 
 namespace sdf::viewer {
 namespace {
@@ -47,17 +48,19 @@ std::optional<Watch::Stamp> Watch::stamp() const {
 Result<Session> Session::open(const std::filesystem::path& file, Controls controls) {
   auto scene = loadScene(file, {.values = controls.parameters, .time = controls.time});
   if (!scene) return scene.error();
+  LookFunction look = lookOf(*scene, file, controls.parameters);
   auto renderer = build(*scene, {controls.view, controls.method, {}});
   if (!renderer) return renderer.error();
-  return Session(file, std::move(controls), std::move(*scene), std::move(*renderer));
+  return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer));
 }
 
-Session::Session(std::filesystem::path file, Controls start, Scene scene, Renderer renderer)
+Session::Session(std::filesystem::path file, Controls start, Scene scene, LookFunction look,
+                 Renderer renderer)
     : controls(std::move(start)),
       file_(std::move(file)),
       watch_(file_),
       scene_(std::move(scene)),
-      look_(scene_),
+      look_(std::move(look)),
       renderer_(std::move(renderer)),
       built_{controls.view, controls.method, {}} {}
 
@@ -86,12 +89,13 @@ Status Session::load() {
   Values parameters = controls.parameters;
   auto scene = loadKeeping(file_, parameters, controls.time);
   if (!scene) return scene.error();
+  LookFunction look = lookOf(*scene, file_, parameters);
   const Built wanted{controls.view, controls.method, {}};
   auto made = build(*scene, wanted);
   if (!made) return Error{made.error().kind, file_.string() + ": " + made.error().message};
 
   scene_ = std::move(*scene);
-  look_ = LookFunction(scene_);
+  look_ = std::move(look);
   renderer_ = std::move(*made);
   built_ = wanted;
   buildMessage_.clear();
@@ -136,7 +140,7 @@ Values Session::values() const {
 }
 
 Look Session::look() const {
-  Look look = look_.at(values());
+  Look look = look_.at(values(), aspect);
   if (controls.eye) look.eye = *controls.eye;
   const LookEdits& edits = controls.look;
   for (const auto& [index, light] : edits.lights) look.lights[index] = light;

@@ -69,6 +69,8 @@ class Session {
   /// The controls are for everyone to change; settle() then makes the picture fit them.
   Controls controls;
   bool playing = false;
+  /// The width of the picture by its height, to which cameras are fitted.
+  double aspect = kPictureAspect;
 
   /// Lets the clock run, if it is playing.
   void advance(double seconds) {
@@ -114,7 +116,7 @@ class Session {
     std::set<std::string> materials;
     bool operator==(const Built&) const = default;
   };
-  Session(std::filesystem::path file, Controls start, Scene scene, Renderer renderer);
+  Session(std::filesystem::path file, Controls start, Scene scene, LookFunction look, Renderer renderer);
   static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
   Status load();
   Built wanted() const { return {controls.view, controls.method, controls.editedMaterials}; }

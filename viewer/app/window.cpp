@@ -64,6 +64,7 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   glfwSwapInterval(1);
   auto session = Session::open(options.scene, options.controls);
   if (!session) return session.error();
+  session->aspect = static_cast<double>(options.width) / options.height;
   return std::unique_ptr<Window>(
       new Window(std::move(window), std::move(*session), options.scene.stem().string() + ".png"));
 }
@@ -142,11 +143,12 @@ Result<bool> Window::turn() {
     if (session_.message() != before) repaints_ = kRepaints;
     lastLook_ = now;
   }
+  const glm::ivec2 size = pixelsOf(handle());
+  if (size.x > 0 && size.y > 0) session_.aspect = static_cast<double>(size.x) / size.y;
   session_.advance(passed);
   input_.fly(passed, session_);
   session_.settle();
 
-  const glm::ivec2 size = pixelsOf(handle());
   const auto drawn = canvas_.update(session_, size.x, size.y, now);
   if (!drawn) return drawn.error();
   if (*drawn) gui_.readings.reset();  // they were another picture's

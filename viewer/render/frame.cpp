@@ -1,5 +1,6 @@
 #include "viewer/render/frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -21,9 +22,9 @@ double aheadOf(const glm::dvec3& forward, const Eye& eye, const std::optional<Bo
 
 }  // namespace
 
-Frame frameOf(const LookFunction& look, Values parameters) {
+Frame frameOf(const LookFunction& look, Values parameters, double aspect) {
   Frame frame;
-  frame.look = look.at(parameters);
+  frame.look = look.at(parameters, aspect);
   frame.parameters = std::move(parameters);
   return frame;
 }
@@ -45,7 +46,7 @@ void UniformValues::move(const Values& inputs) {
   last_ = std::move(own);
 }
 
-Extent::Extent(const Scene& scene) : maxDistance(scene.maxDistance) {
+Extent::Extent(const Scene& scene) : stated_(scene) {
   const Shape whole = scene.whole();
   if (whole.bounds.finite()) bounds = whole.bounds;
   // Occlusion by steps counts how many it takes to the hit.
@@ -53,8 +54,19 @@ Extent::Extent(const Scene& scene) : maxDistance(scene.maxDistance) {
   loose = whole.claim.kind > ClaimKind::ExactOutside && !counts;
 }
 
+ViewLengths Extent::lengths(const Eye& eye) const {
+  ViewLengths lengths = viewLengths(stated_, eye.fittedRadius);
+  if (eye.fittedRadius)
+    lengths.maxDistance = std::max(lengths.maxDistance, glm::length(eye.to - eye.from) + *eye.fittedRadius);
+  return lengths;
+}
+
 Shot::Shot(const Frame& frame, int width, int height, const Extent& extent)
-    : frame_(frame), width_(width), height_(height), extent_(extent) {
+    : frame_(frame),
+      width_(width),
+      height_(height),
+      extent_(extent),
+      lengths_(extent.lengths(frame.look.eye)) {
   const Eye& eye = frame.look.eye;
   axes_ = axesOf(eye);
   axes_.forward /= 2.0 * std::tan(0.5 * glm::radians(eye.fov));
@@ -73,9 +85,10 @@ void Shot::set(const Program& program, const std::vector<glm::vec4>& values) con
   program.set("up", glm::vec3(axes_.up));
   program.set("forward", glm::vec3(axes_.forward));
   program.set("ahead", ahead_);
-  program.set("maxDistance", extent_.maxDistance);
+  program.set("maxDistance", lengths_.maxDistance);
   program.set("pixelRadius", pixelRadius());
-  program.set("epsilon", frame_.epsilon);
+  program.set("unit", lengths_.unit);
+  program.set("epsilon", frame_.epsilon * lengths_.unit);
   program.set("threshold", extent_.loose ? 0.5 * frame_.threshold : frame_.threshold);
   program.set("maxSteps", frame_.maxSteps);
   const int side = frame_.samples;

@@ -16,12 +16,12 @@ struct Frame {
   int samples = 1;          ///< a side: a pixel takes its square
   bool filter = true;       ///< patterns are averaged over what a sample covers; see shaders/filter.h
   int maxSteps = 1024;      ///< readings that a ray may take
-  double epsilon = 1e-5;    ///< least distance that counts as a hit, scene units
+  double epsilon = 1e-5;    ///< least distance that counts as a hit, in the view's units (ViewLengths)
   double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit, half of it for loose scenes
 };
 
-/// Makes the frame of a scene's own look at these values.
-Frame frameOf(const LookFunction& look, Values parameters = {});
+/// Makes the frame of a scene's own look at these values, for pictures of this width by their height.
+Frame frameOf(const LookFunction& look, Values parameters = {}, double aspect = kPictureAspect);
 
 /// UniformValues are what a shader's uniform sdfValues holds in one frame after the other.
 class UniformValues {
@@ -46,19 +46,27 @@ struct Extent {
   explicit Extent(const Scene& scene);
 
   std::optional<Box> bounds;  ///< if they are finite
-  double maxDistance;
   bool loose;  ///< distances may be less than the way to the surface, so that rays count as hits farther off
+
+  /// Returns the lengths that the scene is seen with by this eye. One that is fitted sees all of the scene,
+  /// however far off it has been moved.
+  ViewLengths lengths(const Eye& eye) const;
+
+ private:
+  StatedLengths stated_;
 };
 
 /// A Shot is a frame's rays through the pixels of a picture of this size. The frame must outlive it.
 class Shot {
  public:
-  /// Aims the rays, which begin up to a ball around the bounds, if there are any, and end at maxDistance.
+  /// Aims the rays, which begin up to a ball around the bounds, if there are any, and end at the lengths'
+  /// maxDistance.
   Shot(const Frame& frame, int width, int height, const Extent& extent);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  double maxDistance() const { return extent_.maxDistance; }
+  /// Returns the lengths that the frame's eye sees the scene with.
+  const ViewLengths& lengths() const { return lengths_; }
 
   int samples() const { return frame_.samples * frame_.samples; }
   /// Returns a sample's share of its pixel.
@@ -78,6 +86,7 @@ class Shot {
   const Frame& frame_;
   int width_, height_, sample_ = 0;
   Extent extent_;
+  ViewLengths lengths_;
   Axes axes_;     // forward as long as the picture plane is far away, in picture heights
   double ahead_;  // of the eye, where rays begin
 };

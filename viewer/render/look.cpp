@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace sdf::viewer {
 namespace {
@@ -11,7 +13,8 @@ namespace {
 std::vector<Expr> numbersOf(const Scene& scene) {
   std::vector<Expr> numbers;
   const auto add = [&](const Vec3E& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); };
-  for (const Vec3E& v : {scene.camera.from, scene.camera.to, scene.camera.up, scene.ambient, scene.fog.color})
+  for (const Vec3E& v :
+       {scene.camera.eye(), scene.camera.to, scene.camera.up, scene.ambient, scene.fog.color})
     add(v);
   numbers.insert(numbers.end(), {scene.camera.fov, scene.fog.density, scene.shadow.sharpness,
                                  scene.ambientOcclusion.strength});
@@ -39,16 +42,28 @@ Eye upright(Eye eye) {
   return eye;
 }
 
+Eye fitted(Eye eye, const Box& box, double aspect) {
+  const Axes axes = axesOf(eye);
+  const glm::dmat3 columns(axes.right, axes.up, axes.forward);
+  eye.to = box.centre();
+  eye.from = eye.to - fittingDistance(box, columns, glm::radians(eye.fov), aspect) * axes.forward;
+  eye.fittedRadius = viewRadius(box);
+  return eye;
+}
+
 Axes axesOf(const Eye& eye) {
   const glm::dvec3 forward = glm::normalize(eye.to - eye.from);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, eye.up));
   return {eye.mirrored ? -right : right, glm::cross(right, forward), forward};
 }
 
-LookFunction::LookFunction(const Scene& scene)
-    : numbers_(numbersOf(scene)), lights_(scene.lights), mirrored_(scene.camera.mirrored) {}
+LookFunction::LookFunction(const Scene& scene, const std::optional<Box>& inView)
+    : numbers_(numbersOf(scene)),
+      lights_(scene.lights),
+      mirrored_(scene.camera.mirrored),
+      inView_(scene.camera.from ? std::nullopt : inView) {}
 
-Look LookFunction::at(const Values& values) const {
+Look LookFunction::at(const Values& values, double aspect) const {
   const std::vector<double> numbers = numbers_.uniform(values);
   auto next = numbers.begin();
   const auto number = [&] { return *next++; };
@@ -62,6 +77,7 @@ Look LookFunction::at(const Values& values) const {
   look.eye.fov = number();
   look.eye.mirrored = mirrored_;
   look.eye = upright(look.eye);
+  if (inView_) look.eye = fitted(look.eye, *inView_, aspect);
   look.fogDensity = static_cast<float>(number());
   look.sharpness = static_cast<float>(number());
   look.occlusionStrength = static_cast<float>(number());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sdf/eval/function.h"
-#include "sdf/scene/scene.h"
+#include "sdf/scene/fit.h"
 
 namespace sdf::viewer {
 
@@ -15,12 +15,17 @@ struct Eye {
   glm::dvec3 from{0.0, 1.5, 6.0}, to{0.0}, up{0.0, 1.0, 0.0};
   double fov = 45.0;  ///< vertical, degrees
   bool mirrored = false;
+  std::optional<double> fittedRadius{};  ///< of what the eye was fitted to, if it was; see viewLengths
   bool operator==(const Eye&) const = default;
 };
 
 /// Makes an eye that looks straight along its `up` have north, -z, up instead, as on a plan, or +y where that
 /// is no better; any other eye stays as it is.
 Eye upright(Eye eye);
+
+/// Moves an eye to where all of a finite box is in view in a picture of this width by its height, and has it
+/// look at the box's middle. Its direction, `up` and field of view stay.
+Eye fitted(Eye eye, const Box& box, double aspect);
 
 /// Axes are the picture's own, of length 1: `right` is the picture's right also where it is mirrored.
 struct Axes {
@@ -46,15 +51,19 @@ struct Look {
 /// A LookFunction is a scene's own look as a function of its inputs, compiled once.
 class LookFunction {
  public:
-  explicit LookFunction(const Scene& scene);
+  /// A camera that the scene leaves open is fitted to `inView`, if there is one.
+  LookFunction(const Scene& scene, const std::optional<Box>& inView);
+  explicit LookFunction(const Scene& scene) : LookFunction(scene, boundsInView(scene)) {}
 
-  /// Computes the look at these values; inputs without one have their defaults. "time" is one of them.
-  Look at(const Values& values) const;
+  /// Computes the look at these values; inputs without one have their defaults. "time" is one of them. A
+  /// fitted camera is fitted to pictures of this width by their height.
+  Look at(const Values& values, double aspect = kPictureAspect) const;
 
  private:
   Function numbers_;
   std::vector<Light> lights_;
   bool mirrored_;
+  std::optional<Box> inView_;  // what the camera is fitted to
 };
 
 /// Writes the camera as a scene's text: a call of `camera`.

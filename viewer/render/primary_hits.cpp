@@ -110,7 +110,7 @@ void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
 void PrimaryHits::drawTiles(const Program& program, const Shot& shot, std::optional<int> cell) const {
   coarse_->bindTexture(kStartsUnit);
   program.set("tiles", kStartsUnit);
-  program.set("tileLimit", shot.maxDistance());
+  program.set("tileLimit", shot.lengths().maxDistance);
   program.set("firstCell", cell.value_or(0));
   program.set("lastCell", cell.value_or(cells_ - 1));
   program.drawTiles(tiles(shot.width(), kTile), tiles(shot.height(), kTile), kTile);

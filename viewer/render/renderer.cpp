@@ -46,8 +46,7 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
     : shaders_(std::move(shaders)),
       values_(shaders_.picture.uniforms),
       extent_(scene),
-      shadow_(scene.shadow),
-      tapSpacing_(scene.ambientOcclusion.spacing) {}
+      shadowSteps_(scene.shadow.steps) {}
 
 Status Renderer::compile() {
   const Plan& plan = shaders_.plan;
@@ -65,6 +64,7 @@ Status Renderer::compile() {
 void Renderer::setLook(const Program& program, const Frame& frame, const Shot& shot) const {
   const Look& look = frame.look;
   const Plan& plan = shaders_.plan;
+  const ViewLengths& lengths = shot.lengths();
   const View view = plan.options.view;
   if (plan.lights) {
     std::vector<glm::vec4> vectors, colors;
@@ -81,14 +81,14 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
     program.set("fogDensity", look.fogDensity);
   }
   if (plan.shadow != Shadow::Kind::None) {
-    program.set("shadowStart", shadow_.start);
-    program.set("shadowReach", shadow_.reach);
-    program.set("shadowHit", std::min(1e-3, 0.5 * shadow_.start));
+    program.set("shadowStart", lengths.shadowStart);
+    program.set("shadowReach", lengths.shadowReach);
+    program.set("shadowHit", std::min(1e-3 * lengths.unit, 0.5 * lengths.shadowStart));
     program.set("sharpness", look.sharpness);
-    program.set("shadowSteps", shadow_.steps);
+    program.set("shadowSteps", shadowSteps_);
   }
   if (plan.occlusion != AmbientOcclusion::Kind::None) program.set("tapStrength", look.occlusionStrength);
-  if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", tapSpacing_);
+  if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", lengths.tapSpacing);
   if (plan.filters) program.set("footprint", shot.footprint());
   if (view == View::Slice) {
     program.set("slicePoint", glm::vec3(look.eye.to));

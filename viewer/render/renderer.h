@@ -58,8 +58,7 @@ class Renderer {
   UniformValues values_;        // of the picture
   std::optional<UniformValues> backgroundValues_;
   Extent extent_;
-  Shadow shadow_;
-  double tapSpacing_;
+  int shadowSteps_;
   double compileSeconds_ = 0.0;
 };
 

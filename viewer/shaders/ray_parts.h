@@ -14,6 +14,7 @@ uniform vec3 from, right, up;
 uniform vec3 forward;         // as long as the picture plane is far away, in picture heights
 uniform float ahead;          // of the eye, where t = 0: in lengths of `forward`
 uniform float maxDistance;    // from the eye
+uniform float unit;           // a length of the scene's size, where the camera is fitted to it
 uniform float pixelRadius;    // of a pixel's cone at distance 1
 uniform float epsilon;        // least distance that counts as a hit
 uniform float threshold;      // share of the pixel's cone that does
@@ -129,7 +130,7 @@ vec3 gradientAt(vec3 p) { return sdfGradient(p, vec3(0.0)); }
 /// Four corners of a cube: Evans 2006; written as a loop, so that the distance is inlined once.
 inline constexpr const char* kGradientByTaps = R"(
 vec3 gradientAt(vec3 p) {
-  float h = 1e-4 * max(1.0, max(abs(p.x), max(abs(p.y), abs(p.z))));
+  float h = 1e-4 * max(unit, max(abs(p.x), max(abs(p.y), abs(p.z))));
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     vec3 corner = vec3(float(((i + 3) >> 1) & 1), float((i >> 1) & 1), float(i & 1)) * 2.0 - 1.0;

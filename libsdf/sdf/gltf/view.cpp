@@ -35,15 +35,28 @@ glm::dquat lookAlong(const glm::dvec3& forward, const glm::dvec3& up) {
 }  // namespace
 
 std::optional<ViewCamera> viewCamera(const Scene& scene) {
-  const glm::dvec3 from = valueOf(scene.camera.from);
+  const glm::dvec3 from = valueOf(scene.camera.eye());
   const glm::dvec3 up = valueOf(scene.camera.up);
   const double fov = uniformValue(scene.camera.fov);
   const std::optional<glm::dvec3> forward = direction(valueOf(scene.camera.to) - from);
-  const bool usable = forward && finite(from) && finite(up) && fov > 0.0 && fov < 180.0 &&
-                      scene.maxDistance > 0.0 && std::isfinite(scene.maxDistance);
+  const double most = scene.maxDistance.value_or(1.0);
+  const bool usable =
+      forward && finite(from) && finite(up) && fov > 0.0 && fov < 180.0 && most > 0.0 && std::isfinite(most);
   if (!usable) return std::nullopt;
-  return ViewCamera{
-      {from, lookAlong(*forward, up)}, glm::radians(fov), scene.maxDistance * 1e-4, scene.maxDistance};
+  ViewCamera camera{{from, lookAlong(*forward, up)}, glm::radians(fov), 0.0, 0.0};
+  const std::optional<Box> inView = scene.camera.from ? std::nullopt : boundsInView(scene);
+  if (inView) {
+    const double radius = viewRadius(*inView);
+    glm::dmat3 axes = glm::mat3_cast(camera.placement.rotation);
+    axes[2] = *forward;
+    const double distance = fittingDistance(*inView, axes, camera.verticalFov, kPictureAspect);
+    camera.placement.position = inView->centre() - distance * *forward;
+    camera.far = std::max(viewLengths(scene, radius).maxDistance, distance + radius);
+  } else {
+    camera.far = viewLengths(scene, std::nullopt).maxDistance;
+  }
+  camera.near = 1e-4 * camera.far;
+  return camera;
 }
 
 std::vector<ViewLight> viewLights(const Scene& scene, const glm::dvec3& centre) {

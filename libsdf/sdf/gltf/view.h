@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sdf/scene/scene.h"
+#include "sdf/scene/fit.h"
 
 namespace sdf {
 
@@ -19,7 +19,7 @@ struct ViewCamera {
   Placement placement;
   double verticalFov;  ///< radians, below pi
   double near;         ///< scene units; a 10,000th of `far`, which a 24-bit depth buffer resolves
-  double far;          ///< the scene's maxDistance
+  double far;          ///< the scene's maxDistance, or as far as all of the scene reaches
 };
 
 /// KHR_lights_punctual multiplies by albedo / pi where the scene's Phong light multiplies by albedo, so
@@ -32,7 +32,8 @@ struct ViewLight {
   double intensity;  ///< lux for directional lights, candela for point lights
 };
 
-/// Nothing where the camera's numbers do not make one (not finite, or it looks at where it stands).
+/// The scene's camera; a fitted one shows all of the scene in pictures of kPictureAspect and wider. Nothing
+/// where the camera's numbers do not make one (not finite, or it looks at where it stands).
 std::optional<ViewCamera> viewCamera(const Scene& scene);
 
 /// The lights that shine: finite numbers, and neither black nor without direction.

@@ -13,12 +13,17 @@ namespace sdf {
 
 /// Pinhole camera. Vectors may depend on parameters and time, not on position.
 struct Camera {
-  Vec3E from{Expr(0.0), Expr(1.5), Expr(6.0)};
+  /// None: the camera is fitted (scene/fit.h): it looks at the middle of the scene along the way from
+  /// eye() to `to`, from where all of the scene is in view.
+  std::optional<Vec3E> from;
   Vec3E to{Expr(0.0)};
   Vec3E up{Expr(0.0), Expr(1.0), Expr(0.0)};
   Expr fov = 45.0;  ///< vertical field of view, degrees
   /// Flips left and right, for scenes ported from shaders that build right = up x forward.
   bool mirrored = false;
+
+  /// `from`, or {0, 1.5, 6} where there is none.
+  Vec3E eye() const { return from.value_or(Vec3E(Expr(0.0), Expr(1.5), Expr(6.0))); }
 };
 
 struct Light {
@@ -33,18 +38,18 @@ struct Light {
 struct Shadow {
   enum class Kind { None, Hard, Soft, Improved, Signed };
   Kind kind = Kind::None;
-  Expr sharpness = 8.0;  ///< k of k d / t; larger is harder
-  double start = 0.02;   ///< where the shadow ray leaves the surface
-  double reach = 20.0;   ///< how far it goes
-  int steps = 50;        ///< at most
+  Expr sharpness = 8.0;         ///< k of k d / t; larger is harder
+  std::optional<double> start;  ///< where the shadow ray leaves the surface; none: see viewLengths
+  std::optional<double> reach;  ///< how far it goes; none: see viewLengths
+  int steps = 50;               ///< at most
 };
 
 struct AmbientOcclusion {
   enum class Kind { None, Taps, Steps };
   Kind kind = Kind::None;
-  double spacing = 0.08;  ///< Taps: distance between samples along the normal
-  int count = 5;          ///< Taps: how many
-  Expr strength = 0.2;    ///< Taps: weight of each; Steps: darkening of each marching step
+  std::optional<double> spacing;  ///< Taps: distance between samples along the normal; none: see viewLengths
+  int count = 5;                  ///< Taps: how many
+  Expr strength = 0.2;            ///< Taps: weight of each; Steps: darkening of each marching step
 };
 
 struct Fog {
@@ -71,8 +76,8 @@ struct Scene {
   Shadow shadow;
   AmbientOcclusion ambientOcclusion;
   int reflectionBounces = 1;
-  double maxDistance = 80.0;    ///< how far the camera sees
-  std::optional<double> gamma;  ///< none: sRGB output; 1: raw values
+  std::optional<double> maxDistance;  ///< how far the camera sees; none: see viewLengths
+  std::optional<double> gamma;        ///< none: sRGB output; 1: raw values
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);

@@ -161,16 +161,17 @@ template Status apply(const Setting<Sky>&, const std::map<std::string, SettingVa
 // clang-format off
 const std::vector<Setting<Scene>>& sceneSettings() {
   static const std::vector<Setting<Scene>> settings{
-      {"camera", "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}", "where the scene is seen from",
+      {"camera", "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}",
+       "where the scene is seen from; without it all of the scene is in view, if its bounds are finite",
        {field<&Scene::camera, &Camera::from>("from", Kind::Vector, "the eye"),
         field<&Scene::camera, &Camera::to>("to", Kind::Vector, "the point in the middle of the picture"),
         field<&Scene::camera, &Camera::up>("up", Kind::Vector, "what is up"),
         field<&Scene::camera, &Camera::fov>("fov", Kind::Number, "vertical field of view, below 180 degrees", Rule::Positive),
         field<&Scene::camera, &Camera::mirrored>("mirrored", Kind::Flag, "swaps left and right")},
-       false, nullptr,
+       false, [](Scene& s) { s.camera.from = s.camera.eye(); },
        [](const Scene& s) -> std::string {
          if (uniformValue(s.camera.fov) >= 180.0) return ": 'fov' must be below 180 degrees";
-         const bool same = uniformValue(length(s.camera.from - s.camera.to)) == 0.0;
+         const bool same = uniformValue(length(s.camera.eye() - s.camera.to)) == 0.0;
          return same ? ": 'from' and 'to' must be different points" : "";
        }},
       {"ambient", "ambient(color)", "light that comes from everywhere",
@@ -185,22 +186,22 @@ const std::vector<Setting<Scene>>& sceneSettings() {
       {"shadows", "shadows{kind = \"soft\"}", "makes lights cast shadows",
        {field<&Scene::shadow, &Shadow::kind>("kind", Kind::Choice, "method", Rule::Any, "", {"none", "hard", "soft", "improved", "signed"}),
         field<&Scene::shadow, &Shadow::sharpness>("sharpness", Kind::Number, "of soft edges; larger is harder", Rule::Positive),
-        field<&Scene::shadow, &Shadow::start>("start", Kind::PlainNumber, "distance from the surface at which the shadow ray starts", Rule::Positive),
-        field<&Scene::shadow, &Shadow::reach>("reach", Kind::PlainNumber, "how far it goes", Rule::Positive),
+        field<&Scene::shadow, &Shadow::start>("start", Kind::PlainNumber, "distance from the surface at which the shadow ray starts", Rule::Positive, "0.02; without a camera 0.01 radii of the scene"),
+        field<&Scene::shadow, &Shadow::reach>("reach", Kind::PlainNumber, "how far it goes", Rule::Positive, "20; without a camera 10 radii of the scene"),
         field<&Scene::shadow, &Shadow::steps>("steps", Kind::Integer, "at most", Rule::Positive)},
        false, [](Scene& s) { s.shadow.kind = Shadow::Kind::Soft; }},
       {"ambient_occlusion", "ambient_occlusion{kind = \"taps\"}", "darkens crevices",
        {field<&Scene::ambientOcclusion, &AmbientOcclusion::kind>("kind", Kind::Choice, "samples along the normal, or the count of steps", Rule::Any, "", {"none", "taps", "steps"}),
-        field<&Scene::ambientOcclusion, &AmbientOcclusion::spacing>("spacing", Kind::PlainNumber, "taps: distance between samples", Rule::Positive),
+        field<&Scene::ambientOcclusion, &AmbientOcclusion::spacing>("spacing", Kind::PlainNumber, "taps: distance between samples", Rule::Positive, "0.08; without a camera 0.04 radii of the scene"),
         field<&Scene::ambientOcclusion, &AmbientOcclusion::count>("count", Kind::Integer, "taps: how many", Rule::Positive),
         field<&Scene::ambientOcclusion, &AmbientOcclusion::strength>("strength", Kind::Number, "taps: weight of each; steps: darkening of each step", Rule::NotNegative)},
        false, [](Scene& s) { s.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps; }},
       {"reflections", "reflections{bounces = 1}", "how often mirrored rays are followed",
        {field<&Scene::reflectionBounces>("bounces", Kind::Integer, "0: no reflections", Rule::NotNegative)}},
       {"max_distance", "max_distance(80)", "how far the camera sees, at most 1e15",
-       {field<&Scene::maxDistance>("distance", Kind::PlainNumber, "", Rule::Positive)}, true, nullptr,
+       {field<&Scene::maxDistance>("distance", Kind::PlainNumber, "", Rule::Positive, "80; without a camera 40 radii of the scene")}, true, nullptr,
        [](const Scene& s) -> std::string {  // the squares of more are beyond a GPU's floats
-         return s.maxDistance > 1e15 ? " must be at most 1e15, got " + shown(s.maxDistance) : "";
+         return s.maxDistance > 1e15 ? " must be at most 1e15, got " + shown(*s.maxDistance) : "";
        }},
       {"gamma", "gamma(2.2)", "exponent of the picture's tone curve; 1 for raw values",
        {field<&Scene::gamma>("exponent", Kind::PlainNumber, "", Rule::Positive, "sRGB")}, true},
