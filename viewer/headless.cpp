@@ -24,8 +24,9 @@ double millisecondsSince(Clock::time_point start) {
 
 class Headless {
  public:
-  Headless(const Options& options, Scene scene, LookFunction look)
-      : options_(options), scene_(std::move(scene)), look_(std::move(look)) {}
+  /// The eye is fitted to the box, if there is one.
+  Headless(const Options& options, Scene scene, LookFunction look, const std::optional<Box>& fitTo)
+      : options_(options), scene_(std::move(scene)), look_(std::move(look)), fitTo_(fitTo) {}
 
   Status pictures() {
     const int count = options_.frames.value_or(1);
@@ -112,6 +113,7 @@ class Headless {
     const double aspect = static_cast<double>(options_.width) / options_.height;
     Frame f = frameOf(look_, std::move(parameters), aspect);
     if (options_.eye) f.look.eye = *options_.eye;
+    if (fitTo_) f.look.eye = fitted(f.look.eye, *fitTo_, aspect);
     f.samples = options_.samples;
     f.maxSteps = options_.maxSteps;
     return f;
@@ -146,6 +148,7 @@ class Headless {
   const Options& options_;
   Scene scene_;
   LookFunction look_;
+  std::optional<Box> fitTo_;
 };
 
 }  // namespace
@@ -154,7 +157,11 @@ Status runHeadless(const Options& options, std::ostream& out) {
   auto scene = loadScene(options.scene, {.values = options.parameters, .time = options.time});
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, options.scene, options.parameters);
-  Headless headless(options, std::move(*scene), std::move(look));
+  std::optional<Box> fitTo;
+  if (options.fit)
+    if (auto s = keep(boxInView(*scene, options.scene, options.parameters, options.time), fitTo); !s)
+      return s;
+  Headless headless(options, std::move(*scene), std::move(look), fitTo);
   if (options.glsl)
     if (auto s = headless.shader(); !s) return s;
   if (!options.picture && !options.bench) return okStatus();

@@ -113,6 +113,8 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
       ->allow_extra_args(false);
   add("--camera", "x,y,z,x,y,z[,fov]", "where the camera stands and looks, and its field of view",
       [&](const std::string& word) { return camera(word, options.eye); });
+  app.add_flag("--fit", options.fit,
+               "move the camera to where all of the scene is in view; its direction stays");
   whole("--frames", options.frames, "draw N pictures, OUT_0001.png and so on, or wherever OUT has %04d");
   add("--fps", "F", "frames a second [24]", [&](const std::string& word) {
     return take<double>("--fps", word, options.framesPerSecond, positive);

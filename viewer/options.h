@@ -24,6 +24,7 @@ struct Options {
   double framesPerSecond = 24.0;
   ShaderOptions shader;
   std::optional<Eye> eye;
+  bool fit = false;  ///< moves the eye, the scene's or this one, to where all is in view
   Values parameters;
 };
 

@@ -152,6 +152,30 @@ TEST_F(SessionTest, BeginsWithWhatItIsGiven) {
   EXPECT_EQ(refused.error().kind, ErrorKind::Scene);
 }
 
+TEST_F(SessionTest, MovesTheCameraToWhereAllIsInView) {
+  Session session = open();
+  const Eye before = session.eye();
+  ASSERT_TRUE(session.fit());
+  const Eye wide = session.eye();
+  EXPECT_TRUE(wide.fittedRadius);
+  EXPECT_EQ(wide.from.x, 0.0);
+  EXPECT_EQ(wide.to, before.to);
+  session.controls.parameters["size"] = 2.0;
+  ASSERT_TRUE(session.fit());
+  EXPECT_NEAR(session.eye().from.z, 2.0 * wide.from.z, 1e-12 * wide.from.z) << "as the ball is now";
+  session.aspect = 0.5;
+  ASSERT_TRUE(session.fit());
+  EXPECT_GT(session.eye().from.z, 3.0 * wide.from.z) << "a narrow picture";
+
+  write("return plane({0, 1, 0}, 0)");
+  session.followFile();
+  session.controls.eye = before;
+  const Status refused = session.fit();
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("unbounded"), std::string::npos) << refused.error().message;
+  EXPECT_EQ(session.eye(), before);
+}
+
 // The camera of a scene that has none follows the window's shape and the file, and not the clock.
 TEST_F(SessionTest, FitsTheSceneWhereItHasNoCamera) {
   write("return sphere(3):translate(time, 0, 0)");

@@ -211,6 +211,9 @@ TEST_F(BareWindowTest, KeysLookFlyPlayAndShowViews) {
   keys("space");
   ASSERT_TRUE(until([&] { return !window->session().playing; }));
 
+  keys("f");
+  ASSERT_TRUE(until([&] { return window->session().eye().fittedRadius.has_value(); }));
+
   keys("v");
   ASSERT_TRUE(until([&] { return window->session().controls.view == View::Normals; }));
   settle();

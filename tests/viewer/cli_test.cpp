@@ -82,7 +82,7 @@ TEST_F(Sdfview, SaysWhatItCanDo) {
   EXPECT_EQ(help.status, 0);
   for (const char* word :
        {"SCENE", "--render", "--size", "--time", "--samples", "--steps", "--view", "--method", "-D",
-        "--camera", "--frames", "--fps", "--bench", "--glsl", "--version",
+        "--camera", "--fit", "--frames", "--fps", "--bench", "--glsl", "--version",
         "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.status, 0);
@@ -244,6 +244,18 @@ TEST_F(Sdfview, FitsTheCameraWhereTheSceneHasNone) {
   EXPECT_NE(drawn(moving, {"--time", "0.5"}).bytes, drawn(moving, {}).bytes);
   EXPECT_EQ(drawn("return sphere(param('size', 1, {min = 0.5, max = 9}))", {"-D", "size=4"}).bytes,
             drawn("return sphere(4)", {}).bytes);
+}
+
+TEST_F(Sdfview, MovesTheCameraToWhereAllIsInView) {
+  const std::string ball = "return sphere(10)", camera = "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}\n";
+  const auto free = drawn(ball, {}).bytes;
+  EXPECT_NE(drawn(camera + ball, {}).bytes, free) << "the camera is in the ball";
+  EXPECT_EQ(drawn(camera + ball, {"--fit"}).bytes, free) << "along the default camera's direction";
+  EXPECT_EQ(drawn(ball, {"--fit"}).bytes, free);
+  EXPECT_EQ(drawn(ball, {"--fit", "--camera", "1,2.5,7,1,1,1"}).bytes, free) << "direction of --camera";
+  EXPECT_NE(drawn(ball, {"--fit", "--camera", "5,0,0,0,0,0"}).bytes, free);
+  expectRefused(kScene, "scene.lua: the scene is unbounded, so it cannot all be in view; give bounds(",
+                {scene("return plane()"), "--fit", "--render", at("a.png")});
 }
 
 // As people look at plans: straight down, and up.

@@ -174,6 +174,7 @@ void camera(Session& session, Requests& requests) {
   if (ImGui::Button("The scene's (0)")) session.controls.eye.reset();
   ImGui::EndDisabled();
   ImGui::SameLine();
+  requests.fit |= ImGui::Button("All in view (F)");
   requests.copyCamera |= ImGui::Button("Copy as scene text (C)");
   ImGui::TextWrapped("%s", textOf(session.eye()).c_str());
 }

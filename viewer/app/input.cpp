@@ -36,6 +36,7 @@ void Input::key(int key, int action, Session& session, Requests& requests) {
   if (key == GLFW_KEY_0) controls.eye.reset();
   if (key == GLFW_KEY_SPACE) session.playing = session.hasClock() && !session.playing;
   if (key == GLFW_KEY_V) controls.view = after(controls.view);
+  requests.fit |= key == GLFW_KEY_F;
   requests.savePicture |= key == GLFW_KEY_P;
   requests.copyCamera |= key == GLFW_KEY_C;
   requests.measure |= key == GLFW_KEY_M;

@@ -9,9 +9,9 @@ namespace sdf::viewer {
 
 /// Input turns keys, buttons and the pointer into changes of a session. Drags: left orbits, middle or shift
 /// and left pans, right turns the camera; the wheel goes nearer. Keys: W A S D E Q fly, 1 to 6 look from the
-/// sides, 0 through the scene's camera, space plays and pauses, V shows the next view, Tab hides the panels,
-/// P saves the picture, C copies the camera, M counts readings, Escape ends. Keys, buttons, actions and
-/// modifiers are GLFW's numbers.
+/// sides, 0 through the scene's camera, F moves to where all is in view, space plays and pauses, V shows the
+/// next view, Tab hides the panels, P saves the picture, C copies the camera, M counts readings, Escape ends.
+/// Keys, buttons, actions and modifiers are GLFW's numbers.
 class Input {
  public:
   void key(int key, int action, Session& session, Requests& requests);

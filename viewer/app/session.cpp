@@ -69,6 +69,13 @@ Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool co
   return Renderer::make(withSurfaceParameters(scene, wanted.materials), options);
 }
 
+Status Session::fit() {
+  const auto box = boxInView(scene_, file_, controls.parameters, controls.time);
+  if (!box) return box.error();
+  controls.eye = fitted(eye(), *box, aspect);
+  return okStatus();
+}
+
 void Session::settle() {
   if (wanted() == built_) return;
   auto made = build(scene_, wanted());

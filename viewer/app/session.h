@@ -54,6 +54,7 @@ struct Controls {
 
 /// Requests are what keys and panels ask the window to do at its next turn.
 struct Requests {
+  bool fit = false;          ///< all of the scene in view
   bool savePicture = false;  ///< as the file that the panel names
   bool copyCamera = false;   ///< as scene text, to the clipboard
   bool measure = false;      ///< readings a pixel
@@ -76,6 +77,10 @@ class Session {
   void advance(double seconds) {
     if (playing) controls.time += seconds;
   }
+
+  /// Moves the camera along its direction to where all of the scene, as it is now, is in view. Errors: Scene,
+  /// where the scene is unbounded or its file has become wrong; the camera stays then.
+  Status fit();
 
   /// Makes the renderer fit the controls. Only another view, method or set of materials to edit compiles; if
   /// that fails, they go back to what is shown, and message() says why.

@@ -65,6 +65,8 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   auto session = Session::open(options.scene, options.controls);
   if (!session) return session.error();
   session->aspect = static_cast<double>(options.width) / options.height;
+  if (options.fit)
+    if (const Status s = session->fit(); !s) return s.error();
   return std::unique_ptr<Window>(
       new Window(std::move(window), std::move(*session), options.scene.stem().string() + ".png"));
 }
@@ -184,6 +186,10 @@ void Window::answer(const Requests& requests) {
     const auto picture = canvas_.picture(session_);
     const Status saved = picture ? writePng(gui_.pictureName, *picture) : Status(picture.error());
     tell(saved ? "saved " + gui_.pictureName : saved.error().message);
+  }
+  if (requests.fit) {
+    const Status fitted = session_.fit();
+    tell(fitted ? "" : fitted.error().message);
   }
   if (requests.copyCamera) {
     glfwSetClipboardString(handle(), textOf(session_.eye()).c_str());

@@ -15,6 +15,7 @@ struct WindowOptions {
   std::filesystem::path scene;
   Controls controls;
   int width = 1280, height = 720;
+  bool fit = false;  ///< begins with all of the scene in view
 };
 
 /// Shows the scene until the window is closed. It must be called on the main thread. Errors: Graphics where
