@@ -90,9 +90,9 @@ TEST(Errors, WrongTypesSayWhatWasGiven) {
       {"camera{mirrored = 1}", "scene.lua:1: camera: 'mirrored' must be true or false, got the number 1"},
       {"camera(3)",
        "scene.lua:1: camera takes a table of named fields, got the number 3; write "
-       "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}"},
+       "camera{from = {3.4, 2.6, 4.6}, to = {0, 0, 0}}"},
       {"camera{{1, 2, 3}}",
-       "scene.lua:1: camera: every field needs a name; write camera{from = {0, 1.5, 6}, to = {0, 0, 0}}"},
+       "scene.lua:1: camera: every field needs a name; write camera{from = {3.4, 2.6, 4.6}, to = {0, 0, 0}}"},
       {"part(sphere(1), 'a')", "scene.lua:1: part: the name must be a text, got a shape"},
       {"part('a', 3)", "scene.lua:1: part: the second argument must be a shape, got the number 3"},
       {"return sphere(1):paint{color = '#ff000'}",

@@ -18,7 +18,7 @@ using viewer::Picture;
 constexpr const char* kBall = "return sphere(1)";
 // Moves with time, and grows with its parameter.
 constexpr const char* kMoving =
-    "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}\n"
+    "camera{from = {3.4, 2.6, 4.6}, to = {0, 0, 0}}\n"
     "part('ball', sphere(param('size', 1, {min = 0.1, max = 2})):translate(time, 0, 0))";
 constexpr int kUsage = 2, kScene = 3, kLimits = 4, kFiles = 5, kGraphics = 6;
 
@@ -247,7 +247,7 @@ TEST_F(Sdfview, FitsTheCameraWhereTheSceneHasNone) {
 }
 
 TEST_F(Sdfview, MovesTheCameraToWhereAllIsInView) {
-  const std::string ball = "return sphere(10)", camera = "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}\n";
+  const std::string ball = "return sphere(10)", camera = "camera{from = {3.4, 2.6, 4.6}, to = {0, 0, 0}}\n";
   const auto free = drawn(ball, {}).bytes;
   EXPECT_NE(drawn(camera + ball, {}).bytes, free) << "the camera is in the ball";
   EXPECT_EQ(drawn(camera + ball, {"--fit"}).bytes, free) << "along the default camera's direction";

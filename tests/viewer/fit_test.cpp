@@ -108,7 +108,7 @@ TEST(Fit, ACameraOfTheScenesOwnStays) {
   const LookFunction look(sceneOf("camera{fov = 30}\nreturn sphere(1000)"));
   for (const double aspect : {0.5, 2.0}) {
     const Eye eye = look.at({}, aspect).eye;
-    EXPECT_EQ(eye.from, glm::dvec3(0.0, 1.5, 6.0));
+    EXPECT_EQ(eye.from, glm::dvec3(3.4, 2.6, 4.6));
     EXPECT_EQ(eye.to, glm::dvec3(0.0));
     EXPECT_FALSE(eye.fittedRadius);
   }

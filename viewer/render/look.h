@@ -12,7 +12,7 @@ namespace sdf::viewer {
 
 /// An Eye is a pinhole camera, in double: it may stand far from the origin.
 struct Eye {
-  glm::dvec3 from{0.0, 1.5, 6.0}, to{0.0}, up{0.0, 1.0, 0.0};
+  glm::dvec3 from{3.4, 2.6, 4.6}, to{0.0}, up{0.0, 1.0, 0.0};
   double fov = 45.0;  ///< vertical, degrees
   bool mirrored = false;
   std::optional<double> fittedRadius{};  ///< of what the eye was fitted to, if it was; see viewLengths

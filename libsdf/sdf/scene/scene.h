@@ -22,8 +22,8 @@ struct Camera {
   /// Flips left and right, for scenes ported from shaders that build right = up x forward.
   bool mirrored = false;
 
-  /// `from`, or {0, 1.5, 6} where there is none.
-  Vec3E eye() const { return from.value_or(Vec3E(Expr(0.0), Expr(1.5), Expr(6.0))); }
+  /// `from`, or {3.4, 2.6, 4.6} where there is none.
+  Vec3E eye() const { return from.value_or(Vec3E(Expr(3.4), Expr(2.6), Expr(4.6))); }
 };
 
 struct Light {

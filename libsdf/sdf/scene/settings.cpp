@@ -161,7 +161,7 @@ template Status apply(const Setting<Sky>&, const std::map<std::string, SettingVa
 // clang-format off
 const std::vector<Setting<Scene>>& sceneSettings() {
   static const std::vector<Setting<Scene>> settings{
-      {"camera", "camera{from = {0, 1.5, 6}, to = {0, 0, 0}}",
+      {"camera", "camera{from = {3.4, 2.6, 4.6}, to = {0, 0, 0}}",
        "where the scene is seen from; without it all of the scene is in view, if its bounds are finite",
        {field<&Scene::camera, &Camera::from>("from", Kind::Vector, "the eye"),
         field<&Scene::camera, &Camera::to>("to", Kind::Vector, "the point in the middle of the picture"),
