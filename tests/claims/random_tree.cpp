@@ -63,7 +63,7 @@ class Grower {
   }
 
   double number(const Parameter& p) {
-    if (says(p, "whole number")) return whole(1, 3);
+    if (p.rule == Rule::Count) return whole(1, 3);
     if (says(p, "0 to 1")) return threeDigits(uniform(0.0, 1.0));
     const bool maybeZero = p.rule == Rule::Any || p.rule == Rule::NotNegative;
     if (maybeZero && oneIn(8)) return 0.0;

@@ -193,14 +193,30 @@ TEST(Errors, PositionsHaveNoPlaceInSizesAndCameras) {
   });
 }
 
-TEST(Errors, ComparingFormulasPointsToSelect) {
+TEST(Errors, ComparingFormulasPointsToTheirValues) {
   const std::string expected =
-      "scene.lua:1: a formula's value is not known while the scene is built; use select(less(a, b), …) or "
-      "less_equal or "
-      "equal, or value(e) for the present value of a parameter";
+      "scene.lua:2: a formula cannot be compared, for its value may change; write value(k) for the present "
+      "value of a parameter k, or choose with select(less(a, b), x, y)";
   for (const char* text : {"if time < 1 then end", "if 1 <= time then end", "if time == time + 1 then end",
-                           "if param('a', 1) > time then end", "table.sort({time, 2 * time})"})
-    EXPECT_EQ(errorOf(text), expected) << text;
+                           "if param('a', 1) > time then end", "table.sort({time, 2 * time})",
+                           "if param('k', 0.2) > 0.5 then end"})
+    for (const bool fixed : {false, true})
+      EXPECT_EQ(errorOf(std::string("\n") + text, {.fixed = fixed}), expected) << text << fixed;
+}
+
+TEST(Errors, FormulasInPlaceOfNumbersPointToTheirValues) {
+  const std::string hint = "; value(k) gives the present value of a parameter k";
+  for (const auto& [text, message] : std::initializer_list<Mistake>{
+           {"for i = 1, k do end", "bad 'for' limit (number expected, got formula)"},
+           {"local s = 'ball ' .. k", "attempt to concatenate a formula value (local 'k')"},
+           {"local s = k & 3", "attempt to perform bitwise operation on a formula value (local 'k')"},
+           {"local s = #k", "attempt to get length of a formula value (local 'k')"},
+           {"local s = string.format('%d', k)",
+            "bad argument #2 to 'format' (number expected, got formula)"}})
+    for (const bool fixed : {false, true})
+      EXPECT_EQ(errorOf(std::string("local k = param('k', 1) ") + text, {.fixed = fixed}),
+                "scene.lua:1: " + (message + hint))
+          << text << fixed;
 }
 
 TEST(Errors, SettingsAreMadeOnce) {
@@ -258,9 +274,6 @@ TEST(Errors, TheScriptsOwnErrorsKeepTheirPlace) {
       {"assert(false, 'two\\nlines')", "scene.lua:1: two lines"},
       {"local t = nil\nt.x = 1", "scene.lua:2: attempt to index a nil value (local 't')"},
       {"local f\nlocal function g() f() end\ng()", "scene.lua:2: attempt to call a nil value (upvalue 'f')"},
-      {"part('ball ' .. time, sphere(1))",
-       "scene.lua:1: attempt to concatenate a formula value (global 'time')"},
-      {"for i = 1, time do end", "scene.lua:1: bad 'for' limit (number expected, got formula)"},
   });
 }
 

@@ -198,6 +198,109 @@ TEST(Language, AskingTwiceForAParameterGivesTheSame) {
   EXPECT_TRUE(scene.parts.at(0).shape.distance == scene.parts.at(1).shape.distance);
 }
 
+// What sdfview keeps open, sdf2gltf settles before: the same script has to mean the same in both.
+TEST(Language, AParameterIsAFormulaWhetherItsValueIsFixedOrNot) {
+  const std::string k = "local k = param('k', 0.2, {max = 3}) ";
+  for (const bool fixed : {false, true}) {
+    SCOPED_TRACE(fixed);
+    for (const char* formula : {"k",
+                                "2 * k",
+                                "k - k",
+                                "-k",
+                                "k // 1",
+                                "k ^ 2",
+                                "sin(k)",
+                                "math.floor(k)",
+                                "round(k)",
+                                "abs(k)",
+                                "min(1, k)",
+                                "max(k, 1)",
+                                "pow(k, 2)",
+                                "mod(k, 2)",
+                                "atan(k, 1)",
+                                "log(k + 1)",
+                                "clamp(k, 0, 1)",
+                                "mix(0, 1, k)",
+                                "mix({0, 0, 0}, {1, 0, k}, 0.5)[1]",
+                                "mix({0, 0, 0}, {1, 1, 1}, k)[2]",
+                                "smoothstep(0, 1, k)",
+                                "step(k, 1)",
+                                "less(k, 1)",
+                                "select(k, 1, 2)",
+                                "select(k, '#f00', 1)[1]",
+                                "length(k, 1)",
+                                "length({k, 1, 2})",
+                                "dot({1, 2}, {3, k})",
+                                "noise(k, 0, 0)",
+                                "color(k, 0, 0)[2]",
+                                "color(function() return k, 0, 0 end)[2]",
+                                "time",
+                                "time + 1"})
+      sceneOf(k + "local e = " + formula +
+                  " assert(type(e) == 'userdata' and tostring(e) == 'formula', type(e)) return sphere(1)",
+              {.fixed = fixed});
+    for (const char* number :
+         {"value(k)", "value(2 * k + time)", "sin(value(k))", "mix('#f00', {0, 0, 1}, 1)[3]",
+          "color('#abc')[1]", "noise(0.5, 0, 0, {octaves = 2})", "length({3, 4})"})
+      sceneOf(k + "local e = " + number + " assert(type(e) == 'number', type(e)) return sphere(1)",
+              {.fixed = fixed});
+    EXPECT_EQ(
+        errorOf(k + "return select(k, sphere(1), box(1))", {.fixed = fixed}),
+        "scene.lua:1: select chooses between numbers and colours; to choose between shapes, use morph or "
+        "plain 'if'");
+    EXPECT_EQ(
+        errorOf(k + "return polygon{{0, 0}, {k, 0}, {0, 1}}:extrude(1)", {.fixed = fixed}),
+        "scene.lua:1: number 1 of polygon: 'points' must be a plain number, got a formula; value(e) gives "
+        "its present value");
+    EXPECT_EQ(
+        errorOf("local n = param('n', 2) return sphere(0.3):repeat_grid(1, {1, n, 1})", {.fixed = fixed}),
+        "scene.lua:1: number 2 of repeat_grid: 'count' must be a plain number, got a formula; value(e) gives "
+        "its present value");
+  }
+}
+
+TEST(Language, AFixedParameterFoldsAsItsValueWould) {
+  ScriptOptions options{.values = {{"k", 0.75}}, .fixed = true};
+  for (const char* shape : {"sphere(1 + k)", "sphere(1):translate(2 * sin(k), k ^ 2, 0)",
+                            "box(k, k // 1 + 1, 2)", "sphere(select(less(k, 1), k, 2))"}) {
+    const std::string text = std::string(" return ") + shape;
+    EXPECT_TRUE(sceneOf("local k = param('k', 0)" + text, options).parts.at(0).shape.distance ==
+                sceneOf("param('k', 0) local k = 0.75" + text, options).parts.at(0).shape.distance)
+        << shape;
+  }
+}
+
+TEST(Language, AConditionThatIsFixedLeavesOnlyWhatItChooses) {
+  const std::string text =
+      "local k = param('k', 1) return field(function(x, y, z) return select(k, x, y) end)";
+  EXPECT_TRUE(sceneOf(text, {.fixed = true}).parts.at(0).shape.distance == position().x);
+}
+
+TEST(Language, ValueGivesThePresentNumber) {
+  const std::string before = "local k = param('k', 0.2, {max = 3})";
+  for (const bool fixed : {false, true}) {
+    EXPECT_EQ(numberOf("value(k)", before, {.fixed = fixed}), 0.2);
+    EXPECT_EQ(numberOf("value(2 * k)", before, {.values = {{"k", 1.25}}, .fixed = fixed}), 2.5);
+    EXPECT_EQ(numberOf("value(time)", before, {.time = 4.5, .fixed = fixed}), 4.5);
+    sceneOf(before + " assert(math.type(value(k)) == 'integer') return sphere(1)",
+            {.values = {{"k", 2.0}}, .fixed = fixed});
+  }
+}
+
+TEST(Language, ASceneKnowsWhoseValuesShapedIt) {
+  const std::string text =
+      "local a, b, c = param('a', 1), param('b', 1), param('c', 1) "
+      "return sphere(value(a + b)), box(c, value(2), 1)";
+  EXPECT_EQ(sceneOf(text).valuesRead, (std::set<std::string>{"a", "b"}));
+  EXPECT_EQ(sceneOf("return sphere(1 + value(time))").valuesRead, std::set<std::string>{"time"});
+}
+
+TEST(Language, ValuesFromAnEarlierStateOfTheFileAreBroughtIntoItsRanges) {
+  const std::string text = "return sphere(param('r', 1, {min = 0.5, max = 2}))";
+  const Scene scene = sceneOf(text, {.values = {{"r", 9.0}, {"gone", 1.0}}, .tolerant = true});
+  EXPECT_EQ(scene.parameters.at(0), (ParameterInfo{"r", 2.0, 0.5, 2.0}));
+}
+
 TEST(Language, TimeIsAParameterOnlyWhereItIsNamed) {
   EXPECT_TRUE(sceneOf("return sphere(1)").parameters.empty());
   ScriptOptions options;

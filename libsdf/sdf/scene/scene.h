@@ -1,6 +1,7 @@
 // Scene: shapes with names, and all that is needed to look at them.
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,9 @@ struct Part {
 struct Scene {
   std::vector<Part> parts;  ///< united; a later part wins a tie. Names are unique
   std::vector<ParameterInfo> parameters;
+  /// Names of those parameters whose values shaped the scene while it was made (`value` in scene files): for
+  /// another value of one the scene must be made again.
+  std::set<std::string> valuesRead;
   std::optional<Box> bounds;  ///< what an unbounded scene is clipped to when meshed
   Camera camera;
   std::vector<Light> lights;

@@ -60,6 +60,9 @@ class Call {
     last_ += count;
   }
 
+  static Depends dependsOf(const Parameter& p) {
+    return p.rule == Rule::Count ? Depends::OnNothing : Depends::OnParameters;
+  }
   static int sizeOf(const Parameter& p) { return p.kind == ArgumentKind::Vector2 ? 2 : 3; }
   std::string what(const Parameter& p) const { return entry_.name + ": '" + p.name + "'"; }
 
@@ -92,7 +95,7 @@ class Call {
         return readChoice(L_, at, what(p), p.choices);
       case ArgumentKind::Vector2:
       case ArgumentKind::Vector3:
-        return readVector(L_, at, what(p), sizeOf(p), Depends::OnParameters);
+        return readVector(L_, at, what(p), sizeOf(p), dependsOf(p));
       case ArgumentKind::Shape:
         return shapeAt(p, at);
       case ArgumentKind::Shapes:
@@ -169,7 +172,7 @@ class Call {
     if (run < size || run < size + needed) return readOne(p, next_++);
     Vec3E v;
     Expr* components[] = {&v.x, &v.y, &v.z};
-    for (int i = 0; i < size; ++i) *components[i] = readNumber(L_, next_++, what(p), Depends::OnParameters);
+    for (int i = 0; i < size; ++i) *components[i] = readNumber(L_, next_++, what(p), dependsOf(p));
     return v;
   }
 

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "sdf/number/scalar.h"
+#include "sdf/script/context.h"
 #include "sdf/script/library.h"
 
 namespace sdf {
@@ -31,7 +32,7 @@ int unary(lua_State* L) {
   if (allPlain(L))
     lua_pushnumber(L, OnNumbers(lua_tonumber(L, 1)));
   else
-    pushExpr(L, OnFormulas(argument(L, 1)));
+    pushResult(L, OnFormulas(argument(L, 1)));
   return 1;
 }
 
@@ -48,7 +49,7 @@ int rounding(lua_State* L) {
 template <Expr (*OnFormulas)(const Expr&, const Expr&)>
 int binary(lua_State* L) {
   expectArguments(L, 2, 2);
-  pushExpr(L, OnFormulas(argument(L, 1), argument(L, 2)));
+  pushResult(L, OnFormulas(argument(L, 1), argument(L, 2)));
   return 1;
 }
 
@@ -74,7 +75,7 @@ int extreme(lua_State* L) {
   }
   Expr e = argument(L, 1);
   for (int i = 2; i <= count; ++i) e = kGreatest ? max(e, argument(L, i)) : min(e, argument(L, i));
-  return pushExpr(L, e), 1;
+  return pushResult(L, e), 1;
 }
 
 // Small whole exponents become products: exact for negative bases, and faster than pow.
@@ -105,28 +106,28 @@ int logarithm(lua_State* L) {
   expectArguments(L, 1, 2);
   Expr e = log(argument(L, 1));
   if (lua_gettop(L) == 2) e = e / log(argument(L, 2));
-  return pushExpr(L, e), 1;
+  return pushResult(L, e), 1;
 }
 
 int clampValue(lua_State* L) {
   expectArguments(L, 3, 3);
-  return pushExpr(L, clamp(argument(L, 1), argument(L, 2), argument(L, 3))), 1;
+  return pushResult(L, clamp(argument(L, 1), argument(L, 2), argument(L, 3))), 1;
 }
 
 int mixValues(lua_State* L) {
   expectArguments(L, 3, 3);
   const Expr t = argument(L, 3);
-  if (isNumeric(L, 1) && isNumeric(L, 2)) return pushExpr(L, mix(exprAt(L, 1), exprAt(L, 2), t)), 1;
+  if (isNumeric(L, 1) && isNumeric(L, 2)) return pushResult(L, mix(exprAt(L, 1), exprAt(L, 2), t)), 1;
   const Vec3E a = readColor(L, 1, argumentName(L, 1), Depends::OnPosition);
   const Vec3E b = readColor(L, 2, argumentName(L, 2), Depends::OnPosition);
-  return pushVector(L, mix(a, b, t)), 1;
+  return pushResult(L, mix(a, b, t)), 1;
 }
 
 int smoothStep(lua_State* L) {
   expectArguments(L, 3, 3);
   const Expr low = argument(L, 1), high = argument(L, 2);
   const Expr t = clamp((argument(L, 3) - low) / (high - low), 0.0, 1.0);
-  return pushExpr(L, square(t) * (3.0 - 2.0 * t)), 1;
+  return pushResult(L, square(t) * (3.0 - 2.0 * t)), 1;
 }
 
 Expr stepAt(const Expr& edge, const Expr& e) { return lessEqual(edge, e); }
@@ -134,6 +135,12 @@ double fractionOf(double a) { return a - std::floor(a); }
 Expr fraction(const Expr& a) { return a - floor(a); }
 double signOf(double a) { return less(0.0, a) - less(a, 0.0); }
 Expr sign(const Expr& a) { return less(0.0, a) - less(a, 0.0); }
+
+// A condition that is known leaves nothing but what it chooses.
+Expr chosen(const Expr& condition, const Expr& a, const Expr& b) {
+  if (!condition.isConstant()) return select(condition, a, b);
+  return condition.constantValue() != 0.0 ? a : b;
+}
 
 int selectValue(lua_State* L) {
   const int count = lua_gettop(L);
@@ -144,15 +151,15 @@ int selectValue(lua_State* L) {
           "select takes a condition and two values, select(less(x, 0), a, b); the n-th of ... is ({...})[n]");
   if (lua_isboolean(L, 1)) return lua_pushvalue(L, lua_toboolean(L, 1) ? 2 : 3), 1;
   const Expr condition = argument(L, 1);
-  if (condition.isConstant()) return lua_pushvalue(L, condition.constantValue() != 0.0 ? 2 : 3), 1;
+  if (!isFormula(L, 1)) return lua_pushvalue(L, condition.constantValue() != 0.0 ? 2 : 3), 1;
   if (isNumeric(L, 2) && isNumeric(L, 3))
-    return pushExpr(L, select(condition, exprAt(L, 2), exprAt(L, 3))), 1;
+    return pushFormula(L, chosen(condition, exprAt(L, 2), exprAt(L, 3))), 1;
   if (testShape(L, 2) || testShape(L, 3))
     raise(L, "select chooses between numbers and colours; to choose between shapes, use morph or plain 'if'");
   const Vec3E a = readColor(L, 2, argumentName(L, 2), Depends::OnPosition);
   const Vec3E b = readColor(L, 3, argumentName(L, 3), Depends::OnPosition);
-  return pushVector(L,
-                    {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)}),
+  return pushResult(L,
+                    {chosen(condition, a.x, b.x), chosen(condition, a.y, b.y), chosen(condition, a.z, b.z)}),
          1;
 }
 
@@ -162,13 +169,13 @@ int lengthOf(lua_State* L) {
     expectArguments(L, 1, 1);
     const int size = static_cast<int>(lua_rawlen(L, 1));
     const Vec3E v = readVector(L, 1, argumentName(L, 1), size == 2 ? 2 : 3, Depends::OnPosition);
-    return pushExpr(L, size == 2 ? length(v.x, v.y) : length(v)), 1;
+    return pushResult(L, size == 2 ? length(v.x, v.y) : length(v)), 1;
   }
   expectArguments(L, 1, 3);
   const Expr a = argument(L, 1);
-  if (lua_gettop(L) == 1) return pushExpr(L, abs(a)), 1;
+  if (lua_gettop(L) == 1) return pushResult(L, abs(a)), 1;
   const Expr b = argument(L, 2);
-  return pushExpr(L, lua_gettop(L) == 2 ? length(a, b) : length(a, b, argument(L, 3))), 1;
+  return pushResult(L, lua_gettop(L) == 2 ? length(a, b) : length(a, b, argument(L, 3))), 1;
 }
 
 int dotProduct(lua_State* L) {
@@ -176,7 +183,7 @@ int dotProduct(lua_State* L) {
   const int size = lua_istable(L, 1) && lua_rawlen(L, 1) == 2 ? 2 : 3;
   const Vec3E a = readVector(L, 1, argumentName(L, 1), size, Depends::OnPosition);
   const Vec3E b = readVector(L, 2, argumentName(L, 2), size, Depends::OnPosition);
-  return pushExpr(L, dot(a, b)), 1;
+  return pushResult(L, dot(a, b)), 1;
 }
 
 int presentValue(lua_State* L) {
@@ -184,6 +191,8 @@ int presentValue(lua_State* L) {
   if (lua_type(L, 1) == LUA_TNUMBER) return lua_pushvalue(L, 1), 1;
   const Expr e = argument(L, 1);
   if (dependsOnSpace(e)) raise(L, "value: the formula depends on the position, so it has no single value");
+  for (const Expr& node : topologicalOrder(std::span(&e, 1)))
+    if (node.op() == Op::Parameter) contextOf(L).scene.valuesRead.insert(node.parameterInfo().name);
   const double v = uniformValue(e);
   lua_Integer whole;
   if (v == std::floor(v) && lua_numbertointeger(v, &whole))
@@ -217,16 +226,16 @@ constexpr Sign kSigns[] = {{"__add", "+", plus},         {"__sub", "-", minus}, 
 
 int arithmetic(lua_State* L) {
   const auto& s = *static_cast<const Sign*>(lua_touserdata(L, lua_upvalueindex(1)));
-  pushExpr(L, s.apply(operand(L, 1, s.sign), operand(L, 2, s.sign)));
+  pushFormula(L, s.apply(operand(L, 1, s.sign), operand(L, 2, s.sign)));
   return 1;
 }
 
-int negate(lua_State* L) { return pushExpr(L, -exprAt(L, 1)), 1; }
+int negate(lua_State* L) { return pushFormula(L, -exprAt(L, 1)), 1; }
 
 int compare(lua_State* L) {
   raise(L,
-        "a formula's value is not known while the scene is built; use select(less(a, b), …) or less_equal or "
-        "equal, or value(e) for the present value of a parameter");
+        "a formula cannot be compared, for its value may change; write value(k) for the present value of a "
+        "parameter k, or choose with select(less(a, b), x, y)");
 }
 
 int formulaText(lua_State* L) { return lua_pushliteral(L, "formula"), 1; }
@@ -284,7 +293,7 @@ const std::vector<FunctionInfo>& formulaLibrary() {
       {"length", "length(a, b, c)", "Euclidean length of one to three numbers, or of a {x, y, z}", {}, lengthOf},
       {"dot", "dot(a, b)", "scalar product of two {x, y, z} or two {x, y}", {}, dotProduct},
       {"value", "value(e)",
-       "the present value of a formula of parameters, as a plain number; what is built from it no longer follows the parameter",
+       "the present value of a formula of parameters, as a plain number; for another value the script runs again",
        {}, presentValue},
   };
   return library;

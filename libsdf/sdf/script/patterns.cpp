@@ -22,16 +22,16 @@ Vec3E numberArguments(lua_State* L, const std::string& what) {
 int makeColor(lua_State* L) {
   expectArguments(L, 1, 3);
   const std::string what = runningFunction(L).name + ": argument ";
-  if (lua_gettop(L) == 1) return pushVector(L, readColor(L, 1, what + "1", Depends::OnPosition)), 1;
+  if (lua_gettop(L) == 1) return pushResult(L, readColor(L, 1, what + "1", Depends::OnPosition)), 1;
   expectArguments(L, 3, 3);
-  return pushVector(L, numberArguments(L, what)), 1;
+  return pushResult(L, numberArguments(L, what)), 1;
 }
 
 int makeCheckerboard(lua_State* L) {
   expectArguments(L, 2, 3);
   const Vec3E a = colorArgument(L, 1), b = colorArgument(L, 2);
   const Expr scale = valueOr(readFields(L, 3, runningFunction(L)), "scale", Expr(1.0));
-  return pushVector(L, checkerboard(a, b, scale)), 1;
+  return pushResult(L, checkerboard(a, b, scale)), 1;
 }
 
 int makeGradient(lua_State* L) {
@@ -47,13 +47,13 @@ int makeGradient(lua_State* L) {
   const FieldValues ends = readFields(L, 4, runningFunction(L));
   const Expr from = valueOr(ends, "from", Expr(0.0)), to = valueOr(ends, "to", Expr(1.0));
   if (uniformValue(to - from) == 0.0) raise(L, "gradient: 'from' and 'to' must be different");
-  return pushVector(L, gradient(along, a, b, from, to)), 1;
+  return pushResult(L, gradient(along, a, b, from, to)), 1;
 }
 
 int makeVerticalGradient(lua_State* L) {
   expectArguments(L, 2, 2);
   const Vec3E bottom = colorArgument(L, 1), top = colorArgument(L, 2);
-  return pushVector(L, verticalGradient(bottom, top)), 1;
+  return pushResult(L, verticalGradient(bottom, top)), 1;
 }
 
 int makeNoise(lua_State* L) {
@@ -62,14 +62,14 @@ int makeNoise(lua_State* L) {
   constexpr int kMostOctaves = 8;  // the ninth would be weaker than a step of an 8-bit colour
   const int octaves = valueOr(readFields(L, 4, runningFunction(L)), "octaves", 1);
   if (octaves > kMostOctaves) raise(L, "noise: 'octaves' must be 8 or less, got " + std::to_string(octaves));
-  return pushExpr(L, noise(p, octaves)), 1;
+  return pushResult(L, noise(p, octaves)), 1;
 }
 
 int makeSky(lua_State* L) {
   expectArguments(L, 0, 1);
   Sky sky;
   readSettings(L, 1, runningFunction(L), skySetting(), sky);
-  return pushVector(L, skyColor(sky)), 1;
+  return pushResult(L, skyColor(sky)), 1;
 }
 
 }  // namespace

@@ -81,6 +81,8 @@ int addPlace(lua_State* L) {
   const bool text = lua_type(L, 1) == LUA_TSTRING;
   std::string message = text ? lua_tostring(L, 1) : "error was given " + describe(L, 1) + "; give it a text";
   if (message.ends_with("stack overflow")) message += "; look for a function that calls itself without end";
+  if (message.find("a formula value") != std::string::npos || message.ends_with("got formula)"))
+    message += "; value(k) gives the present value of a parameter k";
   const ScriptContext& c = contextOf(L);
   if (!message.starts_with(c.shortName + ":"))
     message = placeOf(c.shortName, currentLine(L)) + ": " + message;

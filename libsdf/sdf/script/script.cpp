@@ -25,6 +25,7 @@ std::string namesOf(const std::vector<ParameterInfo>& parameters) {
 
 // An override that no param() asked for is a slip of the pen.
 Status checkOverrides(const Scene& scene, const ScriptOptions& options, const std::string& name) {
+  if (options.tolerant) return okStatus();
   for (const auto& [key, value] : options.values) {
     const std::vector<ParameterInfo>& asked = scene.parameters;
     if (std::ranges::find(asked, key, &ParameterInfo::name) != asked.end()) continue;

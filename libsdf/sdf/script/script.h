@@ -11,9 +11,15 @@
 namespace sdf {
 
 struct ScriptOptions {
-  std::map<std::string, double> values;  ///< overrides of param(name, …); a name the scene lacks is an error
-  double time = 0.0;                     ///< seconds; the value of `time`
-  bool fixed = false;  ///< parameters and time are constants: bounds and claims fit their values
+  /// Overrides of param(name, …); a name that the scene lacks is an error.
+  std::map<std::string, double> values{};
+  /// Values that the scene cannot take are no error: a name that it lacks is passed over, and what is outside
+  /// a parameter's range becomes the nearest value in it. For values that were set before the file changed.
+  bool tolerant = false;
+  double time = 0.0;  ///< seconds; the value of `time`
+  /// Parameters and time are formulas of constants: bounds and claims fit their values, and the scene holds
+  /// for no others. A script cannot tell the difference.
+  bool fixed = false;
   std::uint64_t instructionLimit = 50'000'000;
   std::size_t memoryLimit = 256u << 20;  ///< bytes, of Lua and of the graph together
   double timeLimit =

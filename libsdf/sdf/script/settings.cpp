@@ -105,6 +105,7 @@ int newParameter(lua_State* L) {
     raise(L, what + ": the default " + shown(usual) + " is outside " + shown(p.min) + " … " + shown(p.max));
   const auto given = context.options.values.find(p.name);
   p.value = given == context.options.values.end() ? usual : given->second;
+  if (context.options.tolerant) p.value = std::clamp(p.value, p.min, p.max);
   if (!std::isfinite(p.value)) raise(L, what + " must be a finite number, got " + shown(p.value));
   const auto [earlier, fresh] = context.parameterDefaults.try_emplace(p.name, usual);
   auto& list = context.scene.parameters;
@@ -112,7 +113,7 @@ int newParameter(lua_State* L) {
     list.push_back(p);
   else if (*std::ranges::find(list, p.name, &ParameterInfo::name) != p || earlier->second != usual)
     raise(L, what + " exists already with another default or range; use the same, or another name");
-  return pushExpr(L, context.options.fixed ? Expr(p.value) : Expr::parameter(p)), 1;
+  return pushFormula(L, context.options.fixed ? Expr(p.value) : Expr::parameter(p)), 1;
 }
 
 }  // namespace

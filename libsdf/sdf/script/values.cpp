@@ -180,17 +180,41 @@ void setOperator(lua_State* L, const char* type, const char* event) {
 void setShapeOperator(lua_State* L, const char* event) { setOperator(L, kShape, event); }
 void setFormulaOperator(lua_State* L, const char* event) { setOperator(L, kFormula, event); }
 
-void pushExpr(lua_State* L, const Expr& e) {
-  if (e.isConstant())
+void pushFormula(lua_State* L, const Expr& e) { pushValue(L, kFormula, e); }
+
+namespace {
+
+bool isPlain(lua_State* L, int index) {
+  if (lua_isfunction(L, index) || isFormula(L, index)) return false;
+  if (!lua_istable(L, index)) return true;
+  bool plain = true;
+  for (lua_pushnil(L); plain && lua_next(L, index); lua_pop(L, 1)) plain = !isFormula(L, -1);
+  if (!plain) lua_pop(L, 1);
+  return plain;
+}
+
+bool plainArguments(lua_State* L) {
+  for (int i = lua_gettop(L); i > 0; --i)
+    if (!isPlain(L, i)) return false;
+  return true;
+}
+
+void pushNumeric(lua_State* L, const Expr& e, bool plain) {
+  if (plain && e.isConstant())
     lua_pushnumber(L, e.constantValue());
   else
-    pushValue(L, kFormula, e);
+    pushFormula(L, e);
 }
-void pushVector(lua_State* L, const Vec3E& v) {
+
+}  // namespace
+
+void pushResult(lua_State* L, const Expr& e) { pushNumeric(L, e, plainArguments(L)); }
+void pushResult(lua_State* L, const Vec3E& v) {
+  const bool plain = plainArguments(L);
   lua_createtable(L, 3, 0);
   int i = 0;
   for (const Expr* e : {&v.x, &v.y, &v.z}) {
-    pushExpr(L, *e);
+    pushNumeric(L, *e, plain);
     lua_rawseti(L, -2, ++i);
   }
 }
@@ -221,6 +245,8 @@ namespace {
 
 Expr readNumber(lua_State* L, int index, const std::string& what, Depends depends) {
   if (!isNumeric(L, index)) wrongType(L, index, what, "a number");
+  if (depends == Depends::OnNothing && isFormula(L, index))
+    raise(L, what + " must be a plain number, got a formula; value(e) gives its present value");
   const Expr e = exprAt(L, index);
   if (!e.isConstant() && dependsOnSpace(e)) {
     if (depends == Depends::OnPosition) return e;
@@ -233,9 +259,7 @@ Expr readNumber(lua_State* L, int index, const std::string& what, Depends depend
 }
 
 double readPlainNumber(lua_State* L, int index, const std::string& what) {
-  if (isFormula(L, index))
-    raise(L, what + " must be a plain number, got a formula; value(e) gives its present value");
-  return readNumber(L, index, what, Depends::OnParameters).constantValue();
+  return readNumber(L, index, what, Depends::OnNothing).constantValue();
 }
 
 int readInteger(lua_State* L, int index, const std::string& what) {
@@ -312,7 +336,7 @@ int callInSpace(lua_State* L, int index, int variables, int results) {
   const int before = lua_gettop(L);
   luaL_checkstack(L, 8, nullptr);
   lua_pushvalue(L, index);
-  for (int v = 0; v < variables; ++v) pushExpr(L, Expr::variable(static_cast<Variable>(v)));
+  for (int v = 0; v < variables; ++v) pushFormula(L, Expr::variable(static_cast<Variable>(v)));
   lua_call(L, variables, results);
   return lua_gettop(L) - before;
 }
@@ -347,9 +371,7 @@ Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Dep
 }
 
 glm::dvec3 readPoint(lua_State* L, int index, const std::string& what, int size) {
-  const Vec3E v = readVector(L, index, what, size, Depends::OnParameters);
-  if (!v.x.isConstant() || !v.y.isConstant() || !v.z.isConstant())
-    raise(L, what + " must be plain numbers, got a formula; value(e) gives its present value");
+  const Vec3E v = readVector(L, index, what, size, Depends::OnNothing);
   return {v.x.constantValue(), v.y.constantValue(), v.z.constantValue()};
 }
 

@@ -37,9 +37,14 @@ void pushShapeMethods(lua_State* L);
 void setShapeOperator(lua_State* L, const char* event);
 void setFormulaOperator(lua_State* L, const char* event);
 
-/// Constants are pushed as plain numbers.
-void pushExpr(lua_State* L, const Expr& e);
-void pushVector(lua_State* L, const Vec3E& v);
+/// A formula, even of a constant: what is made from a formula is one, whatever its parameters' values fold
+/// to.
+void pushFormula(lua_State* L, const Expr& e);
+/// What the running function made of its arguments: a formula if there is one among these or in a table of
+/// them, or a function, or if the result depends on the position; else a plain number.
+void pushResult(lua_State* L, const Expr& e);
+/// The same as {x, y, z}.
+void pushResult(lua_State* L, const Vec3E& v);
 void pushShape(lua_State* L, Shape shape);
 void pushMaterial(lua_State* L, MaterialPtr material);
 
@@ -54,7 +59,8 @@ bool hasNamedField(lua_State* L, int index);
 /// The number or formula at `index`, which isNumeric.
 Expr exprAt(lua_State* L, int index);
 
-enum class Depends { OnParameters, OnPosition };
+/// What a number may depend on; OnNothing takes plain numbers alone.
+enum class Depends { OnNothing, OnParameters, OnPosition };
 
 Expr readNumber(lua_State* L, int index, const std::string& what, Depends depends);
 double readPlainNumber(lua_State* L, int index, const std::string& what);

@@ -17,8 +17,9 @@ namespace sdf {
 /// Numbers, integers and vectors are the same everywhere in space.
 enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Shape, Shapes };
 
-/// What an argument's numbers must be; checked on their present values before `build` is called.
-enum class Rule { Any, Positive, NotNegative, NotZero };
+/// What an argument's numbers must be; checked on their present values before `build` is called. A Count does
+/// not depend on parameters.
+enum class Rule { Any, Positive, NotNegative, NotZero, Count };
 bool keeps(Rule rule, double value);
 /// What the rule asks for, in words: "positive"; "a finite number" for Any.
 const char* wording(Rule rule);

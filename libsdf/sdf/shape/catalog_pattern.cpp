@@ -43,7 +43,7 @@ std::vector<CatalogEntry> patternEntries() {
            vector3("cell",
                    "distance between copies along x, y and z, scene units; 0 does not repeat along that axis",
                    Rule::NotNegative),
-           optional(vector3("count", "copies along x, y and z, whole numbers from 1; absent: endless"))},
+           optional(vector3("count", "copies along x, y and z; absent: endless", Rule::Count))},
           repeated),
       entry("polar_repeat",
             "Copies evenly around the y axis, the first in place. Neighbouring copies are always seen.",

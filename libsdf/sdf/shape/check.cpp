@@ -15,6 +15,8 @@ const char* wording(Rule rule) {
       return "0 or more";
     case Rule::NotZero:
       return "other than 0";
+    case Rule::Count:
+      return "a whole number from 1";
     case Rule::Any:
       break;
   }
@@ -29,6 +31,8 @@ bool keeps(Rule rule, double value) {
       return value >= 0.0;
     case Rule::NotZero:
       return value != 0.0;
+    case Rule::Count:
+      return value >= 1.0 && value == std::floor(value);
     case Rule::Any:
       break;
   }
