@@ -22,6 +22,10 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+Result<Scene> loadAt(double time, const Options& options) {
+  return loadScene(options.scene, {.values = options.parameters, .time = time});
+}
+
 class Headless {
  public:
   /// The eye is fitted to the box, if there is one.
@@ -36,8 +40,16 @@ class Headless {
     if (!renderer) return renderer.error();
     auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8});
     if (!target) return target.error();
+    const bool scriptReadsTheClock = scene_.valuesRead.contains("time");
     for (int i = 0; i < count; ++i) {
-      if (auto s = renderer->draw(frame(options_.time + i / options_.framesPerSecond), *target); !s) return s;
+      const double time = options_.time + i / options_.framesPerSecond;
+      if (i > 0 && scriptReadsTheClock) {
+        if (auto s = keep(loadAt(time, options_), scene_); !s) return s;
+        look_ = LookFunction(scene_);
+        renderer = Renderer::make(scene_, options_.shader);
+        if (!renderer) return renderer.error();
+      }
+      if (auto s = renderer->draw(frame(time), *target); !s) return s;
       if (auto s = write(*target, nameOf(i)); !s) return s;
     }
     return okStatus();
@@ -154,7 +166,7 @@ class Headless {
 }  // namespace
 
 Status runHeadless(const Options& options, std::ostream& out) {
-  auto scene = loadScene(options.scene, {.values = options.parameters, .time = options.time});
+  auto scene = loadAt(options.time, options);
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, options.scene, options.parameters);
   std::optional<Box> fitTo;

@@ -259,6 +259,75 @@ TEST_F(SessionTest, ASceneThatCannotBeDrawnLeavesTheOneBefore) {
   EXPECT_EQ(session.scene().parts[0].name, "ball");
 }
 
+// As many balls as n says, as large as r says.
+constexpr const char* kRow = R"(local n, r = param("n", 1, {min = 1, max = 3}), param("r", 0.3)
+for i = 1, value(n) do part("ball " .. i, sphere(r):translate(i, 0, 0)) end
+assert(value(n) < 3, "three are too many")
+)";
+
+TEST_F(SessionTest, ASliderWhoseValueTheScriptReadRunsItAgain) {
+  write(kRow);
+  Session session = open();
+  const CompileCount count;
+  session.controls.parameters["r"] = 0.5;
+  session.settle();
+  EXPECT_EQ(session.compilations(), 1);
+  EXPECT_EQ(count.value(), 0) << "the other one stays cheap";
+
+  session.controls.eye = Eye{{0.0, 0.0, 9.0}};
+  session.controls.look.ambient = glm::vec3(1.0f);
+  session.controls.editedMaterials = {"ball 1"};
+  session.controls.parameters["n"] = 2.0;
+  session.settle();
+  EXPECT_EQ(session.scene().parts.size(), 2u);
+  EXPECT_EQ(session.controls.parameters, (Values{{"n", 2.0}, {"r", 0.5}}));
+  EXPECT_EQ(session.compilations(), 2) << "at once with the material";
+  EXPECT_EQ(session.eye().from, glm::dvec3(0.0, 0.0, 9.0));
+  EXPECT_TRUE(session.controls.look.ambient) << "the file is the same, so what was edited stays";
+  EXPECT_EQ(session.controls.editedMaterials, std::set<std::string>{"ball 1"});
+  session.settle();
+  EXPECT_EQ(session.compilations(), 2);
+}
+
+TEST_F(SessionTest, AValueThatTheScriptRefusesLeavesTheSceneAndIsTriedOnce) {
+  write(kRow);
+  Session session = open();
+  session.controls.parameters["n"] = 3.0;
+  session.settle();
+  EXPECT_NE(session.message().find("ball.lua:3: three are too many"), std::string::npos) << session.message();
+  EXPECT_EQ(session.scene().parts.size(), 1u);
+  std::filesystem::remove(file());  // another run would say so
+  session.settle();
+  EXPECT_NE(session.message().find("three are too many"), std::string::npos) << session.message();
+  write(kRow);
+  session.controls.parameters["n"] = 2.0;
+  session.settle();
+  EXPECT_EQ(session.message(), "");
+  EXPECT_EQ(session.scene().parts.size(), 2u);
+}
+
+TEST_F(SessionTest, AClockWhoseValueTheScriptReadRunsItAgain) {
+  write("for i = 1, 1 + value(time) do part('ball ' .. i, sphere(0.3):translate(i, 0, 0)) end");
+  Session session = open();
+  EXPECT_EQ(session.scene().parts.size(), 1u);
+  session.playing = true;
+  session.advance(2.0);
+  session.settle();
+  EXPECT_EQ(session.scene().parts.size(), 3u);
+}
+
+// The script makes as many lights as its parameter says; the second one has been edited.
+TEST_F(SessionTest, AnEditedLightMayGo) {
+  write(R"(for i = 1, value(param("n", 2, {max = 2})) do point_light{position = {0, i, 5}} end
+ambient(0.1)
+return sphere(1))");
+  Session session = open();
+  session.controls.look.lights[1] = session.look().lights[1];
+  session.controls.parameters["n"] = 1.0;
+  session.settle();
+  EXPECT_EQ(session.look().lights.size(), 1u);
+}
+
 TEST_F(SessionTest, ResettingGivesTheFilesValues) {
   write(R"(local n = param("n", 1, {min = 1, max = 3})
 for i = 1, value(n) do part("ball " .. i, sphere(0.3):translate(i, 0, 0)) end

@@ -290,6 +290,16 @@ TEST_F(Sdfview, NumbersItsFrames) {
   EXPECT_EQ(read(at("02-b.png")).bytes, drawn(kMoving, {"--time", time}).bytes) << "24 frames a second";
 }
 
+TEST_F(Sdfview, RunsAScriptThatReadsTheClockForEveryFrame) {
+  const char* growing = "return sphere(0.5 + 0.5 * value(time))";
+  ASSERT_EQ(
+      run({scene(growing), "--render", at("a.png"), "--size", "32x24", "--frames", "2", "--fps", "1"}).status,
+      0);
+  EXPECT_EQ(read(at("a_0001.png")).bytes, drawn(growing, {}).bytes);
+  EXPECT_EQ(read(at("a_0002.png")).bytes, drawn(growing, {"--time", "1"}).bytes);
+  EXPECT_NE(read(at("a_0001.png")).bytes, read(at("a_0002.png")).bytes);
+}
+
 TEST_F(Sdfview, LeavesAPercentSignAloneInASinglePicture) {
   ASSERT_EQ(run({scene(kBall), "--render", at("a%04d.png"), "--size", "8x8"}).status, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"a%04d.png", "scene.lua"}));

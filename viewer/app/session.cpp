@@ -11,21 +11,12 @@
 namespace sdf::viewer {
 namespace {
 
-/// The values of those parameters that the scene has, within their ranges.
-Values kept(const Values& values, const Scene& scene) {
+/// These values as the scene took them (ScriptOptions::tolerant), less those that it passed over.
+Values taken(const Values& values, const Scene& scene) {
   Values result;
   for (const ParameterInfo& p : scene.parameters)
-    if (const auto it = values.find(p.name); it != values.end())
-      result[p.name] = std::clamp(it->second, p.min, p.max);
+    if (values.contains(p.name)) result[p.name] = p.value;
   return result;
-}
-
-/// The scene built for these values; those that it has no parameters for are dropped from them.
-Result<Scene> loadKeeping(const std::filesystem::path& file, Values& values, double time) {
-  auto plain = loadScene(file, {.values = {}, .time = time});
-  if (!plain) return plain;
-  values = kept(values, *plain);
-  return values.empty() ? std::move(plain) : loadScene(file, {.values = values, .time = time});
 }
 
 }  // namespace
@@ -62,7 +53,8 @@ Session::Session(std::filesystem::path file, Controls start, Scene scene, LookFu
       scene_(std::move(scene)),
       look_(std::move(look)),
       renderer_(std::move(renderer)),
-      built_{controls.view, controls.method, {}} {}
+      built_{controls.view, controls.method, {}},
+      ran_(read()) {}
 
 Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool countReadings) {
   const ShaderOptions options{.view = wanted.view, .method = wanted.method, .countReadings = countReadings};
@@ -77,6 +69,7 @@ Status Session::fit() {
 }
 
 void Session::settle() {
+  if (read() != ran_) run(controls.editedMaterials);
   if (wanted() == built_) return;
   auto made = build(scene_, wanted());
   if (!made) {
@@ -92,12 +85,10 @@ void Session::settle() {
   ++compilations_;
 }
 
-Status Session::load() {
-  Values parameters = controls.parameters;
-  auto scene = loadKeeping(file_, parameters, controls.time);
+Status Session::load(const Built& wanted) {
+  auto scene = loadScene(file_, {.values = controls.parameters, .tolerant = true, .time = controls.time});
   if (!scene) return scene.error();
-  LookFunction look = lookOf(*scene, file_, parameters);
-  const Built wanted{controls.view, controls.method, {}};
+  LookFunction look = lookOf(*scene, file_, controls.parameters);
   auto made = build(*scene, wanted);
   if (!made) return Error{made.error().kind, file_.string() + ": " + made.error().message};
 
@@ -107,11 +98,15 @@ Status Session::load() {
   built_ = wanted;
   buildMessage_.clear();
   ++compilations_;
-  controls.parameters = std::move(parameters);
-  controls.editedMaterials.clear();
-  controls.materials.clear();
-  controls.look = {};
+  controls.parameters = taken(controls.parameters, scene_);
   return okStatus();
+}
+
+bool Session::run(const std::set<std::string>& editedMaterials) {
+  const Status loaded = load({controls.view, controls.method, editedMaterials});
+  fileMessage_ = loaded ? "" : loaded.error().message;
+  ran_ = read();
+  return loaded.ok();
 }
 
 void Session::followFile() {
@@ -119,13 +114,15 @@ void Session::followFile() {
 }
 
 void Session::reload() {
-  const Status loaded = load();
-  fileMessage_ = loaded ? "" : loaded.error().message;
+  if (!run({})) return;
+  controls.editedMaterials.clear();
+  controls.materials.clear();
+  controls.look = {};
 }
 
 void Session::resetParameters() {
   controls.parameters.clear();
-  reload();  // what the script did with value(…) follows only now
+  reload();  // the file's values are known to the script only
 }
 
 bool Session::hasClock() const {
@@ -146,11 +143,19 @@ Values Session::values() const {
   return all;
 }
 
+Values Session::read() const {
+  Values result;
+  for (const auto& [name, value] : values())
+    if (scene_.valuesRead.contains(name)) result[name] = value;
+  return result;
+}
+
 Look Session::look() const {
   Look look = look_.at(values(), aspect);
   if (controls.eye) look.eye = *controls.eye;
   const LookEdits& edits = controls.look;
-  for (const auto& [index, light] : edits.lights) look.lights[index] = light;
+  for (const auto& [index, light] : edits.lights)
+    if (index < look.lights.size()) look.lights[index] = light;
   look.ambient = edits.ambient.value_or(look.ambient);
   look.fogColor = edits.fogColor.value_or(look.fogColor);
   look.fogDensity = edits.fogDensity.value_or(look.fogDensity);

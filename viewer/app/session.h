@@ -83,7 +83,8 @@ class Session {
   Status fit();
 
   /// Makes the renderer fit the controls. Only another view, method or set of materials to edit compiles; if
-  /// that fails, they go back to what is shown, and message() says why.
+  /// that fails, they go back to what is shown, and message() says why. Where a parameter moved whose value
+  /// the script had read (Scene::valuesRead), the script runs again; edits of the look and of materials stay.
   void settle();
 
   /// Loads the scene again if its file was written: parameters that are still there keep their values, the
@@ -123,9 +124,14 @@ class Session {
   };
   Session(std::filesystem::path file, Controls start, Scene scene, LookFunction look, Renderer renderer);
   static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
-  Status load();
+  /// Replaces scene and renderer by what the file says for the controls' values. On an error both stay.
+  Status load(const Built& wanted);
+  /// Loads the scene with these materials to edit and keeps the message; whether it could.
+  bool run(const std::set<std::string>& editedMaterials);
   Built wanted() const { return {controls.view, controls.method, controls.editedMaterials}; }
   Values values() const;
+  /// The present values of what the script has read.
+  Values read() const;
 
   std::filesystem::path file_;
   Watch watch_;
@@ -133,6 +139,7 @@ class Session {
   LookFunction look_;
   Renderer renderer_;
   Built built_;
+  Values ran_;  ///< what read() was when the script was last run
   std::string fileMessage_, buildMessage_;
   int compilations_ = 1;
 };

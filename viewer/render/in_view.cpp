@@ -8,7 +8,7 @@ namespace {
 Result<std::optional<Box>> inViewAt(const Scene& scene, const std::filesystem::path& file,
                                     const Values& parameters, double time) {
   if (scene.parameters.empty()) return boundsInView(scene);
-  const auto fixed = loadScene(file, {.values = parameters, .time = time, .fixed = true});
+  const auto fixed = loadScene(file, {.values = parameters, .tolerant = true, .time = time, .fixed = true});
   if (!fixed) return fixed.error();
   return boundsInView(*fixed);
 }
