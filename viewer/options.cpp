@@ -6,6 +6,7 @@
 
 #include "command_line/frames.h"
 #include "sdf/base/version.h"
+#include "viewer/gpu/picture.h"
 
 namespace sdf::viewer {
 
@@ -139,6 +140,7 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   Result<std::optional<Answer>> answer = parse(app, argc, argv);
   if (!answer) return answer.error();
   if (*answer) return Parsed(std::move(**answer));
+  if (sound && options.picture) sound = checkPictureName(*options.picture);
   if (sound) sound = checkSequence(options, app.count("--fps") > 0);
   if (!sound) return sound.error();
   if (auto s = keep(parameters(parameterWords), options.parameters); !s) return s.error();

@@ -143,6 +143,13 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
   }
   expectRefused(kUsage, "SCENE is required; see sdfview --help", {});
   expectRefused(kUsage, "add --render", {s, "--frames", "2", "--glsl", at("a.glsl")});
+  // Nothing of the scene is looked at before.
+  for (const char* name : {"a.jpg", "a.png.jpeg", "a%04d.exr"})
+    expectRefused(kUsage,
+                  "'" + at(name) + "' has the unknown extension '" +
+                      std::filesystem::path(name).extension().string() + "'; the output's name must end in .png",
+                  {at("nowhere.lua"), "--render", at(name)});
+  expectRefused(kUsage, "has no extension; the output's name must end in .png", {s, "--render", at("a")});
   expectRefused(kUsage, "more than one place for the frame's number",
                 {s, "--frames", "2", "--render", at("%d_%d.png")});
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
@@ -173,7 +180,10 @@ TEST_F(Sdfview, NamesFilesThatCannotBeWritten) {
   const std::string s = scene(kBall);
   for (const char* flag : {"--render", "--glsl"}) {
     expectRefused(kFiles, "no/such/folder", {s, flag, at("no/such/folder/a.png"), "--size", "8x8"});
-    expectRefused(kFiles, folder.path().string(), {s, flag, folder.path().string(), "--size", "8x8"});
+    const std::string taken = at("folder.png");
+    std::filesystem::create_directory(taken);
+    expectRefused(kFiles, taken, {s, flag, taken, "--size", "8x8"});
+    std::filesystem::remove(taken);
   }
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
 }
@@ -298,6 +308,11 @@ TEST_F(Sdfview, RunsAScriptThatReadsTheClockForEveryFrame) {
   EXPECT_EQ(read(at("a_0001.png")).bytes, drawn(growing, {}).bytes);
   EXPECT_EQ(read(at("a_0002.png")).bytes, drawn(growing, {"--time", "1"}).bytes);
   EXPECT_NE(read(at("a_0001.png")).bytes, read(at("a_0002.png")).bytes);
+}
+
+TEST_F(Sdfview, TakesAPicturesEndingInUpperCaseToo) {
+  ASSERT_EQ(run({scene(kBall), "--render", at("A.PNG"), "--size", "8x8"}).status, 0);
+  EXPECT_EQ(read(at("A.PNG")).width, 8);
 }
 
 TEST_F(Sdfview, LeavesAPercentSignAloneInASinglePicture) {

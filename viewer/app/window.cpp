@@ -183,8 +183,11 @@ void Window::answer(const Requests& requests) {
     repaints_ = kRepaints;
   };
   if (requests.savePicture) {
-    const auto picture = canvas_.picture(session_);
-    const Status saved = picture ? writePng(gui_.pictureName, *picture) : Status(picture.error());
+    Status saved = checkPictureName(gui_.pictureName);
+    if (saved) {
+      const auto picture = canvas_.picture(session_);
+      saved = picture ? writePng(gui_.pictureName, *picture) : Status(picture.error());
+    }
     tell(saved ? "saved " + gui_.pictureName : saved.error().message);
   }
   if (requests.fit) {

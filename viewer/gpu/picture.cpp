@@ -18,6 +18,12 @@
 #include <stb_image.h>
 
 namespace sdf::viewer {
+
+Status checkPictureName(const std::filesystem::path& target) {
+  constexpr std::string_view kKnown[] = {".png"};
+  return checkExtension(target, kKnown);
+}
+
 Status writePng(const std::filesystem::path& target, const Picture& picture) {
   const int width = picture.width, height = picture.height, channels = picture.channels;
   assert(width > 0 && height > 0 && (channels == 3 || channels == 4));

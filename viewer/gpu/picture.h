@@ -15,6 +15,9 @@ struct Picture {
   std::vector<std::uint8_t> bytes;
 };
 
+/// Is this a name that pictures can be written under, one that ends in .png? Errors: Usage.
+Status checkPictureName(const std::filesystem::path& target);
+
 /// Writes the picture under the name, whole or not at all (see sdf/base/file.h). The picture must have
 /// width * height * channels bytes, at least one. Errors: those of writeFile; Limits if memory runs out.
 Status writePng(const std::filesystem::path& target, const Picture& picture);

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <mutex>
@@ -168,6 +169,23 @@ class TemporaryFile {
 };
 
 }  // namespace
+
+std::string lowerExtension(const fs::path& name) {
+  std::string extension = name.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+Status checkExtension(const fs::path& name, std::span<const std::string_view> known) {
+  if (std::ranges::find(known, lowerExtension(name)) != known.end()) return okStatus();
+  const std::string extension = name.extension().string();
+  std::string message = "'" + name.string() + "' has ";
+  message += extension.empty() ? "no extension" : "the unknown extension '" + extension + "'";
+  message += known.size() == 1 ? "; the output's name must end in" : "; the output's name must end in one of";
+  for (const std::string_view one : known) message.append(" ").append(one);
+  return Error{ErrorKind::Usage, std::move(message)};
+}
 
 Status checkWritable(const fs::path& target) {
   if (!target.has_filename()) return cannotWrite(target, EISDIR);

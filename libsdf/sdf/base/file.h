@@ -3,10 +3,18 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "sdf/base/result.h"
 
 namespace sdf {
+
+/// The name's extension with its dot, in lower case: ".glb" of "A.GLB".
+std::string lowerExtension(const std::filesystem::path& name);
+/// Is the name's extension one of these (".glb"), in upper or lower case? The error lists them (Usage).
+Status checkExtension(const std::filesystem::path& name, std::span<const std::string_view> known);
 
 /// Could a file be made at `target` now? Checks that its folder exists and is writable, and that no folder,
 /// device or pipe and no write-protected file has that name. Meant to be asked before long work; a full disk

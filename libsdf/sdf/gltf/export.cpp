@@ -23,23 +23,16 @@ constexpr std::array kFormats{Format{".glb", GltfContainer::Binary}, Format{".gl
                               Format{".obj", PlainFormat::Obj}};
 
 const Format* findFormat(const std::filesystem::path& target) {
-  std::string extension = target.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  const auto found = std::ranges::find(kFormats, extension, &Format::extension);
+  const auto found = std::ranges::find(kFormats, lowerExtension(target), &Format::extension);
   return found == kFormats.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 Status checkExtension(const std::filesystem::path& target) {
-  if (findFormat(target)) return okStatus();
-  const std::string extension = target.extension().string();
-  std::string message = "'" + target.string() + "' has ";
-  message += extension.empty() ? "no extension" : "the unknown extension '" + extension + "'";
-  message += "; the output's name must end in one of";
-  for (const Format& format : kFormats) message.append(" ").append(format.extension);
-  return Error{ErrorKind::Usage, std::move(message)};
+  std::vector<std::string_view> known;
+  for (const Format& format : kFormats) known.push_back(format.extension);
+  return checkExtension(target, known);
 }
 
 MeshStats combined(const std::vector<ExportPart>& parts) {
