@@ -64,7 +64,8 @@ TEST(Errors, WrongTypesSayWhatWasGiven) {
       {"return sphere(sphere(1))", "scene.lua:1: sphere: 'radius' must be a number, got a shape"},
       {"return sphere(print)", "scene.lua:1: sphere: 'radius' must be a number, got a function"},
       {"return box('x')", "scene.lua:1: box: 'half' must be {x, y, z} or a number, got a string \"x\""},
-      {"return box{half = {1, 2}}", "scene.lua:1: box: 'half' must be {x, y, z} or a number, got a table"},
+      {"return box{half = {1, 2}}",
+       "scene.lua:1: box: 'half' must be {x, y, z} or a number, got a table of 2 values"},
       {"return box{half = {1, 'a', 3}}",
        "scene.lua:1: number 2 of box: 'half' must be a number, got a string \"a\""},
       {"return sphere(1):mirror('w')",
@@ -126,8 +127,17 @@ TEST(Errors, CountsOfArgumentsAreChecked) {
       {"return sphere(1):translate()",
        "scene.lua:1: translate: 'offset' is missing; write translate(shape, offset)"},
       {"return sphere(1):translate(1, 2)",
-       "scene.lua:1: translate: too many arguments, the first one too many is the number 2; write "
-       "translate(shape, offset)"},
+       "scene.lua:1: translate: 'offset' takes three numbers, got two; the third is missing"},
+      {"return box(1, 2)",
+       "scene.lua:1: box: 'half' takes three numbers or one for all, got two; the third is missing"},
+      {"return box{1, 2}",
+       "scene.lua:1: box: 'half' takes three numbers or one for all, got two; the third is missing"},
+      {"return capsule(1, 2, 3, 4, 5)",
+       "scene.lua:1: capsule: 'to' takes three numbers, got two; the third is missing"},
+      {"return sphere(1):rotate_about(0, 1, 0)",
+       "scene.lua:1: rotate_about: 'angle' is missing; write rotate_about(shape, axis, angle)"},
+      {"return box(1, 2, 3, 4)",
+       "scene.lua:1: box: too many arguments, the first one too many is the number 4; write box(half)"},
       {"return sphere{1, radius = 2}", "scene.lua:1: sphere: 'radius' is given twice, by place and by name"},
       {"return union()", "scene.lua:1: union: 'shapes' is missing; write union(shapes, k, blend)"},
       {"return sin(1, 2)", "scene.lua:1: sin: too many arguments; write sin(a)"},
@@ -135,6 +145,46 @@ TEST(Errors, CountsOfArgumentsAreChecked) {
       {"return select(1, 2)",
        "scene.lua:1: select takes a condition and two values, select(less(x, 0), a, b); the n-th "
        "of ... is ({...})[n]"},
+  });
+}
+
+TEST(Errors, OneNumberIsNoPlaceAndNoDirection) {
+  const std::string three = " must be {x, y, z}, got the number 2; write {2, 0, 0}, {0, 2, 0} or {0, 0, 2}";
+  for (const auto& [text, what] : std::initializer_list<Mistake>{
+           {"return sphere(1):translate(2)", "translate: 'offset'"},
+           {"return sphere(1):rotate(2)", "rotate: 'angles'"},
+           {"return sphere(1):rotate{angles = 2}", "rotate: 'angles'"},
+           {"return sphere(1):rotate_about(2, {angle = 90})", "rotate_about: 'axis'"},
+           {"return sphere(1):mirror{normal = 2}", "mirror: 'normal'"},
+           {"return capsule{from = 2}", "capsule: 'from'"},
+           {"return plane(2)", "plane: 'normal'"},
+           {"camera{from = 2}", "camera: 'from'"},
+           {"directional_light{direction = 2}", "directional_light: 'direction'"},
+           {"gradient(2, 0, 1)", "gradient: the axis"},
+           {"dot(2, {1, 2, 3})", "dot: argument 1"}})
+    EXPECT_EQ(errorOf(text), "scene.lua:1: " + (what + three)) << text;
+  expectMessages({
+      {"return sphere(1):rotate(param('k', 90))",
+       "scene.lua:1: rotate: 'angles' must be {x, y, z}, got a formula; write {k, 0, 0}, {0, k, 0} or {0, 0, "
+       "k}"},
+      {"return segment{from = -0.5}",
+       "scene.lua:1: segment: 'from' must be {x, y}, got the number -0.5; write {-0.5, 0} or {0, -0.5}"},
+  });
+}
+
+TEST(Errors, NamedVectorsNameEveryComponent) {
+  expectMessages({
+      {"return box{half = {x = 1, y = 2}}", "scene.lua:1: z of box: 'half' must be a number, got nothing"},
+      {"return box{half = {1, y = 2, z = 3}}",
+       "scene.lua:1: box: 'half': every field needs a name; write {x = 1, y = 2, z = 3}"},
+      {"return sphere(1):translate{1, y = 2, z = 3}",
+       "scene.lua:1: translate: 'offset': every field needs a name; write {x = 1, y = 2, z = 3}"},
+      {"return sphere(1):translate{x = 1, y = 2, z = 3, w = 4}",
+       "scene.lua:1: translate: 'offset': unknown field 'w'; it takes x, y and z"},
+      {"return rectangle{half = {x = 1, y = 2, z = 3}}",
+       "scene.lua:1: rectangle: 'half': unknown field 'z'; it takes x and y"},
+      {"return sphere(1):translate{x = 1, y = 'b', z = 3}",
+       "scene.lua:1: y of translate: 'offset' must be a number, got a string \"b\""},
   });
 }
 

@@ -33,13 +33,36 @@ TEST(Language, ArgumentsComeInOrderOrByNameOrBoth) {
   expectSame("torus{}", torus(1.0, 0.25));
 }
 
-TEST(Language, VectorsComeAsTablesAsNumbersInARowOrAsOneNumber) {
+TEST(Language, VectorsMayNameTheirComponents) {
+  const Shape ball = sphere(1.0), moved = translate(ball, {1.0, 2.0, 3.0});
+  for (const char* way :
+       {"sphere(1):translate({x = 1, y = 2, z = 3})", "sphere(1):translate{x = 1, y = 2, z = 3}",
+        "sphere(1):translate{offset = {x = 1, y = 2, z = 3}}", "translate(sphere(1), {z = 3, y = 2, x = 1})",
+        "translate{sphere(1), {x = 1, y = 2, z = 3}}"})
+    expectSame(way, moved);
+  expectSame("round_box({x = 1, y = 2, z = 3}, 0.5)", roundBox({1.0, 2.0, 3.0}, 0.5));
+  expectSame("round_box({x = 1, y = 2, z = 3}, {radius = 0.5})", roundBox({1.0, 2.0, 3.0}, 0.5));
+  expectSame("rectangle{x = 2, y = 1}:extrude(1)", extrude(rectangle(2.0, 1.0), 1.0));
+  const glm::dvec2 corners[] = {{0, 0}, {1, 0}, {0, 1}};
+  for (const char* way : {"polygon{{x = 0, y = 0}, {x = 1, y = 0}, {x = 0, y = 1}}",
+                          "polygon({x = 0, y = 0}, {x = 1, y = 0}, {x = 0, y = 1})"})
+    expectSame(std::string(way) + ":extrude(1)", extrude(polygon(corners), 1.0));
+  EXPECT_EQ(numberOf("length{x = 3, y = 4} + dot({x = 1, y = 2, z = 3}, {1, 1, 1})"), 11.0);
+  const Scene scene = sceneOf(
+      "camera{from = {x = 1, y = 2, z = 3}} bounds({x = -1, y = -1, z = -1}, {1, 1, 1}) return sphere(1)");
+  EXPECT_EQ(uniformValue(scene.camera.from.z), 3.0);
+  EXPECT_EQ(scene.bounds->min, glm::dvec3(-1.0));
+}
+
+TEST(Language, VectorsComeAsTablesAsNumbersInARowAndSizesAsOneNumber) {
   const Shape expected = roundBox({1.0, 2.0, 3.0}, 0.5);
   for (const char* way : {"round_box({1, 2, 3}, 0.5)", "round_box(1, 2, 3, 0.5)", "round_box{1, 2, 3, 0.5}",
                           "round_box{{1, 2, 3}, 0.5}", "round_box{half = {1, 2, 3}, radius = 0.5}",
                           "round_box(1, 2, 3, {radius = 0.5})"})
     expectSame(way, expected);
   expectSame("round_box(2, 0.5)", roundBox(Expr(2.0), 0.5));
+  expectSame("sphere(1):scale(2)", scale(sphere(1.0), Expr(2.0)));
+  expectSame("sphere(0.3):repeat_grid(1, 3)", repeatGrid(sphere(0.3), Expr(1.0), glm::ivec3(3)));
   expectSame("capsule(0, 0, 0, 1, 2, 3, 0.5)", capsule(Expr(0.0), {1.0, 2.0, 3.0}, 0.5));
   expectSame("rectangle(2, 1):extrude(1)", extrude(rectangle(2.0, 1.0), 1.0));
   expectSame("segment{from = {0, 0}, to = {1, 2}, radius = 0.5}:extrude(1)",

@@ -15,7 +15,8 @@ namespace {
 //
 // Arguments come in the order of the parameters, or by name in a table that stands last. A table that stands
 // alone (or alone after the shape of a method) may hold both. A vector is a table, as many numbers in a row
-// as it has components, or one number; a list of shapes or points is a table or the arguments in a row.
+// as it has components, or where it is a size one number; a list of shapes or points is a table or the
+// arguments in a row.
 class Call {
  public:
   Call(lua_State* L, const CatalogEntry& entry) : L_(L), entry_(entry) {}
@@ -34,7 +35,7 @@ class Call {
   // Finds the table of named fields, and spreads a table that stands for the argument list.
   void gather() {
     last_ = lua_gettop(L_);
-    const bool table = last_ > 0 && lua_istable(L_, last_);
+    const bool table = last_ > 0 && lua_istable(L_, last_) && !isNamedVector(L_, last_);
     const bool alone = last_ == 1 || (last_ == 2 && testShape(L_, 1));
     if (table && hasNamedField(L_, last_)) {
       options_ = last_--;
@@ -63,6 +64,9 @@ class Call {
   static Depends dependsOf(const Parameter& p) {
     return p.rule == Rule::Count ? Depends::OnNothing : Depends::OnParameters;
   }
+  // One number may stand for all components of a size, a factor or a count: of vectors with a rule. Places
+  // and directions have none.
+  static bool isSize(const Parameter& p) { return p.rule != Rule::Any; }
   static int sizeOf(const Parameter& p) { return p.kind == ArgumentKind::Vector2 ? 2 : 3; }
   std::string what(const Parameter& p) const { return entry_.name + ": '" + p.name + "'"; }
 
@@ -95,7 +99,7 @@ class Call {
         return readChoice(L_, at, what(p), p.choices);
       case ArgumentKind::Vector2:
       case ArgumentKind::Vector3:
-        return readVector(L_, at, what(p), sizeOf(p), dependsOf(p));
+        return (isSize(p) ? readSize : readVector)(L_, at, what(p), sizeOf(p), dependsOf(p));
       case ArgumentKind::Shape:
         return shapeAt(p, at);
       case ArgumentKind::Shapes:
@@ -135,6 +139,7 @@ class Call {
   }
 
   bool isPoint(int at) const {
+    if (isNamedVector(L_, at)) return true;
     if (!lua_istable(L_, at) || lua_rawlen(L_, at) != 2) return false;
     const bool numbers = lua_rawgeti(L_, at, 1) != LUA_TTABLE;
     lua_pop(L_, 1);
@@ -161,15 +166,34 @@ class Call {
     return list;
   }
 
-  // One number stands for all components unless there are enough numbers in a row for this vector and for the
-  // required parameters after it.
+  static int numbersOf(const Parameter& p) {
+    switch (p.kind) {
+      case ArgumentKind::Number:
+      case ArgumentKind::Integer:
+        return 1;
+      case ArgumentKind::Vector2:
+      case ArgumentKind::Vector3:
+        return sizeOf(p);
+      default:
+        return 0;
+    }
+  }
+
+  // Of a size, one number stands for all components unless there are enough numbers in a row for this vector
+  // and for the required parameters after it.
   Argument readSpreadVector(const Parameter& p, int size) {
     int run = 0;
     while (next_ + run <= last_ && isNumeric(L_, next_ + run)) ++run;
-    int needed = 0;
-    for (const Parameter* q = &p + 1; q <= &entry_.parameters.back(); ++q)
-      if (q->required && (q->kind == ArgumentKind::Number || q->kind == ArgumentKind::Integer)) ++needed;
-    if (run < size || run < size + needed) return readOne(p, next_++);
+    int needed = 0, possible = 0;  // numbers that the parameters after it take
+    for (const Parameter* q = &p + 1; q <= &entry_.parameters.back(); ++q) {
+      if (q->required && numbersOf(*q) == 1) ++needed;
+      possible += numbersOf(*q);
+    }
+    const bool spread = run >= size && (!isSize(p) || run >= size + needed);
+    if (!spread && run > 1 && (!isSize(p) || run - 1 > possible))
+      raise(L_, what(p) + " takes three numbers" + (isSize(p) ? " or one for all" : "") +
+                    ", got two; the third is missing");
+    if (!spread) return readOne(p, next_++);
     Vec3E v;
     Expr* components[] = {&v.x, &v.y, &v.z};
     for (int i = 0; i < size; ++i) *components[i] = readNumber(L_, next_++, what(p), dependsOf(p));

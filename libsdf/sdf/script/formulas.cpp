@@ -167,8 +167,8 @@ int selectValue(lua_State* L) {
 int lengthOf(lua_State* L) {
   if (lua_istable(L, 1)) {
     expectArguments(L, 1, 1);
-    const int size = static_cast<int>(lua_rawlen(L, 1));
-    const Vec3E v = readVector(L, 1, argumentName(L, 1), size == 2 ? 2 : 3, Depends::OnPosition);
+    const int size = vectorSize(L, 1);
+    const Vec3E v = readVector(L, 1, argumentName(L, 1), size, Depends::OnPosition);
     return pushResult(L, size == 2 ? length(v.x, v.y) : length(v)), 1;
   }
   expectArguments(L, 1, 3);
@@ -180,7 +180,7 @@ int lengthOf(lua_State* L) {
 
 int dotProduct(lua_State* L) {
   expectArguments(L, 2, 2);
-  const int size = lua_istable(L, 1) && lua_rawlen(L, 1) == 2 ? 2 : 3;
+  const int size = vectorSize(L, 1);
   const Vec3E a = readVector(L, 1, argumentName(L, 1), size, Depends::OnPosition);
   const Vec3E b = readVector(L, 2, argumentName(L, 2), size, Depends::OnPosition);
   return pushResult(L, dot(a, b)), 1;

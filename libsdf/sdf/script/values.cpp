@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sdf/script/context.h"
+#include "sdf/script/library.h"
 #include "sdf/shape/catalog.h"
 
 namespace sdf {
@@ -306,12 +307,48 @@ bool isList(lua_State* L, int index, int size) {
   return lua_istable(L, index) && static_cast<int>(lua_rawlen(L, index)) == size;
 }
 
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
+bool hasField(lua_State* L, int index, const char* name) {
+  lua_pushstring(L, name);
+  const bool has = lua_rawget(L, index) != LUA_TNIL;
+  lua_pop(L, 1);
+  return has;
+}
+
 // Component i (from 1) of the table at `index`.
-Expr component(lua_State* L, int index, int i, const std::string& what, Depends depends) {
-  lua_rawgeti(L, index, i);
-  Expr e = readNumber(L, lua_gettop(L), "number " + std::to_string(i) + " of " + what, depends);
+Expr component(lua_State* L, int index, int i, bool named, const std::string& what, Depends depends) {
+  if (named) {
+    lua_pushstring(L, kAxes[i - 1]);
+    lua_rawget(L, index);
+  } else {
+    lua_rawgeti(L, index, i);
+  }
+  const std::string which = named ? kAxes[i - 1] : "number " + std::to_string(i);
+  Expr e = readNumber(L, lua_gettop(L), which + " of " + what, depends);
   lua_pop(L, 1);
   return e;
+}
+
+// Says what to write where one number stands in place of a vector: "{2, 0} or {0, 2}".
+std::string alongEachAxis(lua_State* L, int index, int size) {
+  const std::string number = isFormula(L, index) ? "k" : shown(lua_tonumber(L, index));
+  std::string text;
+  for (int axis = 0; axis < size; ++axis) {
+    text += axis == 0 ? "{" : axis + 1 < size ? ", {" : " or {";
+    for (int i = 0; i < size; ++i) text += (i == 0 ? "" : ", ") + (i == axis ? number : "0");
+    text += "}";
+  }
+  return text;
+}
+
+[[noreturn]] void noVector(lua_State* L, int index, const std::string& what, const std::string& wanted,
+                           int size) {
+  const std::string got = lua_istable(L, index)
+                              ? "a table of " + std::to_string(lua_rawlen(L, index)) + " values"
+                              : describe(L, index);
+  raise(L, what + " must be " + wanted + ", got " + got +
+               (isNumeric(L, index) ? "; write " + alongEachAxis(L, index, size) : ""));
 }
 
 // IEC 61966-2-1.
@@ -359,15 +396,33 @@ constexpr const char* kColorForms = "a colour (a number, {r, g, b}, \"#rrggbb\" 
 
 }  // namespace
 
+bool isNamedVector(lua_State* L, int index) {
+  return lua_istable(L, index) &&
+         std::ranges::any_of(kAxes, [&](const char* axis) { return hasField(L, index, axis); });
+}
+
+int vectorSize(lua_State* L, int index) {
+  return isNamedVector(L, index) ? (hasField(L, index, "z") ? 3 : 2) : isList(L, index, 2) ? 2 : 3;
+}
+
 Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Depends depends) {
+  const bool named = isNamedVector(L, index);
+  if (named)
+    checkNames(L, index, what, {kAxes, kAxes + size}, size == 3 ? "{x = 1, y = 2, z = 3}" : "{x = 1, y = 2}");
+  else if (!isList(L, index, size))
+    noVector(L, index, what, size == 3 ? "{x, y, z}" : "{x, y}", size);
+  const auto number = [&](int i) { return component(L, index, i, named, what, depends); };
+  return {number(1), number(2), size == 3 ? number(3) : Expr(0.0)};
+}
+
+Vec3E readSize(lua_State* L, int index, const std::string& what, int size, Depends depends) {
   if (isNumeric(L, index)) {
     const Expr e = readNumber(L, index, what, depends);
     return {e, e, size == 3 ? e : Expr(0.0)};
   }
-  if (!isList(L, index, size))
-    wrongType(L, index, what, size == 3 ? "{x, y, z} or a number" : "{x, y} or a number");
-  return {component(L, index, 1, what, depends), component(L, index, 2, what, depends),
-          size == 3 ? component(L, index, 3, what, depends) : Expr(0.0)};
+  if (!isNamedVector(L, index) && !isList(L, index, size))
+    noVector(L, index, what, size == 3 ? "{x, y, z} or a number" : "{x, y} or a number", size);
+  return readVector(L, index, what, size, depends);
 }
 
 glm::dvec3 readPoint(lua_State* L, int index, const std::string& what, int size) {

@@ -69,9 +69,15 @@ bool readFlag(lua_State* L, int index, const std::string& what);
 std::string readText(lua_State* L, int index, const std::string& what);
 int readChoice(lua_State* L, int index, const std::string& what, const std::vector<std::string>& choices);
 const Shape& readShape(lua_State* L, int index, const std::string& what);
-/// {x, y, z}, or one number for all. `size` is 2 or 3; the components beyond it are 0.
+/// Is it a table with a field x, y or z?
+bool isNamedVector(lua_State* L, int index);
+/// 2 for the form {x, y}, with or without names, else 3.
+int vectorSize(lua_State* L, int index);
+/// {x, y, z} or {x = x, y = y, z = z}. `size` is 2 or 3; the components beyond it are 0.
 Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Depends depends);
-/// The same of plain numbers only.
+/// The same, or one number for all components, as sizes and factors are often written.
+Vec3E readSize(lua_State* L, int index, const std::string& what, int size, Depends depends);
+/// A vector of plain numbers.
 glm::dvec3 readPoint(lua_State* L, int index, const std::string& what, int size);
 /// A number (grey), {r, g, b}, "#rgb" or "#rrggbb" in sRGB, or a function of position and normal.
 Vec3E readColor(lua_State* L, int index, const std::string& what, Depends depends);
