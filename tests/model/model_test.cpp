@@ -172,6 +172,17 @@ TEST(Model, AFieldsSlopeHoldsInItsTapesOnlyWhereItIsClaimed) {
   EXPECT_GE(Tape(unite(wrong, right).distance).lipschitz(), 3.0f);
 }
 
+TEST(Marchable, AUnionIsAsMarchableAsEachOfItsOperands) {
+  const Vec3E p = position();
+  const Shape wild = field(p.x * p.x * p.x - p.y, Box::centred(glm::dvec3(1.0)));
+  const Marchable alone = marchable(wild), m = marchable(unite(wild, plane({0.0, 1.0, 0.0}, -2.0)));
+  EXPECT_EQ(m.slope, alone.slope);
+  const Tape tape(m.distance);
+  EXPECT_EQ(evaluate(tape, {0.5, 0.25, 0.0}), 0.125 - 0.25);
+  EXPECT_EQ(evaluate(tape, {0.0, 0.0, 11.0}), 2.0) << "the floor";
+  EXPECT_EQ(marchable(unite(wild, field(p.x * p.x))).slope, kInfinity);
+}
+
 TEST(Marchable, AFieldOfUnknownSlopeIsTheWayToItsBoundsFarAway) {
   const Vec3E p = position();
   const Shape wild = field(p.x * p.x * p.x - p.y, Box::centred(glm::dvec3(1.0)));

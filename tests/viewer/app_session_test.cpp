@@ -252,9 +252,9 @@ TEST_F(SessionTest, ABrokenFileLeavesTheSceneAndNamesTheLine) {
 
 TEST_F(SessionTest, ASceneThatCannotBeDrawnLeavesTheOneBefore) {
   Session session = open();
-  write("return field(function(x, y, z) return x * x * y - 1 end)\n");
+  write("\nreturn field(function(x, y, z) return x * x * y - 1 end)\n");
   session.followFile();
-  EXPECT_NE(session.message().find("ball.lua: "), std::string::npos) << session.message();
+  EXPECT_NE(session.message().find("ball.lua:2: "), std::string::npos) << session.message();
   EXPECT_NE(session.message().find("slope"), std::string::npos) << session.message();
   EXPECT_EQ(session.scene().parts[0].name, "ball");
 }

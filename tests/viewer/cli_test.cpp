@@ -147,7 +147,8 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
   for (const char* name : {"a.jpg", "a.png.jpeg", "a%04d.exr"})
     expectRefused(kUsage,
                   "'" + at(name) + "' has the unknown extension '" +
-                      std::filesystem::path(name).extension().string() + "'; the output's name must end in .png",
+                      std::filesystem::path(name).extension().string() +
+                      "'; the output's name must end in .png",
                   {at("nowhere.lua"), "--render", at(name)});
   expectRefused(kUsage, "has no extension; the output's name must end in .png", {s, "--render", at("a")});
   expectRefused(kUsage, "more than one place for the frame's number",
@@ -164,11 +165,38 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAScene) {
   refuse("return sphere(", "scene.lua:1:");
   refuse("return sphere(-1)", "radius must be positive");
   refuse("", "scene.lua");
-  refuse("return field(function(x, y, z) return x * x + y * y + z * z - 1 end)", "");
+  const std::string cube = " return x * x * x - 1 end", root = " return sqrt(abs(x)) - 1 end";
+  const std::string unknown =
+      "the slope of this distance is not known, so rays cannot be marched to it; give its field() a "
+      "lipschitz, "
+      "or bounds within which the formula has one";
+  const std::string box = ", {bounds = {{-1, -1, -1}, {1, 1, 1}}}";
+  for (const auto& [text, line] : std::initializer_list<std::pair<std::string, int>>{
+           {"return field(function(x)" + cube + ")", 1},
+           {"return plane(), field(function(x)" + root + box + ")", 1},
+           {"local f = field(function(x)" + cube + ")\npart('a', sphere(1))\npart('b', f:translate(1, 2, 3))",
+            1},
+           {"\nlocal f = field(function(x)" + cube + ")\nreturn union(sphere(1), f, {k = 0.1}):twist(3)", 2},
+           {"part('a', sphere(1) | (\nfield(function(x)" + cube + ") - sphere(1)))", 2},
+           {"local good = field(function(x)" + cube + box + ")\nreturn good |\nfield(function(x)" + cube +
+                ")",
+            3},
+           {"return sphere(1):displace(\nfunction(x) return x * x end)", 1}})
+    refuse(text, ("scene.lua:" + std::to_string(line) + ": " + unknown).c_str());
   refuse(kBall, "-D size: the scene has no parameter 'size'", {"-D", "size=2"});
   refuse(kMoving, "-D time: set the scene's clock with --time", {"-D", "time=2"});
   expectRefused(kFiles, "nowhere.lua: cannot be read", {at("nowhere.lua"), "--render", png});
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
+}
+
+TEST_F(Sdfview, DrawsAFieldWithBoundsBesideWhatHasNone) {
+  const std::string ball =
+      "field(function(x, y, z) return x * x + y * y + z * z - 1 end, "
+      "{bounds = {{-1, -1, -1}, {1, 1, 1}}})";
+  const std::string floor = "part('floor', plane{offset = -1}) ambient(1) ";
+  const Picture field = drawn(floor + "part('ball', " + ball + ")", {"--view", "material"}),
+                sphere = drawn(floor + "part('ball', sphere(1))", {"--view", "material"});
+  EXPECT_EQ(field.bytes, sphere.bytes);
 }
 
 TEST_F(Sdfview, NamesPicturesThatAreTooLarge) {

@@ -116,9 +116,13 @@ TEST(Compiling, IsRefusedForTheShapesThatMarchingRefuses) {
   const Expr steep = p.x * p.x * p.y - 1.0, moderate = p.x * p.x - 1.0;
   const Box box = Box::centred(glm::dvec3(2.0));
   const Shape floor = plane(Vec3E(Expr(0.0), Expr(1.0), Expr(0.0)), 0.0);
-  const Shape all[] = {
-      sphere(1.0),         floor, field(steep), field(steep, box), field(moderate, box) | floor,
-      field(log(p.x), box)};
+  const Shape all[] = {sphere(1.0),
+                       floor,
+                       field(steep),
+                       field(steep, box),
+                       field(moderate, box) | floor,
+                       field(moderate) | floor,
+                       field(log(p.x), box)};
   std::vector<bool> refused;
   for (const Shape& shape : all) {
     Scene scene;
@@ -128,7 +132,17 @@ TEST(Compiling, IsRefusedForTheShapesThatMarchingRefuses) {
     refused.push_back(!assemble(scene, {}));
     EXPECT_EQ(refused.back(), !checkSlope(*marched, "a ray")) << refused.size();
   }
-  EXPECT_EQ(refused, (std::vector<bool>{false, false, true, false, true, true}));
+  EXPECT_EQ(refused, (std::vector<bool>{false, false, true, false, false, true, true}));
+}
+
+TEST(Compiling, NamesThePartWhoseSlopeIsNotKnown) {
+  Scene scene;
+  scene.add("ball", sphere(1.0));
+  scene.add("blob", field(position().x * position().y - 1.0));
+  const auto shaders = assemble(scene, {});
+  ASSERT_FALSE(shaders.ok());
+  EXPECT_EQ(shaders.error().message.find("part 'blob': the slope of this distance is not known"), 0u)
+      << shaders.error().message;
 }
 
 TEST(Compiling, NamesThePartBehindEachLine) {

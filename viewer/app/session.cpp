@@ -90,7 +90,7 @@ Status Session::load(const Built& wanted) {
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file_, controls.parameters);
   auto made = build(*scene, wanted);
-  if (!made) return Error{made.error().kind, file_.string() + ": " + made.error().message};
+  if (!made) return made.error();
 
   scene_ = std::move(*scene);
   look_ = std::move(look);

@@ -1,5 +1,7 @@
 #include "viewer/shaders/plan.h"
 
+#include <algorithm>
+
 #include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
 #include "sdf/model/model.h"
@@ -43,13 +45,28 @@ Split split(const Scene& scene, bool withPlanes) {
   return result;
 }
 
-Result<Marched> marched(const Shape& shape) {
+bool hasSlope(const Shape& shape) { return marchable(shape).slope < kInfinity; }
+
+/// Names the first shape without a known slope: by the line of its formula if it has one, else by its part.
+Error withoutSlope(const Scene& scene) {
+  const Part& part = *std::ranges::find_if_not(scene.parts, hasSlope, &Part::shape);
+  const Shape* shape = &part.shape;
+  if (shape->outer) {
+    const auto& operands = shape->outer->operands;
+    const auto found = std::ranges::find_if_not(operands, hasSlope);
+    if (found != operands.end()) shape = &*found;
+  }
+  const std::string subject = shape->formulaAt.empty() ? "part '" + part.name + "'" : shape->formulaAt;
+  return {ErrorKind::Scene,
+          subject +
+              ": the slope of this distance is not known, so rays cannot be marched to it; give its "
+              "field() a lipschitz, or bounds within which the formula has one"};
+}
+
+Result<Marched> marched(const Shape& shape, const Scene& scene) {
   const auto [distance, slope] = marchable(shape);
   if (slope < kInfinity) return Marched{hoisted(distance), 1.0 / slope, shape.bounds};
-  return Error{
-      ErrorKind::Scene,
-      "the distance has no known slope, so its rays cannot be marched; give its field() bounds and a "
-      "lipschitz constant"};
+  return withoutSlope(scene);
 }
 
 void planSurface(const Shape& whole, Plan& plan) {
@@ -68,7 +85,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   const Shape whole = scene.whole();
   Plan plan;
   plan.options = options;
-  if (auto s = keep(marched(whole), plan.whole); !s) return s.error();
+  if (auto s = keep(marched(whole, scene), plan.whole); !s) return s.error();
   // Occlusion by steps counts the readings of the whole.
   const bool stepsCount = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps;
   const View view = options.view;
@@ -80,7 +97,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (plan.planes.empty()) {
     plan.rest = plan.whole;
   } else if (!parts.others.empty()) {
-    if (auto s = keep(marched(rest), plan.rest); !s) return s.error();
+    if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
   }
   plan.cones = options.method == Method::AutoRelaxed && !stepsCount;
   plan.tiled = plan.cones && isPicture && plan.planes.empty();

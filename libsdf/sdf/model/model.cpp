@@ -102,10 +102,25 @@ double slopeIn(const Shape& shape, const Box& box) {
   return everywhere < kInfinity ? everywhere : lipschitzOver(Tape(shape.distance), box);
 }
 
+namespace {
+
+Marchable leastOf(const std::vector<Shape>& operands) {
+  Marchable result = marchable(operands.front());
+  for (std::size_t i = 1; i < operands.size(); ++i) {
+    const Marchable one = marchable(operands[i]);
+    result = {min(result.distance, one.distance), std::max(result.slope, one.slope)};
+  }
+  return result;
+}
+
+}  // namespace
+
 Marchable marchable(const Shape& shape) {
   constexpr double kConstant = 0x1p-64;  // stands for 0: a distance that is the same everywhere
   Marchable result{shape.distance, std::max(slopeOf(shape), kConstant)};
-  if (result.slope < kInfinity || !shape.bounds.finite()) return result;
+  if (result.slope < kInfinity) return result;
+  if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard) return leastOf(shape.outer->operands);
+  if (!shape.bounds.finite()) return result;
   const Box near = shape.bounds.grown(0.5 * shape.bounds.longestSide());
   result.slope = std::max(slopeIn(shape, near), kConstant);
   if (result.slope < kInfinity)

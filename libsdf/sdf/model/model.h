@@ -86,8 +86,9 @@ struct Marchable {
   double slope;  ///< over all of space, positive; infinite where it is not known
 };
 
-/// The shape's distance, if its slope is known everywhere. Else, if it is known near finite bounds, the
-/// distance there and the way to the bounds, times the slope, beyond.
+/// The shape's distance, if its slope is known everywhere. Else that of a hard union is the least of its
+/// operands', each made marchable by itself; that of any other shape, if its slope is known near its finite
+/// bounds, the distance there and the way to the bounds, times the slope, beyond.
 Marchable marchable(const Shape& shape);
 
 }  // namespace sdf

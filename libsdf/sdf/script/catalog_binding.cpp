@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/shape/deform.h"
 #include "sdf/shape/solids.h"
@@ -28,7 +29,9 @@ class Call {
     if (next_ <= last_)
       raise(L_, entry_.name + ": too many arguments, the first one too many is " + describe(L_, next_) +
                     "; write " + usageOf(entry_));
-    return build(entry_, std::move(values));
+    Shape result = build(entry_, std::move(values));
+    if (result.formulaAt.empty()) result.formulaAt = formulaAt_;
+    return result;
   }
 
  private:
@@ -131,11 +134,13 @@ class Call {
     return readOne(p, next_++);
   }
 
-  const Shape& shapeAt(const Parameter& p, int at) const {
+  const Shape& shapeAt(const Parameter& p, int at) {
     if (!testShape(L_, at) && at == 1)
       raise(L_, what(p) + " must be a shape, got " + describe(L_, at) + "; write " + usageOf(entry_) +
                     " or shape:" + entry_.name + "(…)");
-    return readShape(L_, at, what(p));
+    const Shape& shape = readShape(L_, at, what(p));
+    if (formulaAt_.empty()) formulaAt_ = shape.formulaAt;
+    return shape;
   }
 
   bool isPoint(int at) const {
@@ -204,14 +209,22 @@ class Call {
 
   lua_State* L_;
   const CatalogEntry& entry_;
-  int next_ = 1;     // the first argument in place that no parameter has taken
-  int last_ = 0;     // the last argument in place
-  int options_ = 0;  // the table of named fields, or 0; what lies above it is scratch
+  int next_ = 1;           // the first argument in place that no parameter has taken
+  int last_ = 0;           // the last argument in place
+  std::string formulaAt_;  // the first that a shape among the arguments has
+  int options_ = 0;        // the table of named fields, or 0; what lies above it is scratch
 };
 
 int pushGood(lua_State* L, Shape shape) {
   if (!shape.ok()) raise(L, *shape.error);
   return pushShape(L, std::move(shape)), 1;
+}
+
+// A shape of the script's own formula.
+int pushFormulaShape(lua_State* L, Shape shape) {
+  if (slopeOf(shape) == kInfinity && shape.formulaAt.empty())
+    shape.formulaAt = contextOf(L).file + ":" + std::to_string(currentLine(L));
+  return pushGood(L, std::move(shape));
 }
 
 int callEntry(lua_State* L) {
@@ -232,7 +245,7 @@ int callEntryOrNumberFunction(lua_State* L) {
 int callDisplace(lua_State* L) {
   const bool free = lua_isfunction(L, 2) || (isFormula(L, 2) && dependsOnSpace(exprAt(L, 2)));
   if (!testShape(L, 1) || lua_gettop(L) != 2 || !free) return callEntry(L);
-  return pushGood(L, displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula")));
+  return pushFormulaShape(L, displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula")));
 }
 
 void pushEntryFunction(lua_State* L, const CatalogEntry& entry) {
@@ -269,8 +282,8 @@ int freeForm(lua_State* L) {
   const FunctionInfo& f = runningFunction(L);
   const Expr distance = readFormula(L, 1, f.name + ": the formula");
   const FieldValues known = readFields(L, 2, f);
-  return pushGood(L, field(distance, valueOr(known, "bounds", Box::everything()),
-                           valueOr(known, "lipschitz", kInfinity)));
+  return pushFormulaShape(L, field(distance, valueOr(known, "bounds", Box::everything()),
+                                   valueOr(known, "lipschitz", kInfinity)));
 }
 
 int notArithmetic(lua_State* L) {
@@ -316,7 +329,7 @@ const std::vector<FunctionInfo>& shapeLibrary() {
        "field(function(x, y, z) return … end, {bounds = {{x0, y0, z0}, {x1, y1, z1}}, lipschitz = 2})",
        "solid where the formula is 0 or less",
        {{"bounds", SettingKind::Box, "a box that holds the solid; trusted", Rule::Any, {}, "none"},
-        {"lipschitz", PlainNumber, "a bound on the formula's slope; trusted. Without one that is known or derived, the shape is slow to draw and to mesh", Rule::Positive, {}, "derived"}},
+        {"lipschitz", PlainNumber, "a bound on the formula's slope; trusted. Without one, sdfview derives it within the bounds, and refuses the field where it cannot; sdf2gltf meshes any field, but slowly where no slope is known", Rule::Positive, {}, "derived"}},
        freeForm},
   };
   return library;

@@ -91,6 +91,8 @@ struct Shape {
   /// The operands where the shape is a union, else nothing. Moving, turning, scaling and painting a union
   /// keeps the list; whatever else is done to it makes one shape of it.
   std::shared_ptr<const Union> outer;
+  /// Where a scene file gives the formula in it whose slope is not known, "scene.lua:3"; else "".
+  std::string formulaAt;
   int dimension = 3;  ///< 2: a flat shape in x and y (its distance ignores z), to be extruded or revolved
   std::optional<std::string> error;
 
