@@ -200,6 +200,29 @@ TEST(NarrowBand, TooMuchMemoryIsRefusedBeforeItIsTaken) {
   }
 }
 
+// The message names a size that is not refused in turn, and no more than it must.
+TEST(NarrowBand, TheVoxelSizeThatIsNamedFits) {
+  constexpr double kLimit = 1 << 25;
+  const Shape rods = unite(std::vector{box(Vec3E(1.0, 0.01, 0.01)), box(Vec3E(0.01, 1.0, 0.01)),
+                                       translate(box(Vec3E(0.01, 0.01, 1.0)), {0.5, 0.5, 0.0})});
+  for (const Shape& shape : {sphere(1.0), box(Vec3E(1.0)), rods, rotate(rods, {0.1, 0.2, 0.3}), latticeBall(),
+                             strewn(100, 0.05), translate(torus(0.7, 0.01), {0.1, 0.2, 0.3})})
+    for (const double voxel : {1e-10, 1e-4, 1e-3}) {
+      Progress progress;
+      const ModelTapes model = Model(shape).at();
+      const auto sampled = [&](double size) {
+        return sampleNarrowBand(model, {size, region(1.5), kLimit}, progress);
+      };
+      const auto refused = sampled(voxel);
+      if (refused) continue;
+      const std::string message = refused.error().message, before = "take a voxel size of ";
+      ASSERT_NE(message.find(before), std::string::npos) << message;
+      const double named = std::stod(message.substr(message.find(before) + before.size()));
+      EXPECT_TRUE(sampled(named)) << message;
+      EXPECT_FALSE(sampled(named / 4)) << message;
+    }
+}
+
 TEST(NarrowBand, StopsWithinASecondWhenAnotherThreadAsks) {
   struct Begun : Progress {
     std::atomic<bool> begun{false};

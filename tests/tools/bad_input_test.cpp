@@ -151,7 +151,11 @@ TEST_F(BadInput, MeshesThatContradictWhatIsStatedOfAFieldAreNotWritten) {
 TEST_F(BadInput, TooSmallVoxelsAreRefusedBeforeTheWorkStarts) {
   const Outcome outcome =
       run({scene(kSphere), "-o", out("a.glb"), "--voxel-size", "1e-5", "--max-memory", "0.5"});
-  expectRefusal(outcome, kLimits, {"voxel", "GiB"});
+  expectRefusal(outcome, kLimits,
+                {"a voxel size of 1e-05 needs about ",
+                 "GiB, more than the limit of 0.5 GiB; "
+                 "take a voxel size of 0.00",
+                 ", smaller bounds or a higher limit"});
   constexpr double kAnEstimate =
       5.0;  // seconds; filling half a GiB of voxels takes longer even where nothing else runs
   EXPECT_LT(outcome.seconds, kAnEstimate);

@@ -213,7 +213,12 @@ TEST_F(Export, WarnsOfWhatFallsBetweenTheSamples) {
       warned.find("sdf2gltf: warning: part 'pair': solids or gaps thinner than a voxel were missed at "),
       std::string::npos)
       << warned;
-  EXPECT_NE(warned.find("take a smaller one"), std::string::npos) << warned;
+  const std::string before = "take one of ";
+  ASSERT_NE(warned.find(before), std::string::npos) << warned;
+  const std::string rest = warned.substr(warned.find(before) + before.size());
+  EXPECT_EQ(rest.substr(rest.find(' ')), " to see them\n");
+  const std::string named = rest.substr(0, rest.find(' '));
+  EXPECT_NEAR(std::stod(named), 0.04 / std::sqrt(3.0), 0.001) << "two digits";
 
   EXPECT_EQ(
       run({file, "-o", out("a.glb"), "--voxel-size", "0.1", "--quiet", "--report", out("report.json")}).err,
@@ -222,11 +227,13 @@ TEST_F(Export, WarnsOfWhatFallsBetweenTheSamples) {
   EXPECT_EQ(part["components"], 1);
   EXPECT_GT(part["unresolved"], 0);
   EXPECT_NEAR(part["first_unresolved"][0].get<double>(), 0.75, 0.1);  // a voxel
+  EXPECT_NEAR(part["resolving_voxel_size"].get<double>(), 0.04 / std::sqrt(3.0), 1e-4);
 
-  const Json fine = report({file, "-o", out("a.glb"), "--voxel-size", "0.03"})["outputs"][0]["parts"][0];
+  const Json fine = report({file, "-o", out("a.glb"), "--voxel-size", named})["outputs"][0]["parts"][0];
   EXPECT_EQ(fine["components"], 2);
   EXPECT_EQ(fine["unresolved"], 0);
   EXPECT_TRUE(fine["first_unresolved"].is_null());
+  EXPECT_TRUE(fine["resolving_voxel_size"].is_null());
 }
 
 TEST_F(Export, WarnsOfADistanceThatIsNotANumber) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,12 @@ std::string place(const glm::vec3& p) {
   return "(" + formatted("%.4g", p.x) + ", " + formatted("%.4g", p.y) + ", " + formatted("%.4g", p.z) + ")";
 }
 
+/// Two digits.
+std::string roundedDown(double positive) {
+  const double digit = std::pow(10.0, std::floor(std::log10(positive)) - 1.0);
+  return formatted("%.2g", std::floor(positive / digit) * digit);
+}
+
 Json placeJson(const glm::vec3& p) { return {p.x, p.y, p.z}; }
 Json placeJson(std::uint64_t count, const glm::vec3& first) {
   return count == 0 ? Json(nullptr) : placeJson(first);
@@ -69,6 +76,7 @@ Json json(const ReportLine& line) {
           {"euler_characteristic", stats.eulerCharacteristic},
           {"unresolved", stats.unresolved},
           {"first_unresolved", placeJson(stats.unresolved, stats.firstUnresolved)},
+          {"resolving_voxel_size", stats.resolvingVoxel > 0.0 ? Json(stats.resolvingVoxel) : Json(nullptr)},
           {"not_numbers", stats.notNumbers},
           {"first_not_number", placeJson(stats.notNumbers, stats.firstNotNumber)}};
 }
@@ -91,8 +99,9 @@ void printWarnings(std::ostream& out, const FileReport& report) {
     if (stats.unresolved > 0)
       out << part << "solids or gaps thinner than a voxel were missed at " << grouped(stats.unresolved)
           << " places, the first near " << place(stats.firstUnresolved)
-          << "; how the mesh hangs together there depends on the voxel size, take a smaller one to see "
-             "them\n";
+          << "; how the mesh hangs together there depends on the voxel size, take "
+          << (stats.resolvingVoxel > 0.0 ? "one of " + roundedDown(stats.resolvingVoxel) : "a smaller one")
+          << " to see them\n";
     if (stats.notNumbers > 0)
       out << part << "the distance is not a number at " << grouped(stats.notNumbers)
           << " samples, the first near " << place(stats.firstNotNumber)

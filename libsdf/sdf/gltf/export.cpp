@@ -52,6 +52,8 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
     all.eulerCharacteristic += one.eulerCharacteristic;
     if (all.unresolved == 0) all.firstUnresolved = one.firstUnresolved;
     all.unresolved += one.unresolved;
+    if (one.resolvingVoxel > 0.0 && !(all.resolvingVoxel > 0.0 && all.resolvingVoxel < one.resolvingVoxel))
+      all.resolvingVoxel = one.resolvingVoxel;
     if (all.notNumbers == 0) all.firstNotNumber = one.firstNotNumber;
     all.notNumbers += one.notNumbers;
     squares += one.rmsDistance * one.rmsDistance * static_cast<double>(one.triangles);

@@ -35,7 +35,7 @@ constexpr double kSqrt3 = 1.7320508075688772;
 // What a surface voxel costs in the end: its share of a leaf, extraction's buffers, vertices, triangles and
 // measuring.
 constexpr double kBytesPerSurfaceVoxel = 300.0;
-constexpr double kSurfaceVoxelsPerLeaf = 64.0;
+constexpr double kBytesPerLeaf = 64.0 * kBytesPerSurfaceVoxel;
 
 // Running so many instructions over a leaf takes no longer than making it a tape of its own.
 constexpr std::size_t kShortTape = 64;
@@ -104,7 +104,14 @@ class BandSampler {
       : model_(model), options_(options), progress_(progress), h_(options.voxelSize) {}
 
   Result<NarrowBand> run() {
-    if (auto s = placeRoot(); !s) return s.error();
+    if (auto s = descend(); !s) return s.error();
+    return collect();
+  }
+
+ private:
+  // Finds the leaves that the surface may meet, and samples them.
+  Status descend() {
+    if (auto s = placeRoot(); !s) return s;
     for (level_ = 0; level_ < levels_; ++level_) {
       if (size_ > kLeaf * kBranch)
         cells_ = overChildren<Cell>(
@@ -115,12 +122,11 @@ class BandSampler {
           if (leaf.leaf) found.push_back(std::move(leaf));
         });
       if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-      if (auto s = checkMemory(); !s) return s.error();
+      if (auto s = checkMemory(); !s) return s;
     }
-    return collect();
+    return okStatus();
   }
 
- private:
   // The smallest cell of kLeaf * kBranch^n voxels that covers the bounds and a voxel around them.
   Status placeRoot() {
     const Box& b = options_.bounds;
@@ -141,14 +147,30 @@ class BandSampler {
   Status tooLarge(double bytes) const {
     return Error{ErrorKind::Limits, "a voxel size of " + shown(h_) + " needs about " + gigabytes(bytes) +
                                         " GiB, more than the limit of " + gigabytes(options_.maxMemory) +
-                                        " GiB; take a larger voxel size, smaller bounds or a higher limit"};
+                                        " GiB; take a voxel size of " + shown(fittingVoxel(bytes)) +
+                                        ", smaller bounds or a higher limit"};
+  }
+
+  // A voxel size that fits the limit: by the bytes estimated for this one, and by those that a coarse band
+  // takes. A surface takes them by the square of its voxels' number. Two digits, upwards.
+  double fittingVoxel(double bytes) const {
+    constexpr double kCoarse = 1.0 / 100, kMargin = 1.2;  // cells may lie otherwise
+    const double coarse = kCoarse * options_.bounds.longestSide();
+    const BandOptions all{coarse, options_.bounds, std::numeric_limits<double>::infinity()};
+    BandSampler sampler(model_, all, progress_);
+    if (!sampler.descend()) return h_;  // interrupted
+    const double takes = static_cast<double>(sampler.leaves_.size()) * kBytesPerLeaf;
+    const double fits = kMargin * std::max(h_ * std::sqrt(bytes / options_.maxMemory),
+                                           coarse * std::sqrt(takes / options_.maxMemory));
+    const double digit = std::pow(10.0, std::floor(std::log10(fits)) - 1.0);
+    return std::ceil(fits / digit) * digit;
   }
 
   // From the cells that survived so far: each meets the surface in about the area of its side.
   Status checkMemory() const {
     const double leavesAcross = static_cast<double>(size_) / kLeaf;
     const double leaves = size_ > kLeaf ? cells_.size() * leavesAcross * leavesAcross * 0.5 : leaves_.size();
-    const double bytes = leaves * kSurfaceVoxelsPerLeaf * kBytesPerSurfaceVoxel;
+    const double bytes = leaves * kBytesPerLeaf;
     return bytes > options_.maxMemory ? tooLarge(bytes) : okStatus();
   }
 

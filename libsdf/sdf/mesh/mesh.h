@@ -46,6 +46,7 @@ struct MeshStats {
   int eulerCharacteristic = 0;
   std::uint64_t unresolved = 0;  ///< places where solids or gaps thinner than a voxel were passed unseen
   glm::vec3 firstUnresolved{0.0f};
+  double resolvingVoxel = 0.0;   ///< size of voxels that would see the thinnest of them; 0 where not known
   std::uint64_t notNumbers = 0;  ///< samples near the surface that are no numbers; they count as outside
   glm::vec3 firstNotNumber{0.0f};
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
 
 #include "sdf/eval/promise.h"
 
@@ -24,6 +26,12 @@ constexpr Probe kAcross[] = {{0.0f, {0.0f, 0.0f}, 0.002f}, {-0.1f, {0.0f, 0.0f},
 constexpr Probe kThrough = {-1.0f, {0.0f, 0.0f}, 1.0f};
 // Half a cell's diagonal, and the least of what is looked beyond.
 constexpr float kReach = 0.8660254f + 0.02f;
+// Thickness is measured between the changes of sign along the gradient, as far as the suspect's tapes hold.
+// Where all samples miss it, it is looked for about the least of them.
+constexpr float kMeasured = 2.0f;  // voxels
+constexpr int kSamples = 32, kPasses = 3;
+constexpr std::size_t kMostMeasured = 128;  // suspects, evenly spread
+constexpr float kNowhere = -1.0f;
 // Of a distance's rounding: what it may make of a zero where solids touch, which few operations lead to.
 constexpr double kOfRounding = 0.25;
 
@@ -62,6 +70,61 @@ void confirm(const PointRun& run, const NarrowBand::Suspect* suspects, float vox
   look(kThrough, [&](std::size_t i, bool across) { confirmed[i] &= !across; });
 }
 
+/// Measures what the gradient at each suspect of a run passes through; 0 where it meets nothing, or no end.
+void measure(const PointRun& run, const NarrowBand::Suspect* suspects, float voxel, float* thickness) {
+  struct Line {
+    float start = 0.0f, step = 0.0f;  ///< of the samples, along the line
+    float least = 0.0f, leastAt = 0.0f, before = 0.0f;
+    float enters = kNowhere, leaves = kNowhere;
+  };
+  RunGradients at;
+  at.evaluate(run, run.points);
+  PointRows places;
+  float value[kBatchPoints];
+  std::vector<Line> lines(run.count, {.step = kMeasured * voxel / kSamples});
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (Line& line : lines) line.least = std::numeric_limits<float>::infinity();
+    for (int k = 0; k <= kSamples; ++k) {
+      for (std::size_t i = 0; i < run.count; ++i)
+        places.set(i,
+                   suspects[i].at - glm::normalize(at.gradient(i)) *
+                                        std::copysign(lines[i].start + k * lines[i].step, suspects[i].value));
+      run.batch.evaluate(*run.tapes.distance, places.rows(), run.count, value);
+      for (std::size_t i = 0; i < run.count; ++i) {
+        Line& line = lines[i];
+        const float v = suspects[i].value < 0.0f ? -value[i] : value[i], t = line.start + k * line.step;
+        if (v < line.least) line.least = v, line.leastAt = t;
+        // Between this sample and the one before.
+        const auto zero = [&] { return k == 0 ? t : t - line.step * v / (v - line.before); };
+        if (line.enters == kNowhere && v < 0.0f) line.enters = zero(), line.leaves = kNowhere;
+        if (line.enters != kNowhere && line.leaves == kNowhere && v >= 0.0f) line.leaves = zero();
+        line.before = v;
+      }
+    }
+    if (std::ranges::none_of(lines, [](const Line& line) { return line.enters == kNowhere; })) break;
+    for (Line& line : lines) {
+      if (line.enters != kNowhere) continue;
+      line.start = line.leastAt - line.step;
+      line.step *= 2.0f / kSamples;
+    }
+  }
+  for (std::size_t i = 0; i < run.count; ++i)
+    thickness[i] = lines[i].enters == kNowhere ? 0.0f : std::max(lines[i].leaves - lines[i].enters, 0.0f);
+}
+
+/// The least thickness among the suspects; infinite where none could be measured.
+float thinnest(const std::vector<NarrowBand::Suspect>& suspects, float voxel, const LocalField& field,
+               Progress& progress) {
+  std::vector<float> thickness(suspects.size(), 0.0f);
+  forEachRun(
+      suspects.size(), [&](std::size_t i) { return suspects[i].at; }, field, progress,
+      [&](const PointRun& run) { measure(run, &suspects[run.first], voxel, &thickness[run.first]); });
+  float least = std::numeric_limits<float>::infinity();
+  for (const float t : thickness)
+    if (t > 0.0f) least = std::min(least, t);
+  return least;
+}
+
 }  // namespace
 
 void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& progress, MeshStats& stats) {
@@ -71,9 +134,18 @@ void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& p
   forEachRun(
       suspects.size(), [&](std::size_t i) { return suspects[i].at; }, field, progress,
       [&](const PointRun& run) { confirm(run, &suspects[run.first], voxel, &confirmed[run.first]); });
-  stats.unresolved = 0;
+  std::vector<NarrowBand::Suspect> found;
   for (std::size_t i = 0; i < suspects.size(); ++i)
-    if (confirmed[i] && stats.unresolved++ == 0) stats.firstUnresolved = suspects[i].at;
+    if (confirmed[i]) found.push_back(suspects[i]);
+  stats.unresolved = found.size();
+  stats.resolvingVoxel = 0.0;
+  if (found.empty()) return;
+  stats.firstUnresolved = found.front().at;
+  std::vector<NarrowBand::Suspect> measured;
+  for (std::size_t i = 0; i < found.size(); i += found.size() / kMostMeasured + 1)
+    measured.push_back(found[i]);
+  if (const float thin = thinnest(measured, voxel, field, progress); std::isfinite(thin))
+    stats.resolvingVoxel = std::min(thin, voxel) / std::numbers::sqrt3;
 }
 
 }  // namespace sdf
