@@ -50,7 +50,7 @@ TEST(Language, VectorsMayNameTheirComponents) {
   EXPECT_EQ(numberOf("length{x = 3, y = 4} + dot({x = 1, y = 2, z = 3}, {1, 1, 1})"), 11.0);
   const Scene scene = sceneOf(
       "camera{from = {x = 1, y = 2, z = 3}} bounds({x = -1, y = -1, z = -1}, {1, 1, 1}) return sphere(1)");
-  EXPECT_EQ(uniformValue(scene.camera.from.z), 3.0);
+  EXPECT_EQ(uniformValue(scene.camera.eye().z), 3.0);
   EXPECT_EQ(scene.bounds->min, glm::dvec3(-1.0));
 }
 

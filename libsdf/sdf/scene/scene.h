@@ -16,7 +16,7 @@ namespace sdf {
 struct Camera {
   /// None: the camera is fitted (scene/fit.h): it looks at the middle of the scene along the way from
   /// eye() to `to`, from where all of the scene is in view.
-  std::optional<Vec3E> from;
+  std::optional<Vec3E> from{};
   Vec3E to{Expr(0.0)};
   Vec3E up{Expr(0.0), Expr(1.0), Expr(0.0)};
   Expr fov = 45.0;  ///< vertical field of view, degrees
@@ -39,18 +39,18 @@ struct Light {
 struct Shadow {
   enum class Kind { None, Hard, Soft, Improved, Signed };
   Kind kind = Kind::None;
-  Expr sharpness = 8.0;         ///< k of k d / t; larger is harder
-  std::optional<double> start;  ///< where the shadow ray leaves the surface; none: see viewLengths
-  std::optional<double> reach;  ///< how far it goes; none: see viewLengths
-  int steps = 50;               ///< at most
+  Expr sharpness = 8.0;           ///< k of k d / t; larger is harder
+  std::optional<double> start{};  ///< where the shadow ray leaves the surface; none: see viewLengths
+  std::optional<double> reach{};  ///< how far it goes; none: see viewLengths
+  int steps = 50;                 ///< at most
 };
 
 struct AmbientOcclusion {
   enum class Kind { None, Taps, Steps };
   Kind kind = Kind::None;
-  std::optional<double> spacing;  ///< Taps: distance between samples along the normal; none: see viewLengths
-  int count = 5;                  ///< Taps: how many
-  Expr strength = 0.2;            ///< Taps: weight of each; Steps: darkening of each marching step
+  std::optional<double> spacing{};  ///< Taps: between samples along the normal; none: see viewLengths
+  int count = 5;                    ///< Taps: how many
+  Expr strength = 0.2;              ///< Taps: weight of each; Steps: darkening of each marching step
 };
 
 struct Fog {
@@ -80,8 +80,8 @@ struct Scene {
   Shadow shadow;
   AmbientOcclusion ambientOcclusion;
   int reflectionBounces = 1;
-  std::optional<double> maxDistance;  ///< how far the camera sees; none: see viewLengths
-  std::optional<double> gamma;        ///< none: sRGB output; 1: raw values
+  std::optional<double> maxDistance{};  ///< how far the camera sees; none: see viewLengths
+  std::optional<double> gamma;          ///< none: sRGB output; 1: raw values
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);
