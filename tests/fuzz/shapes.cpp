@@ -13,11 +13,11 @@ class ShapeReader {
  public:
   explicit ShapeReader(Bytes& bytes) : bytes_(bytes) {}
 
-  Shape read(int most) {
+  FuzzedShape read(int most) {
     for (int left = 1 + bytes_.below(most); left > 0 && !bytes_.empty(); --left) step();
     std::vector<Shape> solids;
     for (const Shape& s : made_) solids.push_back(s.dimension == 2 ? extrude(s, 0.5) : s);
-    return solids.empty() ? Shape::failed("no shape") : unite(solids);
+    return {solids.empty() ? Shape::failed("no shape") : unite(solids), moderate_};
   }
 
  private:
@@ -45,7 +45,10 @@ class ShapeReader {
     return turns ? 32.0 : 1.0;
   }
   Expr number(const Parameter& p) {
-    if (bytes_.below(32) == 0) return Expr(bytes_.number());
+    if (bytes_.below(32) == 0) {
+      moderate_ = false;
+      return Expr(bytes_.number());
+    }
     const double v =
         p.rule == Rule::Positive || p.rule == Rule::NotNegative ? bytes_.positive() : bytes_.moderate();
     return Expr(v * scaleOf(p));
@@ -91,11 +94,12 @@ class ShapeReader {
 
   Bytes& bytes_;
   std::vector<Shape> made_;
+  bool moderate_ = true;
   std::size_t taken_ = 0;  // by the entry that is being built, from the end of made_
 };
 
 }  // namespace
 
-Shape readShape(Bytes& bytes, int most) { return ShapeReader(bytes).read(most); }
+FuzzedShape readShape(Bytes& bytes, int most) { return ShapeReader(bytes).read(most); }
 
 }  // namespace sdf::fuzz
