@@ -186,7 +186,8 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
   };
   const std::vector<float> atFine = distancesAt(kFine * edges.size(), fine, field, progress);
   for (std::size_t i = 0; i < atFine.size(); ++i) farthest.take(atFine[i], [&] { return fine(i); });
-  stats.rmsDistance = area > 0.0 ? std::sqrt(squares / area) : 0.0;
+  // Where all distances are equal, rounding may lift their mean above them.
+  stats.rmsDistance = area > 0.0 ? std::min(std::sqrt(squares / area), farthest.distance) : 0.0;
   stats.maxDistance = farthest.distance;
   stats.farthest = farthest.at;
   return atVertices;
