@@ -45,7 +45,7 @@ class Headless {
       const double time = options_.time + i / options_.framesPerSecond;
       if (i > 0 && scriptReadsTheClock) {
         if (auto s = keep(loadAt(time, options_), scene_); !s) return s;
-        look_ = lookOf(scene_, options_.scene, options_.parameters);
+        look_ = LookFunction(scene_, look_.inView());
         renderer = Renderer::make(scene_, options_.shader);
         if (!renderer) return renderer.error();
       }

@@ -59,11 +59,14 @@ class LookFunction {
   /// fitted camera is fitted to pictures of this width by their height.
   Look at(const Values& values, double aspect = kPictureAspect) const;
 
+  /// Returns what the camera is fitted to, if it is.
+  const std::optional<Box>& inView() const { return inView_; }
+
  private:
   Function numbers_;
   std::vector<Light> lights_;
   bool mirrored_;
-  std::optional<Box> inView_;  // what the camera is fitted to
+  std::optional<Box> inView_;
 };
 
 /// Writes the camera as a scene's text: a call of `camera`.
