@@ -80,7 +80,8 @@ int signAround(const Samples& samples, const Coord& c, float film) {
   bool inside = false, outside = false;
   for (int i = 0; i < 27; ++i) {
     const float v = samples.at(c.offsetBy(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1));
-    inside |= v<-film, outside |= v> film;
+    if (v < -film) inside = true;
+    if (v > film) outside = true;
   }
   return inside == outside ? 0 : outside ? 1 : -1;
 }
