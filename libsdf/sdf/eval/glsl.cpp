@@ -1,6 +1,7 @@
 #include "sdf/eval/glsl.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
@@ -87,13 +88,18 @@ const std::map<Op, std::string_view> kTerms = {
 
 }  // namespace
 
-/// Writes the body of one function: a line for each node that depends on space.
+/// Writes the body of one function: a line for each node that depends on space, those that are used once
+/// within the line that uses them.
 class GlslWriter::Body {
  public:
   explicit Body(GlslWriter& writer) : writer_(writer) {}
 
   void write(std::span<const Expr> outputs) {
-    for (const Expr& e : topologicalOrder(outputs)) {
+    const std::vector<Expr> order = topologicalOrder(outputs);
+    for (const Expr& e : order)
+      for (int i = 0; i < arity(e.op()); ++i) uses_[e.arg(i)] += e.op() == Op::Square ? 2 : 1;
+    for (const Expr& e : outputs) ++uses_[e];
+    for (const Expr& e : order) {
       if (!inSpace(e)) continue;
       if (e.op() == Op::Variable) {
         names_[e] = kVariables[static_cast<int>(e.variableIndex())];
@@ -102,8 +108,13 @@ class GlslWriter::Body {
       } else if (e.op() == Op::Parameter) {
         names_[e] = writer_.terms_.at(e.parameterInfo().name);
       } else {
+        std::string term = e.payloadPart() ? payload(e, *e.payloadPart()) : operation(e);
+        if (uses_.at(e) == 1 && !e.payloadPart() && term.size() < kLongLine &&
+            !writer_.labelled_.contains(e)) {
+          names_[e] = isCall(e.op()) ? std::move(term) : "(" + term + ")";
+          continue;
+        }
         std::string name = "v" + std::to_string(lines_++);
-        const std::string term = e.payloadPart() ? payload(e, *e.payloadPart()) : operation(e);
         body_ += "  float " + name + " = " + term + ";" + writer_.commentOf(e) + "\n";
         names_[e] = std::move(name);
       }
@@ -119,6 +130,11 @@ class GlslWriter::Body {
   }
 
  private:
+  static constexpr std::size_t kLongLine = 100;
+
+  // A term that needs no parentheses within another one.
+  static bool isCall(Op op) { return std::isalpha(static_cast<unsigned char>(kTerms.at(op).front())) != 0; }
+
   // A variable, a substituted parameter, or made of something that has a name here already: arguments come
   // first.
   bool inSpace(const Expr& e) const {
@@ -149,6 +165,7 @@ class GlslWriter::Body {
   GlslWriter& writer_;
   std::unordered_map<std::string, std::string> slopes_;  // by the call for the value
   std::unordered_map<Expr, std::string> names_;
+  std::unordered_map<Expr, int> uses_;
   std::string body_;
   int lines_ = 0;
 };
@@ -176,6 +193,7 @@ void GlslWriter::label(const Expr& e, const std::string& comment) {
     if (c < ' ' || c > '~' || c == '\\') c = '?';
   for (const Expr& node : topologicalOrder({&e, 1})) labels_.try_emplace(node, comments_.size());
   comments_.push_back("  // " + printable);
+  labelled_.insert(e);
 }
 
 std::string GlslWriter::commentOf(const Expr& e) const {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "sdf/eval/function.h"
@@ -49,6 +50,7 @@ class GlslWriter {
   std::unordered_map<std::string, std::string> terms_;
   std::vector<std::string> comments_;
   std::unordered_map<Expr, std::size_t> labels_;  // index of the comment
+  std::unordered_set<Expr> labelled_;  // the expressions that were given, each on a line of its own
   std::vector<Expr> uniforms_;
   std::unordered_map<Expr, std::size_t> slots_;
   std::vector<std::shared_ptr<const Payload>> payloads_;
