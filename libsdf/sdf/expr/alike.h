@@ -1,0 +1,31 @@
+// Expressions that differ in nothing but numbers, written once.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sdf/expr/expr.h"
+
+namespace sdf {
+
+/// Lists of expressions that are alike: each is the common one with a row of numbers in its parameters'
+/// places. A number is whatever does not depend on space, formulas of the scene's own parameters included.
+struct Alike {
+  std::vector<std::size_t> places;      ///< of the lists among all, ascending
+  std::vector<Expr> common;             ///< with parameters where not all have one number
+  std::vector<Expr> parameters;         ///< these, by the order of a row
+  std::vector<std::vector<Expr>> rows;  ///< by list
+};
+
+/// A new parameter, with a range that holds all these numbers.
+Expr numberAmong(const std::string& name, std::span<const Expr> numbers);
+
+/// Sorts lists of expressions by what they are but for numbers, in the order of each sort's first. Parameters
+/// are named `prefix` and a count, over all sorts. Claims are dropped. Cost: linear in the size of the
+/// graphs.
+std::vector<Alike> sortedByLikeness(std::span<const std::vector<Expr>> lists, const std::string& prefix);
+
+/// Operations that a reading of the expressions takes, each once; numbers cost none.
+std::size_t operationsOf(std::span<const Expr> expressions);
+
+}  // namespace sdf
