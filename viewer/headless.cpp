@@ -105,7 +105,7 @@ class Headless {
 
   Status shader() const {
     ShaderOptions whole = options_.shader;
-    whole.grouped = false;
+    whole.sharing = false;
     const auto shaders = assemble(scene_, whole);
     if (!shaders) return shaders.error();
     return writeFile(*options_.glsl, [&](std::ostream& out) {

@@ -98,8 +98,8 @@ TEST(Compiling, LeavesAFramesNumbersToBeComputedInAFifthOfAMillisecond) {
     ASSERT_TRUE(shaders) << shaders.error().message;
     const LookFunction look(scene);
     std::vector<UniformValues> all{UniformValues(shaders->picture.uniforms)};
-    for (const HitShaders& pass : shaders->hits)
-      for (const Function& uniforms : pass.uniforms) all.emplace_back(uniforms);
+    for (const HitShaders& pass : shaders->hits) all.emplace_back(pass.uniforms);
+    all.emplace_back(shaders->rows);
     const std::clock_t start = std::clock();
     for (int i = 0; i < kFrames; ++i) {
       const Values values{{"time", 0.01 * i}};

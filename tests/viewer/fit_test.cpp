@@ -26,7 +26,7 @@ std::string number(double v) {
 struct Drawing {
   const char* name;
   const char* text;  ///< of a scene of the size s
-  bool grouped = true;
+  bool sharing = true;
 };
 
 constexpr const char* kBalls =
@@ -50,7 +50,7 @@ constexpr Drawing kDrawings[] = {
 
 std::vector<glm::dvec3> drawnAt(const Drawing& drawing, double size) {
   GpuRenderOptions options;
-  options.shader.grouped = drawing.grouped;
+  options.shader.sharing = drawing.sharing;
   return colors(
       renderOnGpu(sceneOf("background(0) local s = " + number(size) + "\n" + drawing.text), options));
 }
@@ -74,7 +74,7 @@ TEST(Fit, PicturesOfAShapeAreTheSameAtAnySize) {
       EXPECT_GT(psnr(one, drawnAt(drawing, size)), leastPsnr) << drawing.name << " times " << number(size);
     };
     expectAt(0x1p-20, kDriversRounding);  // powers of two round nothing
-    if (!drawing.grouped) continue;       // the driver takes seconds for a shader of all balls
+    if (!drawing.sharing) continue;       // the driver takes seconds for a shader of all balls
     for (const double size : {1e-6, 1e-3, 1e3, 1e6}) expectAt(size, kAPixel);
   }
 }

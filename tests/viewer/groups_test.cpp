@@ -1,12 +1,15 @@
-// Wide unions drawn group by group: the groups themselves, and pictures against those of one shader.
+// Unions of like operands drawn group by group: the kinds and groups themselves, and pictures against those
+// of one shader that has all of them written out.
 #include "sdf/model/groups.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
+#include <unordered_map>
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/hoist.h"
@@ -49,23 +52,56 @@ Shape crates(int count) { return unite(scattered(box(Vec3E(Expr(0.1), Expr(0.12)
 /// Few of their kind.
 Shape rarities() { return torus(1.5, 0.1) | capsule(Vec3E(Expr(-2.0)), Vec3E(Expr(2.0)), 0.1); }
 
-std::vector<OperandGroup> groupsOf(const Shape& shape) { return sdf::groupsOf(operandsOf(shape)); }
+Kinds kindsOf(const Shape& shape) { return sdf::kindsOf(operandsOf(shape)); }
 
 std::size_t sizeOf(const Expr& least) {
   return least.op() == Op::Min ? sizeOf(least.arg(0)) + sizeOf(least.arg(1)) : 1;
+}
+
+/// A group as a formula of its own.
+struct Group {
+  Expr distance, nearest, gap;
+};
+
+std::vector<Group> groupsOf(const OperandKind& kind) {
+  std::vector<Group> groups;
+  for (const std::vector<Expr>& row : kind.groups.numbers) {
+    std::unordered_map<Expr, Expr> numbers;
+    for (std::size_t i = 0; i < row.size(); ++i) numbers.emplace(kind.groups.parameters[i], row[i]);
+    const auto own = rewrite(std::array{kind.distance, kind.nearest, kind.gap},
+                             [&](const Expr& e, std::span<const Expr>) -> std::optional<Expr> {
+                               const auto found = numbers.find(e);
+                               return found == numbers.end() ? std::nullopt : std::optional(found->second);
+                             });
+    groups.push_back({own[0], own[1], own[2]});
+  }
+  return groups;
+}
+
+/// Those of all kinds, and the others as one.
+std::vector<Group> groupsOf(const Shape& shape) {
+  const Kinds kinds = kindsOf(shape);
+  std::vector<Group> groups;
+  for (const OperandKind& kind : kinds.many)
+    for (const Group& group : groupsOf(kind)) groups.push_back(group);
+  if (kinds.others.empty()) return groups;
+  Group rest{kinds.others.front().distance, numberOfNearest(kinds.others), Expr(-kInfinity)};
+  for (const NumberedOperand& operand : kinds.others) rest.distance = min(rest.distance, operand.distance);
+  groups.push_back(rest);
+  return groups;
 }
 
 TEST(Groups, HaveTheUnionsDistanceAndTellWhichOperandIsNearest) {
   const Shape whole = balls(100) | crates(70) | rarities();
   const std::vector<NumberedOperand> operands = operandsOf(whole);
   ASSERT_EQ(operands.size(), 172u);
-  const std::vector<OperandGroup> groups = groupsOf(whole);
+  const std::vector<Group> groups = groupsOf(whole);
   const Tape tape(whole.distance);
   Places places(3);
   for (int i = 0; i < 200; ++i) {
     const glm::dvec3 p = places.next();
     double least = kInfinity, winner = -1.0;
-    for (const OperandGroup& group : groups) {
+    for (const Group& group : groups) {
       const double d = evaluate(Tape(group.distance), p);
       if (d < least) winner = evaluate(Tape(group.nearest), p);
       least = std::min(least, d);
@@ -75,23 +111,42 @@ TEST(Groups, HaveTheUnionsDistanceAndTellWhichOperandIsNearest) {
   }
 }
 
-TEST(Groups, AreOneOfRaritiesAndOthersOfAKindInEqualNumbers) {
-  const std::vector<OperandGroup> groups = groupsOf(balls(100) | crates(70) | rarities());
+// Distances of a bound may be less than the way to the bounds, by the growth.
+TEST(Groups, AreNoNearerThanTheirGaps) {
+  const Shape stretched = scale(sphere(0.1), Vec3E(Expr(1.0), Expr(3.0), Expr(1.0)));
+  const Kinds kinds = kindsOf(balls(100) | unite(scattered(stretched, 70, 8)));
+  ASSERT_EQ(kinds.many.size(), 2u);
+  EXPECT_GT(std::max(kinds.many[0].growth, kinds.many[1].growth), 1.0);
+  Places places(9);
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec3 p = 2.0 * places.next();
+    for (const OperandKind& kind : kinds.many)
+      for (const Group& group : groupsOf(kind)) {
+        const double gap = evaluate(Tape(group.gap), p), distance = evaluate(Tape(group.distance), p);
+        EXPECT_GE(distance, gap > 0.0 ? gap / kind.growth : -kInfinity);
+        EXPECT_TRUE(gap > -1.0 || distance > -1.0) << "there are bounds";
+      }
+  }
+}
+
+TEST(Groups, AreOfAKindInEqualNumbers) {
+  const Kinds kinds = kindsOf(balls(100) | crates(70) | rarities());
   std::multiset<std::size_t> sizes;
-  for (const OperandGroup& group : groups) sizes.insert(sizeOf(group.distance));
+  for (const OperandKind& kind : kinds.many)
+    for (std::size_t i = 0; i < kind.groups.numbers.size(); ++i) sizes.insert(sizeOf(kind.distance));
   // Balls by seven (the root of 100 / 2), crates by six.
   EXPECT_EQ(sizes.count(7), 15u);
   EXPECT_EQ(sizes.count(6), 12u);
-  EXPECT_EQ(sizes.count(2), 1u);
-  EXPECT_EQ(sizes.size(), 28u);
+  EXPECT_EQ(sizes.size(), 27u);
+  EXPECT_EQ(kinds.others.size(), 2u);
 }
 
 TEST(Groups, AreOfNeighbours) {
   std::vector<Shape> row;
   for (int i = 0; i < 98; ++i) row.push_back(translate(sphere(0.1), Vec3E(Expr(0.37 * (1 + (i * 41) % 98)))));
-  const std::vector<OperandGroup> groups = groupsOf(unite(row));
+  const std::vector<Group> groups = groupsOf(unite(row));
   ASSERT_EQ(groups.size(), 14u);
-  for (const OperandGroup& group : groups) {
+  for (const Group& group : groups) {
     std::set<double> places;  // in the row
     for (int step = 0; step < 98; ++step) {
       const glm::dvec3 p(0.37 * (1 + step));
@@ -103,29 +158,50 @@ TEST(Groups, AreOfNeighbours) {
 }
 
 TEST(Groups, AreNoneOfFewOperandsAndOfNoUnion) {
-  EXPECT_EQ(groupsOf(balls(30)).size(), 1u);
-  EXPECT_EQ(groupsOf(sphere(1.0)).size(), 1u);
-  EXPECT_TRUE(sdf::groupsOf({}).empty());
+  for (const Shape& shape : {balls(10), sphere(1.0)}) {
+    const Kinds kinds = kindsOf(shape);
+    EXPECT_TRUE(kinds.many.empty());
+    EXPECT_EQ(kinds.others.size(), operandsOf(shape).size());
+  }
+  EXPECT_TRUE(sdf::kindsOf({}).others.empty());
+}
+
+/// A solid of some hundred operations.
+Shape carved() {
+  Shape solid = box(Vec3E(Expr(0.3)));
+  for (int i = 0; i < 10; ++i)
+    solid = subtract(solid, translate(box(Vec3E(Expr(0.02 + 0.01 * i))),
+                                      Vec3E(Expr(0.03 * i), Expr(0.3), Expr(0.02 * i))));
+  return solid;
+}
+
+TEST(Groups, AreSingleOperandsWhereTheseAreLarge) {
+  const Kinds kinds = kindsOf(unite(scattered(carved(), 2, 4)) | balls(3));
+  ASSERT_EQ(kinds.many.size(), 1u) << "from two on";
+  EXPECT_EQ(kinds.many.front().groups.numbers.size(), 2u);
+  EXPECT_EQ(kinds.many.front().singles.size(), 2u);
+  EXPECT_EQ(kinds.others.size(), 3u);
 }
 
 TEST(Groups, TakeOneRootForBallsOfOneRadiusBesideOthers) {
-  for (const OperandGroup& group : groupsOf(balls(98) | rarities())) {
-    if (sizeOf(group.distance) != 7) continue;
-    const Expr read = hoisted(group.distance);
-    const auto order = topologicalOrder({&read, 1});
-    EXPECT_EQ(std::count_if(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Sqrt; }), 1);
-  }
+  const Kinds kinds = kindsOf(balls(98) | rarities());
+  ASSERT_EQ(kinds.many.size(), 1u);
+  const Expr read = hoisted(kinds.many.front().distance);
+  const auto order = topologicalOrder({&read, 1});
+  EXPECT_EQ(std::count_if(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Sqrt; }), 1);
 }
 
 TEST(Groups, AreOfOnePayload) {
   std::vector<Shape> all;
   for (const auto& payload : {fourPoints(), fourPoints()})
     for (const Shape& one :
-         scattered(field(payloadHere(payload) * 0.2, Box::centred(glm::dvec3(1.0)), 1.0), 50, 5))
+         scattered(field(payloadHere(payload) * 0.2, Box::centred(glm::dvec3(1.0)), 1.0), 100, 5))
       all.push_back(one);
-  for (const OperandGroup& group : groupsOf(unite(all))) {
+  const Kinds kinds = kindsOf(unite(all));
+  EXPECT_EQ(kinds.many.size(), 2u);
+  for (const OperandKind& kind : kinds.many) {
     std::set<const Payload*> payloads;
-    for (const Expr& e : topologicalOrder({&group.distance, 1}))
+    for (const Expr& e : topologicalOrder({&kind.distance, 1}))
       if (e.payloadPart()) payloads.insert(e.payloadPart()->payload.get());
     EXPECT_EQ(payloads.size(), 1u);
   }
@@ -139,7 +215,7 @@ TEST(Groups, KeepWhatAllOperandsShare) {
     return std::count_if(order.begin(), order.end(), [](const Expr& n) { return n.op() == Op::Sin; });
   };
   ASSERT_EQ(sines(whole.distance), 1);
-  for (const OperandGroup& group : groupsOf(whole)) EXPECT_EQ(sines(group.distance), 1);
+  for (const OperandKind& kind : kindsOf(whole).many) EXPECT_EQ(sines(kind.distance), 1);
 }
 
 const Expr kWinner = Expr::parameter({"winner", 0.0, 0.0, 100.0});
@@ -155,7 +231,7 @@ constexpr glm::dvec3 kRed(1.0, 0.0, 0.0), kBlue(0.0, 0.0, 1.0);
 
 TEST(Winner, DecidesWhatTheUnionChose) {
   const Shape whole = (painted(balls(3, 5), kRed) | painted(crates(4), kBlue)) | painted(sphere(0.2), kRed);
-  const auto surface = surfaceOf(whole, kWinner);
+  const auto surface = surfaceOf(whole, kWinner, true).attributes;
   for (int i = 0; i < 8; ++i) {
     const bool isBlue = i >= 3 && i < 7;
     for (const auto& [attribute, value] :
@@ -170,7 +246,7 @@ TEST(Winner, LeavesWhatOperandsAndMaterialsChoose) {
   const Shape a = painted(sphere(1.0), kRed), b = painted(translate(sphere(1.0), Vec3E(Expr(1.0))), kBlue);
   const Shape operand = round(a | b, 0.1);  // takes its colour from its own operands
   const Shape whole = unite(std::vector{a, b, operand});
-  const auto surface = surfaceOf(whole, kWinner);
+  const auto surface = surfaceOf(whole, kWinner, true).attributes;
   const Expr red = bind(surface[static_cast<std::size_t>(Attribute::Red)], {{"winner", 2.0}});
   EXPECT_EQ(evaluate(Tape(red), {-0.8, 0.9, 0.0}), 1.0);
   EXPECT_EQ(evaluate(Tape(red), {1.8, 0.9, 0.0}), 0.0);
@@ -183,10 +259,10 @@ struct Both {
 
 Both drawn(const Scene& scene, GpuRenderOptions options) {
   const auto shaders = viewer::assemble(scene, options.shader);
-  EXPECT_TRUE(shaders && !shaders->plan.groups.empty());
+  EXPECT_TRUE(shaders && shaders->plan.grouped);
   Both both;
   both.grouped = renderOnGpu(scene, options);
-  options.shader.grouped = false;
+  options.shader.sharing = false;
   both.whole = renderOnGpu(scene, options);
   return both;
 }
@@ -244,7 +320,7 @@ TEST(GroupedPicture, IsOneShadersOfManyPlanes) {
   Scene scene;
   for (int i = 0; i < 50; ++i)
     scene.add("", plane(Vec3E(Expr(0.1 * i), Expr(1.0), Expr(0.3)), -1.0 - 0.01 * i));
-  EXPECT_TRUE(viewer::assemble(scene, {})->plan.groups.empty());
+  EXPECT_FALSE(viewer::assemble(scene, {})->plan.grouped);
   EXPECT_EQ(renderOnGpu(scene, {}).size(), 160u * 90u);
 }
 
@@ -330,12 +406,94 @@ TEST(GroupedPicture, TakesFewReadings) {
     const auto scene = loadScene(SDF_SOURCE_DIR "/samples/bench/v_balls.lua", script);
     EXPECT_TRUE(scene) << scene.error().message;
     GpuRenderOptions options;
-    options.shader.grouped = grouped;
+    options.shader.sharing = grouped;
     return readingsOnGpu(*scene, options).primary;
   };
   EXPECT_LT(primary(100, true), 0.25 * primary(100, false));
   EXPECT_LT(primary(100, true), primary(10, true)) << "though there are ten times as many balls";
   EXPECT_GT(primary(100, true), 0.02);
+}
+
+/// So many of two large kinds, each in a color of its own that varies along it, over a floor and a slab.
+Scene furnished(int count) {
+  std::vector<Shape> all;
+  Places places(11);
+  const auto painted = [&](const Shape& shape, double share) {
+    Material m;
+    m.color = Vec3E(0.5 + 0.4 * sin(9.0 * position().y), Expr(share), Expr(1.0 - share));
+    return shape.paint(m);
+  };
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / count;
+    const Shape turned = rotate(carved(), Vec3E(Expr(0.0), Expr(50.0 * i + 20.0), Expr(0.0)));
+    all.push_back(translate(painted(turned, share), Vec3E(places.next())));
+    all.push_back(translate(painted(round(carved(), 0.02), 0.5 * share), Vec3E(places.next())));
+  }
+  all.push_back(
+      translate(box(Vec3E(Expr(2.5), Expr(0.1), Expr(2.5))), Vec3E(Expr(0.0), Expr(-0.9), Expr(0.0))));
+  Scene scene = lit(unite(all));
+  scene.add("floor", plane(Vec3E(Expr(0.0), Expr(1.0), Expr(0.0)), -1.2));
+  return scene;
+}
+
+std::size_t bytesOf(const Scene& scene) {
+  const auto shaders = viewer::assemble(scene, {});
+  EXPECT_TRUE(shaders) << shaders.error().message;
+  return shaders->bytes();
+}
+
+TEST(GroupedPicture, SharesLargeOperandsFromTwoOn) {
+  const auto shaders = viewer::assemble(furnished(2), {});
+  ASSERT_TRUE(shaders) << shaders.error().message;
+  ASSERT_TRUE(shaders->plan.grouped);
+  EXPECT_EQ(shaders->plan.kinds->many.size(), 2u);
+}
+
+// Only counts and places are longer numbers.
+TEST(GroupedPicture, TakesNoMoreTextForMoreOperands) {
+  for (const auto shadow : {Shadow::Kind::None, Shadow::Kind::Soft, Shadow::Kind::Improved}) {
+    Scene few = furnished(20), many = furnished(60);
+    EXPECT_FALSE(viewer::assemble(few, {})->plan.surfaceRows.parameters.empty()) << "surfaces, too";
+    few.shadow.kind = many.shadow.kind = shadow;
+    EXPECT_NEAR(static_cast<double>(bytesOf(many)), static_cast<double>(bytesOf(few)), 60.0);
+  }
+}
+
+// What is read of the whole: shadows of every kind, occlusion and mirrors.
+TEST(GroupedPicture, LightsSharedOperandsAsThoseWrittenOut) {
+  constexpr double kBar = 50.0;
+  for (const auto shadow : {Shadow::Kind::None, Shadow::Kind::Hard, Shadow::Kind::Soft,
+                            Shadow::Kind::Improved, Shadow::Kind::Signed}) {
+    Scene scene = furnished(3);
+    scene.shadow.kind = shadow;
+    scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
+    GpuRenderOptions options;
+    options.threshold = 0.0;
+    options.samples = 2;
+    const Both both = drawn(scene, options);
+    EXPECT_GE(psnr(colors(both.grouped), colors(both.whole)), kBar) << static_cast<int>(shadow);
+  }
+}
+
+TEST(GroupedPicture, MirrorsSharedOperandsAsThoseWrittenOut) {
+  Scene scene = furnished(20);
+  Material mirror;
+  mirror.reflectivity = 0.6;
+  scene.add("wall", plane(Vec3E(Expr(0.0), Expr(0.0), Expr(1.0)), -2.2).paint(mirror));
+  scene.reflectionBounces = 2;
+  expectSamePicture(scene);
+}
+
+TEST(GroupedPicture, IsShownByAllViews) {
+  const Scene scene = furnished(3);
+  for (int view = 1; view < static_cast<int>(viewer::View::Count); ++view) {
+    GpuRenderOptions options;
+    options.threshold = 0.0;
+    options.shader.view = static_cast<viewer::View>(view);
+    const auto shared = renderOnGpu(scene, options);
+    options.shader.sharing = false;
+    EXPECT_GE(psnr(colors(shared), colors(renderOnGpu(scene, options))), 35.0) << view;
+  }
 }
 
 }  // namespace

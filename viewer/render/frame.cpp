@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "sdf/model/groups.h"
-
 namespace sdf::viewer {
 namespace {
 
@@ -30,20 +28,20 @@ Frame frameOf(const LookFunction& look, Values parameters, double aspect) {
 }
 
 UniformValues::UniformValues(Function numbers) : numbers_(std::move(numbers)) {
-  for (const ParameterInfo& input : numbers_.inputs())
-    if (!isGroupConstant(input.name)) inputs_.push_back(input.name);
+  for (const ParameterInfo& input : numbers_.inputs()) inputs_.push_back(input.name);
   vectors_.resize((numbers_.outputs().size() + 3) / 4);
 }
 
-void UniformValues::move(const Values& inputs) {
+bool UniformValues::move(const Values& inputs) {
   Values own;
   for (const std::string& name : inputs_)
     if (const auto value = inputs.find(name); value != inputs.end()) own.insert(*value);
-  if (own == last_) return;
+  if (own == last_) return false;
   const std::vector<double> values = numbers_.uniform(own);
   for (std::size_t i = 0; i < values.size(); ++i)
     vectors_[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
   last_ = std::move(own);
+  return true;
 }
 
 Extent::Extent(const Scene& scene) : stated_(scene) {

@@ -30,7 +30,8 @@ class UniformValues {
   explicit UniformValues(Function numbers);
 
   /// Computes the values where the scene's inputs have these, unless they are those of the frame before.
-  void move(const Values& inputs);
+  /// Returns whether it did.
+  bool move(const Values& inputs);
   /// Returns the values of the frame, as whole vectors; none if there is no such uniform.
   const std::vector<glm::vec4>& vectors() const { return vectors_; }
 

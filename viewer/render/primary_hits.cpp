@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "viewer/gpu/context.h"
 
@@ -30,18 +31,20 @@ constexpr int kCounts = std::size(kLayers);  // the number of the layer of readi
 
 }  // namespace
 
-Result<PrimaryHits> PrimaryHits::make(const std::vector<HitShaders>& shaders, bool counted) {
+Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders) {
   PrimaryHits made;
-  made.counted_ = counted;
-  for (const HitShaders& shader : shaders) {
-    Pass pass;
+  made.counted_ = shaders.plan.options.countReadings;
+  if (!shaders.boxCones.empty())
+    if (auto s = keep(Program::overScreen(shaders.boxCones), made.boxCones_); !s) return s.error();
+  for (const HitShaders& shader : shaders.hits) {
+    Pass pass{{}, {}, UniformValues(shader.uniforms), shader.takesRows, shader.rows, -1, shader.boxes};
     if (!shader.cones.empty())
       if (auto s = keep(Program::overScreen(shader.cones), pass.cones); !s) return s.error();
-    const auto drawn = pass.cones ? Program::overTiles : Program::overScreen;
+    const bool started = pass.cones || !pass.boxes.empty();
+    const auto drawn = started ? Program::overTiles : Program::overScreen;
     if (!shader.hits.empty())
       if (auto s = keep(drawn(shader.hits), pass.hits); !s) return s.error();
-    for (const Function& uniforms : shader.uniforms)
-      made.draws_.push_back({made.passes_.size(), UniformValues(uniforms), pass.cones ? made.cells_++ : -1});
+    if (started) pass.firstCell = std::exchange(made.cells_, made.cells_ + pass.draws());
     made.passes_.push_back(std::move(pass));
   }
   made.columns_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(made.cells_))));
@@ -70,26 +73,42 @@ Status PrimaryHits::makeTargets(const Shot& shot) {
 }
 
 void PrimaryHits::drawStarts(const Shot& shot) const {
-  if (cells_ > 1) coarse_->clear(0, glm::vec4(0.0f));
-  for (const Draw& draw : draws_) {
-    if (draw.cell < 0) continue;
-    const Program& cones = *passes_[draw.pass].cones;
-    const glm::ivec2 corner = cornerOf(draw.cell, shot);
-    coarse_->bind(corner.x, corner.y, tiles(shot.width(), kTile), tiles(shot.height(), kTile));
-    shot.set(cones, draw.values.vectors());
+  const glm::vec4 nothing(1e30f, 0.0f, 1e30f, 0.0f);
+  if (cells_ > 0) coarse_->clear(0, nothing);
+  for (const Pass& pass : passes_) {
+    if (pass.firstCell < 0) continue;
+    const bool byBoxes = !pass.boxes.empty();
+    const Program& cones = byBoxes ? *boxCones_ : *pass.cones;
+    shot.set(cones, byBoxes ? std::vector<glm::vec4>() : pass.values.vectors());
     cones.set("coarser", 0);
     cones.set("first", 1);
     cones.set("tile", static_cast<double>(kTile));
-    cones.set("corner", glm::vec2(corner));
-    cones.draw();
+    for (int i = 0; i < pass.draws(); ++i) {
+      const glm::ivec2 corner = cornerOf(pass.firstCell + i, shot);
+      coarse_->bind(corner.x, corner.y, tiles(shot.width(), kTile), tiles(shot.height(), kTile));
+      if (byBoxes) {
+        const Box& box = pass.boxes[static_cast<std::size_t>(i)];
+        cones.set("boxMiddle", glm::vec3(box.centre()));
+        cones.set("boxHalf", glm::vec3(0.5 * box.size()));
+      } else {
+        chooseRow(pass, cones, i);
+      }
+      cones.set("corner", glm::vec2(corner));
+      cones.draw();
+    }
   }
   if (!isFine()) return;
-  const Program& cones = *passes_[draws_.front().pass].cones;
-  fine_->bind();
+  const Program& cones = *passes_.front().cones;
+  fine_->clear(0, nothing);
   coarse_->bindTexture(0);
   cones.set("first", 0);
   cones.set("tile", static_cast<double>(kFine));
   cones.draw();
+}
+
+void PrimaryHits::chooseRow(const Pass& pass, const Program& program, int i) const {
+  if (pass.takesRows) program.set("sdfRows", kRowsUnit);
+  if (pass.rows > 0) program.set("row", i);
 }
 
 void PrimaryHits::giveStarts(const Program& program, int cell, const Shot& shot) const {
@@ -117,20 +136,23 @@ void PrimaryHits::drawTiles(const Program& program, const Shot& shot, std::optio
 }
 
 void PrimaryHits::drawHits(const Shot& shot) const {
-  for (const Draw& draw : draws_) {
-    const Program& hits = *passes_[draw.pass].hits;
-    shot.set(hits, draw.values.vectors());
-    if (draw.cell < 0) {
-      hits.draw();
-    } else {
-      giveStarts(hits, draw.cell, shot);
-      drawTiles(hits, shot, draw.cell);
+  for (const Pass& pass : passes_) {
+    const Program& hits = *pass.hits;
+    shot.set(hits, pass.values.vectors());
+    for (int i = 0; i < pass.draws(); ++i) {
+      chooseRow(pass, hits, i);
+      if (pass.firstCell < 0) {
+        hits.draw();
+      } else {
+        giveStarts(hits, pass.firstCell + i, shot);
+        drawTiles(hits, shot, pass.firstCell + i);
+      }
     }
   }
 }
 
 void PrimaryHits::prepare(const Frame& frame) {
-  for (Draw& draw : draws_) draw.values.move(frame.parameters);
+  for (Pass& pass : passes_) pass.values.move(frame.parameters);
 }
 
 Status PrimaryHits::begin(const Shot& shot) {

@@ -11,11 +11,14 @@
 
 namespace sdf::viewer {
 
+/// The texture unit at which shaders find the texture sdfRows.
+inline constexpr int kRowsUnit = 6;
+
 /// PrimaryHits draw the passes that come before the picture.
 class PrimaryHits {
  public:
   /// Compiles the passes. Errors: Graphics with the driver's log.
-  static Result<PrimaryHits> make(const std::vector<HitShaders>& shaders, bool counted);
+  static Result<PrimaryHits> make(const SceneShaders& shaders);
 
   /// Computes the passes' uniforms of a frame. It calls no OpenGL.
   void prepare(const Frame& frame);
@@ -39,12 +42,12 @@ class PrimaryHits {
  private:
   struct Pass {
     std::optional<Program> cones, hits;
-  };
-  /// A pass, drawn with these values of its uniforms.
-  struct Draw {
-    std::size_t pass;
     UniformValues values;
-    int cell = -1;  // of the starts; none if all rays start at the eye
+    bool takesRows;
+    int rows;       // that it is drawn with one by one; 0: once, without any
+    int firstCell;  // of the starts, one for each time that it is drawn; -1 if all rays start at the eye
+    std::vector<Box> boxes;  // at which rays start instead of where the cones say
+    int draws() const { return rows > 0 ? rows : 1; }
   };
   PrimaryHits() = default;
   Status makeTargets(const Shot& shot);
@@ -55,11 +58,13 @@ class PrimaryHits {
   /// A cell that is alone has smaller tiles, too.
   bool isFine() const { return cells_ == 1; }
   bool hasHits() const { return passes_.front().hits.has_value(); }
+  /// Chooses what a pass is drawn with, the i-th time.
+  void chooseRow(const Pass& pass, const Program& program, int i) const;
   /// Lets a program read where the rays of a cell start.
   void giveStarts(const Program& program, int cell, const Shot& shot) const;
 
   std::vector<Pass> passes_;
-  std::vector<Draw> draws_;
+  std::optional<Program> boxCones_;
   int cells_ = 0, columns_ = 0;  // of the starts
   bool counted_ = false;
   double readings_ = 0.0;

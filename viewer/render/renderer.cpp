@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "viewer/gpu/context.h"
 
@@ -45,13 +46,14 @@ Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options
 Renderer::Renderer(const Scene& scene, SceneShaders shaders)
     : shaders_(std::move(shaders)),
       values_(shaders_.picture.uniforms),
+      rowValues_(shaders_.rows),
       extent_(scene),
       shadowSteps_(scene.shadow.steps) {}
 
 Status Renderer::compile() {
   const Plan& plan = shaders_.plan;
   if (!shaders_.hits.empty())
-    if (auto s = keep(PrimaryHits::make(shaders_.hits, plan.options.countReadings), hits_); !s) return s;
+    if (auto s = keep(PrimaryHits::make(shaders_), hits_); !s) return s;
   const std::string& text = shaders_.picture.text;
   if (auto s = keep(plan.tiled ? Program::overTiles(text) : Program::overScreen(text), picture_); !s)
     return s;
@@ -99,6 +101,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
 
 void Renderer::drawPicture(const Frame& frame, const Shot& shot) const {
   shot.set(*picture_, values_.vectors());
+  if (shaders_.picture.takesRows) picture_->set("sdfRows", kRowsUnit);
   setLook(*picture_, frame, shot);
   if (hits_) hits_->giveTo(*picture_, shot);
   if (background_)
@@ -141,14 +144,23 @@ Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& targe
 
 void Renderer::prepare(const Frame& frame) {
   values_.move(frame.parameters);
+  rowsMoved_ = rowValues_.move(frame.parameters) || rowsMoved_;
   if (backgroundValues_) backgroundValues_->move(frame.parameters);
   if (hits_) hits_->prepare(frame);
+}
+
+void Renderer::giveRows() {
+  if (rowValues_.vectors().empty()) return;
+  if (!rows_) rows_.emplace(kRowTexels);
+  if (std::exchange(rowsMoved_, false)) rows_->fill(rowValues_.vectors());
+  rows_->bind(kRowsUnit);
 }
 
 Status Renderer::draw(const Frame& frame, const Target& target) {
   prepare(frame);
   Shot shot(frame, target.width(), target.height(), extent_);
   samples_ = shot.samples();
+  giveRows();
   if (hits_)
     if (auto s = hits_->begin(shot); !s) return s;
   if (samples_ > 1) {

@@ -4,6 +4,7 @@
 
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
+#include "viewer/gpu/texels.h"
 #include "viewer/render/frame.h"
 #include "viewer/render/primary_hits.h"
 #include "viewer/shaders/assemble.h"
@@ -45,6 +46,7 @@ class Renderer {
   Renderer(const Scene& scene, SceneShaders shaders);
   Status compile();
   void setLook(const Program& program, const Frame& frame, const Shot& shot) const;
+  void giveRows();  // those of the frame, to all shaders
   void drawPicture(const Frame& frame, const Shot& shot) const;
   void drawBackground(const Shot& shot) const;
   Status drawSamples(const Frame& frame, Shot& shot, const Target& target);
@@ -57,6 +59,9 @@ class Renderer {
   int samples_ = 1;             // of the frame drawn last
   UniformValues values_;        // of the picture
   std::optional<UniformValues> backgroundValues_;
+  UniformValues rowValues_;
+  bool rowsMoved_ = false;      // and rows_ have not been filled since
+  std::optional<Texels> rows_;  // the texture sdfRows, if there are any
   Extent extent_;
   int shadowSteps_;
   double compileSeconds_ = 0.0;

@@ -1,5 +1,7 @@
 #include "viewer/shaders/assemble.h"
 
+#include <algorithm>
+
 #include "viewer/shaders/filter.h"
 #include "viewer/shaders/hit_shaders.h"
 #include "viewer/shaders/light_parts.h"
@@ -42,9 +44,7 @@ std::string encoder(const Scene& scene, const Plan& plan) {
 }
 
 // The primary rays are marched by the picture's shader, from where the cones say.
-bool startsHere(const Plan& plan) {
-  return plan.cones && plan.groups.empty() && plan.options.view != View::Slice;
-}
+bool startsHere(const Plan& plan) { return plan.cones && !plan.grouped && plan.options.view != View::Slice; }
 
 // Shadows of these kinds are looked for between the half spaces and the rest.
 bool readsRest(const Plan& plan) {
@@ -53,7 +53,7 @@ bool readsRest(const Plan& plan) {
 
 const Box& boundsOfRest(const Plan& plan) { return plan.rest ? plan.rest->bounds : plan.whole.bounds; }
 
-Macros pictureMacros(const Scene& scene, const Plan& plan) {
+Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& takeSurface = "") {
   const bool taps = plan.occlusion == OcclusionKind::Taps, steps = plan.occlusion == OcclusionKind::Steps;
   const Box& bounds = boundsOfRest(plan);
   const auto count = [&](const char* what) { return plan.options.countReadings ? what : ""; };
@@ -66,11 +66,13 @@ Macros pictureMacros(const Scene& scene, const Plan& plan) {
   macros["BOX_MIN"] = vector(bounds.min);
   macros["BOX_MAX"] = vector(bounds.max);
   macros["START_RAY"] = startsHere(plan) ? "startRay(ray);" : "";
-  macros["FIND_HIT"] = plan.groups.empty() ? "hit = meet(ray);"
+  macros["FIND_HIT"] = !plan.grouped       ? "hit = meet(ray);"
                        : plan.bounces == 0 ? "hit = primaryHit();"
                                            : "if (bounce == 0) hit = primaryHit(); else hit = meet(ray);";
-  macros["TAKE_OPERAND"] = plan.operands.empty() ? "" : "operand = hit.operand;";
+  macros["TAKE_OPERAND"] = plan.operands.empty() ? "" : "operand = hit.operand;" + takeSurface;
   macros["FOOTPRINT"] = plan.filters ? "setFootprint(n, d, ray.before + t);" : "";
+  // It is there already; and llvmpipe compiles a shader that may discard once, and else twice.
+  macros["LEAVE_BACKGROUND"] = plan.tiled && !plan.options.countReadings ? "if (bounce == 0) discard;" : "";
   macros["LIGHTS"] = std::to_string(scene.lights.size());
   macros["TAPS"] = std::to_string(scene.ambientOcclusion.count);
   macros["BOUNCES"] = std::to_string(plan.bounces);
@@ -113,14 +115,16 @@ std::string colorParts(const Plan& plan) {
   return parts::kNothing + view + (plan.options.view == View::Slice ? "" : parts::kHitColor);
 }
 
-std::string pictureBody(const Scene& scene, const Plan& plan) {
-  const bool meets = (plan.groups.empty() && plan.options.view != View::Slice) || plan.bounces > 0;
+std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& rows) {
+  const bool meets = (!plan.grouped && plan.options.view != View::Slice) || plan.bounces > 0;
   const bool readsField = plan.occlusion == OcclusionKind::Taps || plan.shadow == ShadowKind::Improved ||
                           plan.shadow == ShadowKind::Signed;
   std::string text = std::string(parts::kCamera) + parts::kHit;
   if (plan.options.countReadings) text += parts::kPictureCounts;
   if (startsHere(plan)) text += parts::kStarts;
-  if (!plan.groups.empty()) text += parts::kHitFromLayers;
+  if (plan.grouped) text += parts::kHitFromLayers;
+  if (plan.kinds && (meets || readsRest(plan) || readsField || plan.options.view == View::Slice))
+    text += sharing(plan, rows);
   if (meets)
     text += meeting(obstaclesOf(plan));
   else if (readsRest(plan))
@@ -133,11 +137,29 @@ std::string pictureBody(const Scene& scene, const Plan& plan) {
   return text + shadowParts(plan) + colorParts(plan) + encoder(scene, plan) + parts::kPicture;
 }
 
-Shader picture(const Scene& scene, const Plan& plan, GlslWriter writer) {
+// Those of the kinds, and then those of the surfaces.
+RowWriter rowsOf(const Plan& plan) {
+  RowWriter rows;
+  if (plan.kinds)
+    for (const OperandKind& kind : plan.kinds->many) rows.add(kind.groups);
+  if (!plan.surfaceRows.parameters.empty()) rows.add(plan.surfaceRows);
+  return rows;
+}
+
+Shader picture(const Scene& scene, const Plan& plan, const RowWriter& rows, GlslWriter writer) {
   const Obstacles obstacles = obstaclesOf(plan);
-  Macros macros = pictureMacros(scene, plan);
+  std::vector<std::size_t> taken;
+  if (plan.kinds)
+    for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) taken.push_back(i);
+  std::string takeSurface;
+  if (!plan.surfaceRows.parameters.empty()) {
+    taken.push_back(taken.size());
+    takeSurface = " sdfTake" + std::to_string(taken.back()) + "(int(operand));";
+  }
+  Macros macros = pictureMacros(scene, plan, takeSurface);
   macros.merge(meetingMacros(obstacles, plan));
   Functions functions = meetingFunctions(obstacles);
+  if (plan.kinds) functions.merge(sharedFunctions(plan));
   functions["sdfSurface"] = [&] { return plan.surface; };
   functions["sdfBackground"] = [&] { return partsOf(scene.background); };
   std::string globals;
@@ -149,9 +171,10 @@ Shader picture(const Scene& scene, const Plan& plan, GlslWriter writer) {
     globals += kFootprintVariables;
     for (const std::string term : kFootprintTerms) writer.substitute(hidden(term), term);
   }
+  if (!taken.empty()) globals += rows.taking(taken, writer);
   Composer composer(plan.options.es, macros, functions, std::move(writer), globals);
-  std::string text = composer.compose(pictureBody(scene, plan));
-  return {std::move(text), composer.uniforms()};
+  std::string text = composer.compose(pictureBody(scene, plan, rows));
+  return {std::move(text), composer.uniforms(), !taken.empty()};
 }
 
 Shader background(const Scene& scene, const Plan& plan) {
@@ -168,7 +191,7 @@ Shader background(const Scene& scene, const Plan& plan) {
 }  // namespace
 
 std::size_t SceneShaders::bytes() const {
-  std::size_t sum = picture.text.size();
+  std::size_t sum = picture.text.size() + boxCones.size();
   for (const HitShaders& pass : hits) sum += pass.cones.size() + pass.hits.size();
   return sum;
 }
@@ -177,16 +200,25 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   if (const auto sound = checked(scene); !sound) return sound.error();
   auto plan = planOf(scene, options);
   if (!plan) return plan.error();
-  std::vector<HitShaders> hits = groupShaders(*plan);
-  if (hits.empty()) plan->groups.clear();
-  if (startsHere(*plan)) hits = {startShaders(*plan)};
-  Shader shown = picture(scene, *plan, labelled(scene));
+  const RowWriter rows = rowsOf(*plan);
+  if (!rows.fits()) {
+    ShaderOptions apart = options;
+    apart.sharing = false;
+    return assemble(scene, apart);
+  }
+  std::vector<HitShaders> hits;
+  std::string boxes;
+  if (plan->grouped) hits = groupShaders(*plan, rows);
+  if (std::ranges::any_of(hits, [](const HitShaders& pass) { return !pass.boxes.empty(); }))
+    boxes = boxCones(*plan);
+  if (startsHere(*plan)) hits = {startShaders(*plan, rows)};
+  Shader shown = picture(scene, *plan, rows, labelled(scene));
   std::optional<Shader> tiles;
   if (plan->tiled) tiles = background(scene, *plan);
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
   std::string resolved = resolve.compose(encoder(scene, *plan) + parts::kResolve);
-  return SceneShaders{std::move(*plan), std::move(hits), std::move(shown), std::move(tiles),
-                      std::move(resolved)};
+  return SceneShaders{std::move(*plan), std::move(hits),  std::move(boxes),   rows.numbers(),
+                      std::move(shown), std::move(tiles), std::move(resolved)};
 }
 
 }  // namespace sdf::viewer

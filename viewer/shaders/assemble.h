@@ -13,22 +13,32 @@ namespace sdf::viewer {
 struct Shader {
   std::string text;
   Function uniforms;
+  bool takesRows = false;  ///< it has the uniform sdfRows
 };
 
+/// The side of the texture sdfRows, in texels: what every driver has room for.
+inline constexpr int kRowShift = 10, kRowTexels = 1 << kRowShift;
+
 /// HitShaders are the fragment shaders of a pass that looks where the rays of each tile start and, if it is
-/// one of those by which a wide union is drawn, what they hit.
+/// one of those by which a union is drawn, what they hit.
 struct HitShaders {
-  std::string cones{};  ///< the starts; empty: all rays start at the eye
+  std::string cones{};  ///< the starts; empty: all rays start at the eye, or at boxes
   std::string hits{};   ///< fills the layers of hits (parts::kHits); empty: the picture's shader marches
-  std::vector<Function> uniforms{};  ///< the pass is drawn once with the values of each
+  Function uniforms{std::vector<Expr>{}};  ///< what the uniform sdfValues of both holds
+  bool takesRows = false;                  ///< they have the uniform sdfRows
+  int rows = 0;  ///< the pass is drawn once for each, told by the uniform `row`; 0: once, without that
+  std::vector<Box> boxes{};  ///< where rays start, each time that the pass is drawn, instead of cones
 };
 
 /// SceneShaders are the fragment shaders that draw a scene, one pass after the other; see ray_parts.h for
 /// their uniforms.
 struct SceneShaders {
   Plan plan;
-  /// One for each kind of groups and one for the half spaces, or one that has cones only, or none.
+  /// One for each kind of operands, for the others and for the half spaces, or one that has cones only, or
+  /// none.
   std::vector<HitShaders> hits;
+  std::string boxCones;  ///< the starts at boxes, if a pass has some
+  Function rows;         ///< what the texture sdfRows holds: four numbers a texel, kRowTexels of these a row
   Shader picture;
   std::optional<Shader> background;  ///< what tiles show where there are no hits, if the plan is tiled
   std::string resolve;               ///< from the sums of several samples to the picture

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
 
+#include "sdf/expr/alike.h"
 #include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
 #include "viewer/shaders/ray_parts.h"
@@ -13,26 +15,61 @@ namespace {
 // Drivers inline and unroll, and take seconds over long programs: a gradient of more operations than this is
 // taken by differences.
 constexpr std::size_t kLongProgram = 6000;
+constexpr double kLongCones = 100.0;       // operations, of a distance that is not worth a shader of cones
+constexpr std::size_t kLongPasses = 2000;  // the same of several, each of which takes its time beside
 
-// What every driver has room for, but for some of the camera's.
-constexpr std::size_t kMostUniforms = 960;
+std::size_t gradientSize(const Expr& distance) {
+  return topologicalOrder(partsOf(gradientOf(distance))).size();
+}
 
-Obstacles obstaclesOf(const OperandGroup& group, const Plan& plan) {
+Obstacles obstaclesOf(const OperandKind& kind, const Plan& plan) {
   Marched part = *plan.rest;
-  part.distance = hoisted(group.distance);
+  part.distance = hoisted(kind.distance);
   Obstacles result{part, part, {}, {}};
-  if (!plan.operands.empty()) result.operand = group.nearest;
+  if (!plan.operands.empty()) result.operand = kind.nearest;
   return result;
 }
 
-Obstacles planesOf(const Plan& plan) {
+Expr leastOf(const std::vector<NumberedOperand>& operands) {
+  Expr least = operands.front().distance;
+  for (const NumberedOperand& operand : operands) least = min(least, operand.distance);
+  return hoisted(least);
+}
+
+Obstacles othersOf(const Plan& plan) {
+  Marched part = *plan.rest;
+  part.distance = leastOf(plan.kinds->others);
+  Obstacles result{part, part, {}, {}};
+  if (!plan.operands.empty()) result.operand = numberOfNearest(plan.kinds->others);
+  return result;
+}
+
+std::vector<NumberedOperand> operandsOf(const std::vector<HalfSpace>& planes) {
   std::vector<NumberedOperand> operands;
-  for (const HalfSpace& plane : plan.planes) operands.push_back(plane.operand);
-  Marched nearest{.distance = operands.front().distance};
-  for (const NumberedOperand& operand : operands) nearest.distance = min(nearest.distance, operand.distance);
-  Obstacles result{nearest, {}, plan.planes, {}};
+  for (const HalfSpace& plane : planes) operands.push_back(plane.operand);
+  return operands;
+}
+
+Obstacles planesOf(const Plan& plan) {
+  const std::vector<NumberedOperand> operands = operandsOf(plan.planes);
+  Obstacles result{Marched{.distance = leastOf(operands)}, {}, plan.planes, {}};
   if (!plan.operands.empty()) result.operand = numberOfNearest(operands);
   return result;
+}
+
+Box boundsOf(const std::vector<NumberedOperand>& operands) {
+  Box box;
+  for (const NumberedOperand& operand : operands) box = unite(box, operand.bounds);
+  return box;
+}
+
+// What the loops over the kinds start from, where the half spaces are to be read, too.
+std::vector<NumberedOperand> othersAndPlanes(const Plan& plan) {
+  std::vector<NumberedOperand> operands = plan.kinds->others;
+  const std::vector<NumberedOperand> planes = operandsOf(plan.planes);
+  operands.insert(operands.end(), planes.begin(), planes.end());
+  std::ranges::sort(operands, {}, &NumberedOperand::number);
+  return operands;
 }
 
 // Defines farEnd(ray, spread, widening): t where all rays of a cone leave a ball around the bounds, or the
@@ -47,46 +84,65 @@ std::string farEnd(const Box& bounds) {
          "  return widening < 0.5 ? clamp(reach / (1.0 - widening), 0.0, maxDistance) : maxDistance;\n}\n";
 }
 
-/// Which shaders of a pass there are, and the share of one of the whole that one of its readings counts as.
+// Beside saving the write, llvmpipe compiles a shader that may discard once, and else twice.
+std::string leaveNothing(const Plan& plan) {
+  return plan.options.countReadings ? "" : "if (t >= maxDistance) discard;";
+}
+
+/// Which shaders of a pass there are, the share of one of the whole that one of its readings counts as, and
+/// the rows that it is drawn with.
 struct Parts {
   bool cones, hits;
   double share = 1.0;
+  int rowCount = 0;
+  std::string rows{}, takeRow{};  ///< their variables, and the call that sets them
+  std::string sharing{};          ///< what defines the distance by loops over rows
+  GlslWriter writer{};
+  std::vector<Box> boxes{};  ///< where its rays start, if there are no cones of its own
 };
 
 HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& plan) {
   Macros macros = meetingMacros(obstacles, plan);
   macros["OPERANDS"] = number(static_cast<double>(std::max<std::size_t>(plan.operands.size(), 1)));
   macros["SHARE"] = number(wanted.share);
-  macros["START_RAY"] = wanted.cones ? "startRay(ray);" : "";
+  macros["LEAVE_NOTHING"] = leaveNothing(plan);
+  const bool started = wanted.cones || !wanted.boxes.empty();
+  macros["START_RAY"] = started ? "startRay(ray);" : "";
   const bool counted = plan.options.countReadings;
   macros["STORE_COUNTS"] =
       counted ? "counts = vec4(weight * SHARE * float(hit.readings), 0.0, 0.0, 0.0);" : "";
-  Composer composer(plan.options.es, macros, meetingFunctions(obstacles), {});
+  macros["TAKE_ROW"] = wanted.takeRow;
+  Functions functions = meetingFunctions(obstacles);
+  if (!wanted.sharing.empty()) functions.merge(sharedFunctions(plan));
+  Composer composer(plan.options.es, macros, functions, wanted.writer, wanted.rows);
   const std::string camera = parts::kCamera;
   HitShaders pass;
   if (wanted.cones)
-    pass.cones = composer.compose(camera + parts::kRest + farEnd(obstacles.whole.bounds) + parts::kCones);
+    pass.cones = composer.compose(camera + wanted.sharing + parts::kRest + farEnd(obstacles.whole.bounds) +
+                                  parts::kCones);
   if (wanted.hits)
-    pass.hits =
-        composer.compose(camera + parts::kHit + meeting(obstacles) + (wanted.cones ? parts::kStarts : "") +
-                         (counted ? parts::kHitCounts : "") + parts::kHits);
-  pass.uniforms.push_back(composer.uniforms());
+    pass.hits = composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kStarts : "") +
+                                 (counted ? parts::kHitCounts : "") + parts::kHits);
+  pass.uniforms = composer.uniforms();
+  pass.takesRows = !wanted.rows.empty();
+  pass.rows = wanted.rowCount;
+  pass.boxes = wanted.boxes;
   return pass;
 }
 
 }  // namespace
 
 Obstacles obstaclesOf(const Plan& plan) {
-  Obstacles result{plan.whole, plan.rest, plan.planes, {}};
-  if (!plan.operands.empty()) result.operand = numberOfNearest(plan.operands);
+  Obstacles result{plan.whole, plan.rest, plan.planes, {}, plan.kinds.has_value()};
+  result.byTaps = result.shared || gradientSize(plan.whole.distance) > kLongProgram;
+  if (!plan.operands.empty()) result.operand = result.shared ? Expr(0.0) : numberOfNearest(plan.operands);
   return result;
 }
 
 std::string meeting(const Obstacles& obstacles) {
-  const auto gradient = topologicalOrder(partsOf(gradientOf(obstacles.whole.distance)));
   return std::string(parts::kRest) + (obstacles.planes.empty() ? parts::kNoPlanes : parts::kPlanes) +
-         parts::kMarch + (gradient.size() > kLongProgram ? parts::kGradientByTaps : parts::kGradient) +
-         parts::kNormal + parts::kMeet;
+         parts::kMarch + (obstacles.byTaps ? parts::kGradientByTaps : parts::kGradient) + parts::kNormal +
+         parts::kMeet;
 }
 
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
@@ -108,6 +164,7 @@ Functions meetingFunctions(const Obstacles& obstacles) {
       outputs.insert(outputs.end(), {plane.height, plane.climb});
     return outputs;
   };
+  if (obstacles.shared) return {{"sdfPlanes", planes}};
   return {{"sdfDistance", [=] { return std::vector{obstacles.whole.distance}; }},
           {"sdfRest", [=] { return std::vector{obstacles.rest->distance}; }},
           {"sdfPlanes", planes},
@@ -115,27 +172,108 @@ Functions meetingFunctions(const Obstacles& obstacles) {
           {"sdfOperand", [=] { return std::vector{*obstacles.operand}; }}};
 }
 
-HitShaders startShaders(const Plan& plan) {
-  return passOf(obstaclesOf(plan), {.cones = true, .hits = false}, plan);
+HitShaders startShaders(const Plan& plan, const RowWriter& rows) {
+  Parts starts{.cones = true, .hits = false};
+  if (plan.kinds) {
+    std::vector<std::size_t> all(plan.kinds->many.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    starts.rows = rows.taking(all, starts.writer);
+    starts.sharing = sharing(plan, rows);
+  }
+  return passOf(obstaclesOf(plan), starts, plan);
 }
 
-std::vector<HitShaders> groupShaders(const Plan& plan) {
-  const auto operations = [](const Expr& e) { return static_cast<double>(topologicalOrder({&e, 1}).size()); };
+std::string boxCones(const Plan& plan) {
+  const Macros macros{{"SHARE", number(0.0)}, {"TAKE_ROW", ""}, {"LEAVE_NOTHING", leaveNothing(plan)}};
+  Composer composer(plan.options.es, macros, {}, {});
+  return composer.compose(std::string(parts::kCamera) + parts::kRestByBox + farEnd(plan.rest->bounds) +
+                          parts::kCones);
+}
+
+std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
+  const auto operations = [](const Expr& e) { return static_cast<double>(operationsOf({&e, 1})); };
+  const auto& [many, others] = *plan.kinds;
   double whole = 0.0;
-  for (const OperandGroup& group : plan.groups) whole += operations(group.distance);
+  for (const OperandKind& kind : many)
+    whole += operations(kind.distance) * static_cast<double>(kind.groups.numbers.size());
+  const Expr rest = others.empty() ? Expr(0.0) : leastOf(others);
+  whole += operations(rest);
+  std::vector<Obstacles> obstacles;
+  for (const OperandKind& kind : many) obstacles.push_back(obstaclesOf(kind, plan));
+  if (!others.empty()) obstacles.push_back(othersOf(plan));
+  std::size_t gradients = 0;
+  for (const Obstacles& o : obstacles) gradients += gradientSize(o.whole.distance);
+  for (Obstacles& o : obstacles) o.byTaps = gradients > kLongPasses;
   std::vector<HitShaders> result;
-  for (const OperandGroup& group : plan.groups) {
-    const Parts both{.cones = true, .hits = true, .share = operations(group.distance) / whole};
-    HitShaders pass = passOf(obstaclesOf(group, plan), both, plan);
-    if (pass.uniforms.front().outputs().size() > kMostUniforms) return {};
-    if (result.empty() || result.back().hits != pass.hits)
-      result.push_back(std::move(pass));
-    else
-      result.back().uniforms.push_back(std::move(pass.uniforms.front()));
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    Parts both{.cones = true, .hits = true, .share = operations(obstacles[i].whole.distance) / whole};
+    if (i < many.size()) {
+      both.rowCount = static_cast<int>(many[i].groups.numbers.size());
+      both.rows = "uniform int row;\n" + rows.taking({i}, both.writer);
+      both.takeRow = "sdfTake" + std::to_string(i) + "(row);";
+      both.boxes = many[i].singles;
+    } else if (const Box box = boundsOf(others); box.finite() && operations(rest) > kLongCones) {
+      both.boxes = {box};
+    }
+    both.cones = both.boxes.empty();
+    result.push_back(passOf(obstacles[i], both, plan));
   }
-  if (!plan.planes.empty() && !result.empty())
+  if (!plan.planes.empty())
     result.push_back(passOf(planesOf(plan), {.cones = false, .hits = true, .share = 0.0}, plan));
   return result;
+}
+
+// A group is read where its bounds are nearer than what has been found. The next one is looked for in a loop
+// of its own: pixels that are drawn together then read together, each a group of its own.
+std::string sharing(const Plan& plan, const RowWriter& rows) {
+  const auto& [many, others] = *plan.kinds;
+  std::string searches, loops;
+  for (std::size_t i = 0; i < many.size(); ++i) {
+    const std::string at = std::to_string(i), count = std::to_string(many[i].groups.numbers.size());
+    const double share = many[i].growth < kInfinity ? 1.0 / many[i].growth : 0.0;
+    searches += rows.takingFirst(i, many[i].gapNumbers, "Gap" + at) + "int sdfNext" + at +
+                "(vec3 p, int row, float least) {\n  for (; row < " + count + "; ++row) {\n    sdfTakeGap" +
+                at + "(row);\n    float gap = sdfGap" + at +
+                "(p, vec3(0.0));\n    if (!(gap > 0.0 && gap * " + number(share) +
+                " >= least)) break;\n  }\n  return row;\n}\n";
+    loops +=
+        "  for (int row = sdfNext" + at + "(p, 0, least); row < " + count + "; row = sdfNext" + at +
+        "(p, row + 1, least)) {\n    sdfTake" + at + "(row);\n    float d = sdfKind" + at +
+        "(p, n), i = sdfNearest" + at +
+        "(p, n);\n    if (d < least || (d == least && i > number)) {\n      least = d;\n      number = i;\n"
+        "    }\n  }\n";
+  }
+  const auto from = [](bool any, const std::string& function) {
+    return any ? function + "(p, n)" : std::string("1e30");
+  };
+  const bool hasPlanes = !plan.planes.empty();
+  std::string text =
+      searches + "float sdfLeast(vec3 p, float least, inout float number) {\n  vec3 n = vec3(0.0);\n" +
+      loops + "  return least;\n}\nfloat sdfDistance(vec3 p, vec3 n) {\n  float number = 0.0;\n" +
+      "  return sdfLeast(p, " + from(hasPlanes || !others.empty(), "sdfBeside") + ", number);\n}\n";
+  if (hasPlanes)
+    text += "float sdfRest(vec3 p, vec3 n) {\n  float number = 0.0;\n  return sdfLeast(p, " +
+            from(!others.empty(), "sdfOthers") + ", number);\n}\n";
+  if ((plan.bounces > 0 || !plan.grouped) && !plan.operands.empty())
+    text += "float sdfOperand(vec3 p, vec3 n) {\n  float number = " +
+            (hasPlanes || !others.empty() ? "sdfNearestBeside(p, n)" : std::string("0.0")) +
+            ";\n  sdfLeast(p, " + from(hasPlanes || !others.empty(), "sdfBeside") +
+            ", number);\n  return number;\n}\n";
+  return text;
+}
+
+Functions sharedFunctions(const Plan& plan) {
+  Functions functions{
+      {"sdfOthers", [&] { return std::vector{leastOf(plan.kinds->others)}; }},
+      {"sdfBeside", [&] { return std::vector{leastOf(othersAndPlanes(plan))}; }},
+      {"sdfNearestBeside", [&] { return std::vector{numberOfNearest(othersAndPlanes(plan))}; }}};
+  for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
+    const OperandKind& kind = plan.kinds->many[i];
+    functions["sdfKind" + std::to_string(i)] = [&] { return std::vector{hoisted(kind.distance)}; };
+    functions["sdfGap" + std::to_string(i)] = [&] { return std::vector{kind.gap}; };
+    functions["sdfNearest" + std::to_string(i)] = [&] { return std::vector{kind.nearest}; };
+  }
+  return functions;
 }
 
 }  // namespace sdf::viewer

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "viewer/shaders/assemble.h"
+#include "viewer/shaders/rows.h"
 #include "viewer/shaders/source.h"
 
 namespace sdf::viewer {
@@ -15,6 +16,8 @@ struct Obstacles {
   std::optional<Marched> rest;    ///< what is marched, if anything
   std::vector<HalfSpace> planes;  ///< what else there is
   std::optional<Expr> operand;    ///< the number of the operand that is nearest; none: 0
+  bool shared = false;            ///< sharing() defines the distances and the number instead
+  bool byTaps = false;            ///< the gradient is taken by differences
 };
 
 /// Returns all that there is to be met of a scene.
@@ -30,10 +33,20 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan);
 Functions meetingFunctions(const Obstacles& obstacles);
 
 /// Writes the pass that looks where the rays of the whole start.
-HitShaders startShaders(const Plan& plan);
+HitShaders startShaders(const Plan& plan, const RowWriter& rows);
 
-/// Writes the passes that draw the plan's groups, and the half spaces beside them; none if a group has more
-/// numbers than every driver has room for.
-std::vector<HitShaders> groupShaders(const Plan& plan);
+/// Writes the shader that looks where the rays that meet a box start.
+std::string boxCones(const Plan& plan);
+
+/// Writes the passes that draw the groups of the plan's kinds, whose rows are the first, the other operands
+/// and the half spaces.
+std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows);
+
+/// Returns the parts that define the distance and the nearest operand of all, by loops over the groups of the
+/// plan's kinds, whose rows are the first ones and can be taken.
+std::string sharing(const Plan& plan, const RowWriter& rows);
+
+/// Returns the functions of the scene that these parts use.
+Functions sharedFunctions(const Plan& plan);
 
 }  // namespace sdf::viewer

@@ -184,6 +184,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     FIND_HIT
     COUNT_MARCH
     if (hit.status == MISS) {
+      LEAVE_BACKGROUND
       total += through * sdfBackground(ray.direction, vec3(0.0));
       break;
     }

@@ -70,10 +70,12 @@ Result<Marched> marched(const Shape& shape, const Scene& scene) {
 }
 
 void planSurface(const Shape& whole, Plan& plan) {
-  const Attributes byNumber = surfaceOf(whole, Expr::parameter({hidden("operand"), 0.0, 0.0, kInfinity}));
-  if (byNumber != whole.surface) plan.operands = operandsOf(whole);
+  OperandSurfaces byNumber =
+      surfaceOf(whole, Expr::parameter({hidden("operand"), 0.0, 0.0, kInfinity}), plan.options.sharing);
+  if (byNumber.attributes != whole.surface) plan.operands = operandsOf(whole);
   std::vector<Expr> surface;
-  for (const Expr& e : byNumber) surface.push_back(hoisted(e));
+  for (const Expr& e : byNumber.attributes) surface.push_back(hoisted(e));
+  plan.surfaceRows = std::move(byNumber.operands);
   Filtered shown = filtered(surface);
   plan.surface = std::move(shown.outputs);
   plan.filters = shown.changed;
@@ -108,9 +110,12 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   if (isPicture || view == View::Material) planSurface(whole, plan);
   // A group is read without what marchable() adds where a slope is known near the bounds only.
-  if (options.grouped && plan.cones && isPicture && slopeOf(rest) < kInfinity)
-    plan.groups = groupsOf(parts.operands);
-  if (plan.groups.size() == 1) plan.groups.clear();
+  if (options.sharing && slopeOf(rest) < kInfinity)
+    if (Kinds kinds = kindsOf(parts.operands); !kinds.many.empty()) plan.kinds = std::move(kinds);
+  // Counts of steps, gradients and slices are the whole's.
+  const bool showsHits = isPicture || view == View::Normals || view == View::Material ||
+                         view == View::Occlusion || view == View::Shadow;
+  plan.grouped = plan.kinds && plan.cones && showsHits;
   return plan;
 }
 

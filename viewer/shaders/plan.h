@@ -32,7 +32,7 @@ struct ShaderOptions {
   Method method = Method::AutoRelaxed;
   bool countReadings = false;  ///< a second output: readings by primary rays, shadows, occlusion, reflections
   bool es = false;             ///< GLSL ES 3.00 instead of 3.30 core
-  bool grouped = true;         ///< may draw a wide union's picture in groups; else one shader draws all of it
+  bool sharing = true;         ///< like operands may share their code; else all of it is written out
 };
 
 /// A Marched distance is one that rays can be marched through.
@@ -58,9 +58,12 @@ struct Plan {
   std::vector<HalfSpace> planes;
   /// The operands of the whole, if a hit's surface follows from the number of its operand.
   std::vector<NumberedOperand> operands;
-  /// Groups of the rest that are drawn each by itself, or none.
-  std::vector<OperandGroup> groups;
+  /// The operands of the rest, if some are of a kind whose formula they share: then the whole's distance is
+  /// read by loops over the kinds' groups.
+  std::optional<Kinds> kinds;
   std::vector<Expr> surface;  ///< the attributes of a hit, if they are shown
+  Rows surfaceRows;           ///< the numbers in them, by operand; without parameters if there are none
+  bool grouped = false;       ///< each group of the kinds is drawn by itself
   bool plain = false;         ///< rays take plain steps
   bool cones = false;         ///< rays start where the cone pass says
   bool tiled = false;         ///< where the cones saw nothing there is only background

@@ -64,6 +64,16 @@ inline constexpr const char* kRest = R"(
 float rest(vec3 p) { return REST; }
 )";
 
+/// The same of a box.
+inline constexpr const char* kRestByBox = R"(
+uniform vec3 boxMiddle, boxHalf;
+
+float rest(vec3 p) {
+  vec3 gap = abs(p - boxMiddle) - boxHalf;
+  return length(max(gap, 0.0)) + min(max(gap.x, max(gap.y, gap.z)), 0.0);
+}
+)";
+
 /// Either defines planesFrom(ray), the t at which a ray enters the first of the half spaces.
 inline constexpr const char* kPlanes = R"(
 // Where the ray enters the first of the half spaces.
@@ -185,6 +195,7 @@ vec4 counted = vec4(0.0);
 )";
 
 /// Defines main() of the cone pass, beside farEnd(ray, spread, widening) from hit_shaders.cpp.
+/// Where it sees nothing the target may keep what it holds, an infinite start.
 /// Two rays through one tile are no farther apart at equal t than their pixels' distance times
 /// (ahead + t / |forward|): what the ball around the tile's middle ray leaves of that is free for both.
 inline constexpr const char* kCones = R"(
@@ -196,6 +207,7 @@ layout(location = 0) out vec4 start;
 
 void main() {
   sdfTakeValues();
+  TAKE_ROW
   Ray ray = rayThrough((floor(gl_FragCoord.xy - corner) + 0.5) * tile);
   float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
   vec3 span = first ? vec3(0.0, 0.0, farEnd(ray, spread, widening)) : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).rgb;
@@ -220,6 +232,7 @@ void main() {
       t += free / (1.0 + widening);
     }
   }
+  LEAVE_NOTHING
   start = vec4(t, SHARE * float(readings), end, 0.0);
 }
 )";
@@ -235,6 +248,7 @@ float favoured(Ray ray, Hit hit) { return hit.t - 0.25 * hitDistance(ray, hit.t)
 
 void main() {
   sdfTakeValues();
+  TAKE_ROW
   Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
   START_RAY
   Hit hit = meet(ray);

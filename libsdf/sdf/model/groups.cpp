@@ -4,82 +4,27 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <map>
-#include <optional>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "sdf/expr/hoist.h"
-#include "sdf/expr/payload.h"
 
 namespace sdf {
 namespace {
 
-constexpr char kOwn = '\x01';  // begins the names of groups' constants, and no scene's
+constexpr char kOwn = '\x01';  // begins the names of rows' parameters, and no scene's
 
-// Fewer like operands cost less together than the passes that would draw their groups.
-constexpr std::size_t kMany = 40;
+// A formula that is shared costs the loop over its rows, and a pass that draws them.
+constexpr std::size_t kWorthSharing = 150;  // operations that this saves
 
-// Parameters of a group: drivers have room for 1024 numbers at least, and more follow from these.
+// Operands of more operations are not joined into groups: a reading of a group would take all of them.
+constexpr std::size_t kLarge = 100;
+
+// Numbers of a group: a shader holds as many at once.
 constexpr std::size_t kMostNumbers = 480;
 
-// The same for operands that differ in nothing but constants. Payloads are numbered as they are met.
-std::string kindOf(const Expr& operand, std::unordered_map<const Payload*, std::size_t>& payloads) {
-  std::string kind;
-  std::unordered_map<Expr, std::size_t> places;
-  for (const Expr& node : topologicalOrder({&operand, 1})) {
-    const std::size_t place = places.size();
-    places.emplace(node, place);
-    kind += std::to_string(static_cast<int>(node.op()));
-    if (node.op() == Op::Variable) kind += "v" + std::to_string(static_cast<int>(node.variableIndex()));
-    if (const PayloadPart* p = node.payloadPart())
-      kind += "p" + std::to_string(payloads.try_emplace(p->payload.get(), payloads.size()).first->second) +
-              "." + std::to_string(p->part);
-    for (int i = 0; i < arity(node.op()); ++i) kind += "," + std::to_string(places.at(node.arg(i)));
-    kind += ";";
-  }
-  return kind;
-}
-
-/// What operands of one kind have in common, and their other constants as parameters.
-class Likeness {
- public:
-  explicit Likeness(std::span<const NumberedOperand> operands) {
-    std::unordered_map<Expr, std::size_t> uses;
-    for (const NumberedOperand& operand : operands)
-      for (const Expr& node : topologicalOrder({&operand.distance, 1})) ++uses[node];
-    for (const auto& [node, count] : uses)
-      if (count == operands.size()) common_.insert(node);
-  }
-
-  /// Its constants that not all have.
-  std::size_t numbersOf(const Expr& operand) const {
-    const auto own = [&](const Expr& node) { return node.isConstant() && !common_.contains(node); };
-    return static_cast<std::size_t>(std::ranges::count_if(topologicalOrder({&operand, 1}), own));
-  }
-
-  /// A new parameter whose default is this value.
-  Expr parameter(double v) {
-    return Expr::parameter({kOwn + std::string("constant ") + std::to_string(parameters_++), v, v, v});
-  }
-
-  /// The operand with new parameters for those of its constants that not all have.
-  Expr withParameters(const Expr& operand) {
-    return rewrite(operand, [&](const Expr& node, std::span<const Expr>) -> std::optional<Expr> {
-      if (common_.contains(node)) return node;
-      if (node.isConstant()) return parameter(node.constantValue());
-      return std::nullopt;
-    });
-  }
-
- private:
-  std::unordered_set<Expr> common_;
-  std::size_t parameters_ = 0;
-};
-
 struct Placed {
-  NumberedOperand operand;
+  std::size_t row;  // of its kind
   glm::dvec3 place;
 };
 
@@ -90,25 +35,13 @@ glm::dvec3 placeOf(const Box& bounds) {
   return {along(0), along(1), along(2)};
 }
 
-struct Members {
-  std::vector<Expr> distances, numbers;
-
-  void add(const Expr& distance, const Expr& number) {
-    distances.push_back(distance);
-    numbers.push_back(number);
-  }
-
-  OperandGroup joined() const {
-    Expr least = distances.front();
-    for (std::size_t i = 1; i < distances.size(); ++i) least = min(least, distances[i]);
-    return {least, numberOfLeast(distances, numbers)};
-  }
-};
-
-// How many of so many operands a group takes: half as many as there are groups then.
-std::size_t sizeOf(std::size_t operands, std::size_t numbersEach) {
-  const auto root = static_cast<std::size_t>(std::lround(std::sqrt(0.5 * static_cast<double>(operands))));
-  return std::clamp(kMostNumbers / numbersEach, std::size_t{1}, root);
+// How many operands a group takes: half as many as there are groups then.
+std::size_t sizeOf(const Alike& kind) {
+  if (operationsOf(kind.common) > kLarge) return 1;
+  const auto root =
+      static_cast<std::size_t>(std::lround(std::sqrt(0.5 * static_cast<double>(kind.rows.size()))));
+  return std::clamp(root, std::size_t{1},
+                    std::max(kMostNumbers / (kind.parameters.size() + 1), std::size_t{1}));
 }
 
 // Puts neighbours side by side: cut across their longest side, at whole groups, again and again.
@@ -126,42 +59,143 @@ void arrange(std::span<Placed> all, std::size_t size) {
   arrange(all.subspan(cut), size);
 }
 
-// Adds the groups of one kind, unless it has too many numbers.
-bool split(std::span<const NumberedOperand> alike, std::vector<OperandGroup>& result) {
-  Likeness likeness(alike);
-  const std::size_t numbers = likeness.numbersOf(alike.front().distance) + 1;
-  if (numbers > kMostNumbers) return false;
+// The rows of a kind in groups of neighbours; some are twice in the last one.
+std::vector<std::vector<std::size_t>> grouped(const Alike& kind, std::span<const NumberedOperand> operands) {
   std::vector<Placed> placed;
-  for (const NumberedOperand& e : alike) placed.push_back({e, placeOf(e.bounds)});
-  const std::size_t size = sizeOf(placed.size(), numbers);
+  for (std::size_t row = 0; row < kind.places.size(); ++row)
+    placed.push_back({row, placeOf(operands[kind.places[row]].bounds)});
+  const std::size_t size = sizeOf(kind);
   arrange(placed, size);
   while (placed.size() % size != 0) placed.push_back(placed.back());
+  std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < placed.size(); i += size) {
-    const std::span group(placed.data() + i, size);
-    // A union's later operand wins a tie.
-    std::ranges::sort(group, {}, [](const Placed& p) { return p.operand.number; });
-    Members members;
-    for (const Placed& p : group)
-      members.add(likeness.withParameters(p.operand.distance), likeness.parameter(p.operand.number));
-    result.push_back(members.joined());
+    std::vector<std::size_t>& group = groups.emplace_back();
+    for (std::size_t k = i; k < i + size; ++k) group.push_back(placed[k].row);
+    std::ranges::sort(group);  // a union's later operand wins a tie
   }
-  return true;
+  return groups;
 }
 
-// The attribute of the operand of this number, one of those from `first` on.
-Expr chosen(std::span<const Shape> operands, int attribute, double first, const Expr& number) {
-  if (operands.size() == 1) return operands.front().surface[attribute];
-  const std::size_t half = operands.size() / 2;
+/// Names the parameters of rows.
+class Names {
+ public:
+  explicit Names(const std::string& prefix) : prefix_(kOwn + prefix) {}
+  std::string next() { return prefix_ + std::to_string(count_++); }
+
+ private:
+  std::string prefix_;
+  int count_ = 0;
+};
+
+// What all rows have: the number itself, or a parameter for it.
+Expr column(Rows& rows, const std::vector<Expr>& numbers, Names& names) {
+  if (std::ranges::all_of(numbers, [&](const Expr& e) { return e == numbers.front(); }))
+    return numbers.front();
+  rows.parameters.push_back(numberAmong(names.next(), numbers));
+  for (std::size_t i = 0; i < numbers.size(); ++i) rows.numbers[i].push_back(numbers[i]);
+  return rows.parameters.back();
+}
+
+// The middle and half the size of boxes along an axis. Where the sizes differ by no more than rounding they
+// are one, and all are larger than in double by what is lost in float.
+std::pair<std::vector<Expr>, std::vector<Expr>> spansOf(const std::vector<Box>& boxes, int axis) {
+  constexpr double kRounding = 1e-6;
+  double least = kInfinity, most = 0.0, farthest = 0.0;
+  for (const Box& box : boxes) {
+    least = std::min(least, 0.5 * box.size()[axis]);
+    most = std::max(most, 0.5 * box.size()[axis]);
+    farthest = std::max(farthest, std::abs(box.centre()[axis]));
+  }
+  const bool same = most - least <= kRounding * (most + farthest);
+  std::pair<std::vector<Expr>, std::vector<Expr>> result;
+  for (const Box& box : boxes) {
+    result.first.emplace_back(box.centre()[axis]);
+    result.second.emplace_back((same ? most : 0.5 * box.size()[axis]) + kRounding * (most + farthest));
+  }
+  return result;
+}
+
+// How far the position is beyond the boxes, by the axis along which that is most.
+Expr beyond(const std::vector<Box>& boxes, Rows& rows, Names& names) {
+  const auto gap = [&](int axis, const Expr& along) {
+    const auto [middles, halves] = spansOf(boxes, axis);
+    const Expr off = abs(along - column(rows, middles, names));
+    return off - column(rows, halves, names);
+  };
+  const auto [x, y, z] = position();
+  const Expr gaps[] = {gap(0, x), gap(1, y), gap(2, z)};  // braces keep the order
+  return max(max(gaps[0], gaps[1]), gaps[2]);
+}
+
+OperandKind kindOf(const Alike& alike, std::span<const NumberedOperand> operands, Names& names) {
+  const auto groups = grouped(alike, operands);
+  OperandKind kind;
+  kind.groups.numbers.resize(groups.size());
+  std::vector<Box> boxes;
+  bool known = true;
+  for (const auto& group : groups) {
+    Box& box = boxes.emplace_back();
+    for (const std::size_t row : group) {
+      const NumberedOperand& operand = operands[alike.places[row]];
+      box = unite(box, operand.bounds);
+      kind.growth = std::max(kind.growth, operand.growth);
+    }
+    known = known && box.finite();
+  }
+  kind.gap = known ? beyond(boxes, kind.groups, names) : Expr(-kInfinity);
+  kind.gapNumbers = kind.groups.parameters.size();
+  if (known && groups.front().size() == 1) kind.singles = boxes;
+  std::vector<Expr> distances, numbers;
+  for (std::size_t k = 0; k < groups.front().size(); ++k) {
+    std::unordered_map<Expr, Expr> own;  // for the kind's parameters
+    const auto member = [&](const auto& numberIn) {
+      std::vector<Expr> all;
+      for (const auto& group : groups) all.push_back(numberIn(group[k]));
+      return column(kind.groups, all, names);
+    };
+    for (std::size_t i = 0; i < alike.parameters.size(); ++i)
+      own.emplace(alike.parameters[i], member([&](std::size_t row) { return alike.rows[row][i]; }));
+    distances.push_back(rewrite(alike.common.front(), [&](const Expr& e, std::span<const Expr>) {
+      const auto found = own.find(e);
+      return found == own.end() ? std::nullopt : std::optional(found->second);
+    }));
+    numbers.push_back(member([&](std::size_t row) { return Expr(operands[alike.places[row]].number); }));
+  }
+  kind.distance = distances.front();
+  for (std::size_t k = 1; k < distances.size(); ++k) kind.distance = min(kind.distance, distances[k]);
+  kind.nearest = numberOfLeast(distances, numbers);
+  return kind;
+}
+
+// What sharing the formula of a kind saves.
+std::size_t savedBy(const Alike& kind) { return operationsOf(kind.common) * (kind.places.size() - 1); }
+
+// The attribute where the number is that of one of these, from `first` on.
+Expr chosen(std::span<const Attributes> all, int attribute, double first, const Expr& number) {
+  if (all.size() == 1) return all.front()[static_cast<std::size_t>(attribute)];
+  const std::size_t half = all.size() / 2;
   const double middle = first + static_cast<double>(half);
-  const Expr low = chosen(operands.first(half), attribute, first, number);
-  const Expr high = chosen(operands.subspan(half), attribute, middle, number);
+  const Expr low = chosen(all.first(half), attribute, first, number);
+  const Expr high = chosen(all.subspan(half), attribute, middle, number);
   return low == high ? low : select(less(middle - 0.5, number), high, low);
+}
+
+Attributes chosen(std::span<const Attributes> all, const Expr& number) {
+  Attributes result;
+  for (int i = 0; i < kAttributeCount; ++i) result[static_cast<std::size_t>(i)] = chosen(all, i, 0.0, number);
+  return result;
 }
 
 bool isHardUnion(const Shape& shape) { return shape.outer && shape.outer->blend.kind == Blend::Kind::Hard; }
 
 NumberedOperand numbered(const Shape& shape, double number) {
-  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, number};
+  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, growthOf(shape.claim), number};
+}
+
+Attributes attributesFrom(const std::vector<Expr>& list) {
+  Attributes result;
+  std::ranges::copy(list, result.begin());
+  return result;
 }
 
 }  // namespace
@@ -183,30 +217,58 @@ Expr numberOfNearest(std::span<const NumberedOperand> operands) {
   return numberOfLeast(distances, numbers);
 }
 
-Attributes surfaceOf(const Shape& shape, const Expr& number) {
-  Attributes result = shape.surface;
-  if (isHardUnion(shape))
-    for (int i = 0; i < kAttributeCount; ++i) result[i] = chosen(shape.outer->operands, i, 0.0, number);
+OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare) {
+  OperandSurfaces result{shape.surface, {}};
+  if (!isHardUnion(shape)) return result;
+  const std::vector<Shape>& operands = shape.outer->operands;
+  std::vector<std::vector<Expr>> lists;
+  std::vector<Attributes> own;
+  for (const Shape& operand : operands) {
+    // The number of the material is a number beside others, and no shader shows it.
+    lists.emplace_back(operand.surface.begin(), operand.surface.end());
+    own.push_back(operand.surface);
+  }
+  const std::vector<Alike> sorts = sortedByLikeness(lists, kOwn + std::string("surface "));
+  std::size_t saved = 0;
+  for (const Alike& sort : sorts) saved += savedBy(sort);
+  if (!mayShare || saved < kWorthSharing) {
+    result.attributes = chosen(own, number);
+    return result;
+  }
+  Names names("look ");
+  std::vector<Attributes> looks;
+  std::vector<Expr> which(operands.size(), Expr(0.0));
+  Rows& rows = result.operands;
+  rows.numbers.resize(operands.size());
+  for (const Alike& sort : sorts) {
+    for (const std::size_t place : sort.places) which[place] = static_cast<double>(looks.size());
+    looks.push_back(attributesFrom(sort.common));
+  }
+  result.attributes = chosen(looks, column(rows, which, names));
+  for (const Alike& sort : sorts) {
+    const std::size_t first = rows.parameters.size();
+    rows.parameters.insert(rows.parameters.end(), sort.parameters.begin(), sort.parameters.end());
+    for (auto& row : rows.numbers) row.resize(rows.parameters.size(), Expr(0.0));
+    for (std::size_t i = 0; i < sort.places.size(); ++i)
+      std::ranges::copy(sort.rows[i],
+                        rows.numbers[sort.places[i]].begin() + static_cast<std::ptrdiff_t>(first));
+  }
   return result;
 }
 
-bool isGroupConstant(const std::string& name) { return name.starts_with(kOwn); }
-
-std::vector<OperandGroup> groupsOf(std::span<const NumberedOperand> operands) {
-  std::map<std::string, std::vector<NumberedOperand>> kinds;
-  std::unordered_map<const Payload*, std::size_t> payloads;
-  for (const NumberedOperand& e : operands) kinds[kindOf(e.distance, payloads)].push_back(e);
-  std::vector<OperandGroup> result;
-  std::vector<NumberedOperand> others;
-  for (const auto& [kind, alike] : kinds) {
-    if (alike.size() < kMany || !split(alike, result))
-      others.insert(others.end(), alike.begin(), alike.end());
+Kinds kindsOf(std::span<const NumberedOperand> operands) {
+  std::vector<std::vector<Expr>> distances;
+  for (const NumberedOperand& operand : operands) distances.push_back({operand.distance});
+  Kinds kinds;
+  Names names("group ");
+  for (const Alike& alike : sortedByLikeness(distances, kOwn + std::string("operand "))) {
+    if (savedBy(alike) >= kWorthSharing && alike.parameters.size() < kMostNumbers)
+      kinds.many.push_back(kindOf(alike, operands, names));
+    else
+      for (const std::size_t place : alike.places) kinds.others.push_back(operands[place]);
   }
-  std::ranges::sort(others, {}, &NumberedOperand::number);
-  Members rest;
-  for (const NumberedOperand& e : others) rest.add(e.distance, e.number);
-  if (!others.empty()) result.push_back(rest.joined());
-  return result;
+  std::ranges::sort(kinds.others, {}, &NumberedOperand::number);
+  return kinds;
 }
 
 }  // namespace sdf

@@ -1,9 +1,10 @@
-// A wide union as the list of its operands: which of them is met, and groups of neighbours that can be read
-// apart.
+// A wide union as the list of its operands: which of them is met, what those that differ only in numbers have
+// in common, and groups of neighbours that can be read apart.
 #pragma once
 #include <span>
 #include <vector>
 
+#include "sdf/expr/alike.h"
 #include "sdf/shape/shape.h"
 
 namespace sdf {
@@ -12,6 +13,7 @@ namespace sdf {
 struct NumberedOperand {
   Expr distance;
   Box bounds;
+  double growth;  ///< see Claim
   double number;
 };
 
@@ -21,23 +23,46 @@ std::vector<NumberedOperand> operandsOf(const Shape& shape, double first = 0.0);
 /// The number of the operand that is nearest; of several the last. At least one.
 Expr numberOfNearest(std::span<const NumberedOperand> operands);
 
-/// The shape's attributes where the operand of this number, from 0 on, is the nearest: for a hard union they
-/// follow from the number, without distances. Cost: linear in the number of operands.
-Attributes surfaceOf(const Shape& shape, const Expr& number);
-
-/// Some of a union's operands.
-struct OperandGroup {
-  Expr distance;  ///< the least of them
-  Expr nearest;   ///< the number of that one
+/// Formulas with parameters that no scene names, and rows of numbers to read them with, none of which depends
+/// on space.
+struct Rows {
+  std::vector<Expr> parameters;
+  std::vector<std::vector<Expr>> numbers;  ///< of each row, by parameter
 };
 
-/// Whether a parameter of this name is a constant of a group, which no scene names.
-bool isGroupConstant(const std::string& name);
+/// Groups of some of a union's operands, as many in each, that differ only in numbers.
+struct OperandKind {
+  Expr distance;  ///< of a group: the least of its operands'
+  Expr nearest;   ///< the number of that one
+  Expr gap;       ///< where positive, no more than the way to the group's bounds; -infinity if it has none
+  double growth = 0.0;  ///< outside of the bounds the distance is no less than gap / growth
+  Rows groups;
+  std::size_t gapNumbers = 0;  ///< how many parameters `gap` has, the first ones
+  /// Each group is one operand, of many operations, within these bounds by group, which are finite; empty:
+  /// groups are of several, or not all have bounds.
+  std::vector<Box> singles;
+};
 
-/// Groups whose least distance is that of the operands: each of neighbours, by their bounds, that are made
-/// alike, but for one that takes all others. In those of like operands, numbers in which the operands differ
-/// are parameters that have these numbers as their defaults, so that groups of one kind are one formula, for
-/// there are as many in each. One group if there are not many alike. Cost: linear in the size of the graphs.
-std::vector<OperandGroup> groupsOf(std::span<const NumberedOperand> operands);
+/// What of a union's operands is to be read together.
+struct Kinds {
+  std::vector<OperandKind> many;        ///< those whose formulas are worth to be shared
+  std::vector<NumberedOperand> others;  ///< the rest
+};
+
+/// Sorts operands into kinds. Operands of many operations are groups by themselves, others are with their
+/// neighbours. A kind's formula is shared as soon as that saves some hundred operations. Cost: linear in the
+/// size of the graphs.
+Kinds kindsOf(std::span<const NumberedOperand> operands);
+
+/// A union's attributes, those of like operands written once.
+struct OperandSurfaces {
+  Attributes attributes;  ///< where the operand of the given number is the nearest, with parameters of rows
+  Rows operands;          ///< by operand; without parameters where nothing is worth to be shared
+};
+
+/// The shape's attributes where the operand of this number, from 0 on, is the nearest: for a hard union they
+/// follow from the number, without distances. They are written once if that may be, and saves some hundred
+/// operations. Cost: linear in the size of the graphs.
+OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare);
 
 }  // namespace sdf

@@ -1,0 +1,38 @@
+// Rows of numbers that shaders look up in one texture. Private to viewer/shaders.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sdf/eval/glsl.h"
+#include "sdf/model/groups.h"
+
+namespace sdf::viewer {
+
+/// A RowWriter lays rows out side by side, and writes how shaders take one of them.
+class RowWriter {
+ public:
+  /// Adds rows, whose place is their number among all.
+  void add(const Rows& rows);
+  /// Returns whether every driver has room for all.
+  bool fits() const;
+
+  /// Writes the variables of the rows at these places, and for each `void sdfTake<place>(int row)`, which
+  /// sets its variables. A writer then reads them in the parameters' places.
+  std::string taking(const std::vector<std::size_t>& places, GlslWriter& writer) const;
+  /// Writes `void sdfTake<name>(int row)`, which sets the first `count` of one place's variables.
+  std::string takingFirst(std::size_t place, std::size_t count, const std::string& name) const;
+
+  /// Returns what the texture holds, four numbers a texel; texel i lies in column i % kRowTexels of row
+  /// i / kRowTexels.
+  Function numbers() const { return Function(numbers_); }
+
+ private:
+  struct Table {
+    std::size_t first, stride;  // in texels
+    std::vector<Expr> parameters;
+  };
+  std::vector<Table> tables_;
+  std::vector<Expr> numbers_;
+};
+
+}  // namespace sdf::viewer
