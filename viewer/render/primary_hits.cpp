@@ -108,7 +108,9 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
 
 void PrimaryHits::chooseRow(const Pass& pass, const Program& program, int i) const {
   if (pass.takesRows) program.set("sdfRows", kRowsUnit);
-  if (pass.rows > 0) program.set("row", i);
+  if (pass.rows.count == 0) return;
+  const auto& [count, first, stride] = pass.rows;
+  program.set("sdfRow", rows_.subspan(first + static_cast<std::size_t>(i) * stride, stride));
 }
 
 void PrimaryHits::giveStarts(const Program& program, int cell, const Shot& shot) const {
@@ -155,7 +157,8 @@ void PrimaryHits::prepare(const Frame& frame) {
   for (Pass& pass : passes_) pass.values.move(frame.parameters);
 }
 
-Status PrimaryHits::begin(const Shot& shot) {
+Status PrimaryHits::begin(const Shot& shot, std::span<const glm::vec4> rows) {
+  rows_ = rows;
   if (auto s = makeTargets(shot); !s) return s;
   drawStarts(shot);
   readings_ = 0.0;

@@ -2,6 +2,7 @@
 // group.
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "viewer/gpu/program.h"
@@ -22,9 +23,9 @@ class PrimaryHits {
 
   /// Computes the passes' uniforms of a frame. It calls no OpenGL.
   void prepare(const Frame& frame);
-  /// Makes the targets of the shot's size, and draws where the rays of each tile start. Errors: Limits,
-  /// Graphics.
-  Status begin(const Shot& shot);
+  /// Makes the targets of the shot's size, and draws where the rays of each tile start. `rows` is what the
+  /// texture sdfRows holds, and stays so until the frame is drawn. Errors: Limits, Graphics.
+  Status begin(const Shot& shot, std::span<const glm::vec4> rows);
   /// Draws the hits of the shot's sample, if the passes do. Errors: Graphics.
   Status drawSample(const Shot& shot);
 
@@ -44,10 +45,10 @@ class PrimaryHits {
     std::optional<Program> cones, hits;
     UniformValues values;
     bool takesRows;
-    int rows;       // that it is drawn with one by one; 0: once, without any
+    RowRange rows;  // that it is drawn with one by one; none: once, without that
     int firstCell;  // of the starts, one for each time that it is drawn; -1 if all rays start at the eye
     std::vector<Box> boxes;  // at which rays start instead of where the cones say
-    int draws() const { return rows > 0 ? rows : 1; }
+    int draws() const { return rows.count > 0 ? static_cast<int>(rows.count) : 1; }
   };
   PrimaryHits() = default;
   Status makeTargets(const Shot& shot);
@@ -68,6 +69,7 @@ class PrimaryHits {
   int cells_ = 0, columns_ = 0;  // of the starts
   bool counted_ = false;
   double readings_ = 0.0;
+  std::span<const glm::vec4> rows_;
   std::optional<Target> coarse_, fine_;  // starts, of all cells beside one another and of smaller tiles
   std::optional<Target> hits_;           // outputs of parts::kHits, readings if counted, and depth
 };

@@ -162,7 +162,7 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
   samples_ = shot.samples();
   giveRows();
   if (hits_)
-    if (auto s = hits_->begin(shot); !s) return s;
+    if (auto s = hits_->begin(shot, rowValues_.vectors()); !s) return s;
   if (samples_ > 1) {
     if (auto s = drawSamples(frame, shot, target); !s) return s;
   } else {

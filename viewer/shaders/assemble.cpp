@@ -53,6 +53,12 @@ bool readsRest(const Plan& plan) {
 
 const Box& boundsOfRest(const Plan& plan) { return plan.rest ? plan.rest->bounds : plan.whole.bounds; }
 
+// It is there already; and llvmpipe compiles a shader that may discard once, and else twice. Rays that are
+// followed further would take a third longer.
+bool leavesBackground(const Plan& plan) {
+  return plan.tiled && plan.bounces == 0 && !plan.options.countReadings;
+}
+
 Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& takeSurface = "") {
   const bool taps = plan.occlusion == OcclusionKind::Taps, steps = plan.occlusion == OcclusionKind::Steps;
   const Box& bounds = boundsOfRest(plan);
@@ -71,8 +77,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
                                            : "if (bounce == 0) hit = primaryHit(); else hit = meet(ray);";
   macros["TAKE_OPERAND"] = plan.operands.empty() ? "" : "operand = hit.operand;" + takeSurface;
   macros["FOOTPRINT"] = plan.filters ? "setFootprint(n, d, ray.before + t);" : "";
-  // It is there already; and llvmpipe compiles a shader that may discard once, and else twice.
-  macros["LEAVE_BACKGROUND"] = plan.tiled && !plan.options.countReadings ? "if (bounce == 0) discard;" : "";
+  macros["LEAVE_BACKGROUND"] = leavesBackground(plan) ? "discard;" : "";
   macros["LIGHTS"] = std::to_string(scene.lights.size());
   macros["TAPS"] = std::to_string(scene.ambientOcclusion.count);
   macros["BOUNCES"] = std::to_string(plan.bounces);

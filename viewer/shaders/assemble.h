@@ -19,6 +19,11 @@ struct Shader {
 /// The side of the texture sdfRows, in texels: what every driver has room for.
 inline constexpr int kRowShift = 10, kRowTexels = 1 << kRowShift;
 
+/// A RowRange is a part of the texture sdfRows.
+struct RowRange {
+  std::size_t count = 0, first = 0, stride = 0;  ///< rows; the first one, and the length of each, in texels
+};
+
 /// HitShaders are the fragment shaders of a pass that looks where the rays of each tile start and, if it is
 /// one of those by which a union is drawn, what they hit.
 struct HitShaders {
@@ -26,7 +31,7 @@ struct HitShaders {
   std::string hits{};   ///< fills the layers of hits (parts::kHits); empty: the picture's shader marches
   Function uniforms{std::vector<Expr>{}};  ///< what the uniform sdfValues of both holds
   bool takesRows = false;                  ///< they have the uniform sdfRows
-  int rows = 0;  ///< the pass is drawn once for each, told by the uniform `row`; 0: once, without that
+  RowRange rows{};  ///< the pass is drawn once with each in the uniform sdfRow; none: once, without that
   std::vector<Box> boxes{};  ///< where rays start, each time that the pass is drawn, instead of cones
 };
 

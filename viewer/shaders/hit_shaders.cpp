@@ -94,9 +94,9 @@ std::string leaveNothing(const Plan& plan) {
 struct Parts {
   bool cones, hits;
   double share = 1.0;
-  int rowCount = 0;
-  std::string rows{}, takeRow{};  ///< their variables, and the call that sets them
-  std::string sharing{};          ///< what defines the distance by loops over rows
+  RowRange row{};
+  std::string rows{};     ///< what takes them
+  std::string sharing{};  ///< what defines the distance by loops over rows
   GlslWriter writer{};
   std::vector<Box> boxes{};  ///< where its rays start, if there are no cones of its own
 };
@@ -111,7 +111,7 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
   const bool counted = plan.options.countReadings;
   macros["STORE_COUNTS"] =
       counted ? "counts = vec4(weight * SHARE * float(hit.readings), 0.0, 0.0, 0.0);" : "";
-  macros["TAKE_ROW"] = wanted.takeRow;
+  macros["TAKE_ROW"] = wanted.row.count > 0 ? "sdfTake();" : "";
   Functions functions = meetingFunctions(obstacles);
   if (!wanted.sharing.empty()) functions.merge(sharedFunctions(plan));
   Composer composer(plan.options.es, macros, functions, wanted.writer, wanted.rows);
@@ -124,8 +124,8 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
     pass.hits = composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kStarts : "") +
                                  (counted ? parts::kHitCounts : "") + parts::kHits);
   pass.uniforms = composer.uniforms();
-  pass.takesRows = !wanted.rows.empty();
-  pass.rows = wanted.rowCount;
+  pass.takesRows = !wanted.sharing.empty();
+  pass.rows = wanted.row;
   pass.boxes = wanted.boxes;
   return pass;
 }
@@ -208,9 +208,8 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     Parts both{.cones = true, .hits = true, .share = operations(obstacles[i].whole.distance) / whole};
     if (i < many.size()) {
-      both.rowCount = static_cast<int>(many[i].groups.numbers.size());
-      both.rows = "uniform int row;\n" + rows.taking({i}, both.writer);
-      both.takeRow = "sdfTake" + std::to_string(i) + "(row);";
+      both.row = {many[i].groups.numbers.size(), rows.firstOf(i), rows.strideOf(i)};
+      both.rows = rows.takingOne(i, both.writer);
       both.boxes = many[i].singles;
     } else if (const Box box = boundsOf(others); box.finite() && operations(rest) > kLongCones) {
       both.boxes = {box};

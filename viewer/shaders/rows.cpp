@@ -40,19 +40,33 @@ std::string RowWriter::takingFirst(std::size_t place, std::size_t count, const s
   return text + "}\n";
 }
 
+std::string RowWriter::variables(std::size_t place, GlslWriter& writer) const {
+  std::string text;
+  const std::vector<Expr>& parameters = tables_[place].parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    text += (i == 0 ? "float " : ", ") + variable(place, i);
+    writer.substitute(parameters[i].parameterInfo().name, variable(place, i));
+  }
+  return text + ";\n";
+}
+
 std::string RowWriter::taking(const std::vector<std::size_t>& places, GlslWriter& writer) const {
   std::string text =
       "uniform sampler2D sdfRows;\nvec4 sdfTexel(int i) { return texelFetch(sdfRows, ivec2(i & " +
       std::to_string(kRowTexels - 1) + ", i >> " + std::to_string(kRowShift) + "), 0); }\n";
-  for (const std::size_t place : places) {
-    const Table& table = tables_[place];
-    for (std::size_t i = 0; i < table.parameters.size(); ++i) {
-      text += (i == 0 ? "float " : ", ") + variable(place, i);
-      writer.substitute(table.parameters[i].parameterInfo().name, variable(place, i));
-    }
-    text += ";\n" + takingFirst(place, table.parameters.size(), std::to_string(place));
-  }
+  for (const std::size_t place : places)
+    text += variables(place, writer) +
+            takingFirst(place, tables_[place].parameters.size(), std::to_string(place));
   return text;
+}
+
+std::string RowWriter::takingOne(std::size_t place, GlslWriter& writer) const {
+  std::string text = "uniform vec4 sdfRow[" + std::to_string(tables_[place].stride) + "];\n" +
+                     variables(place, writer) + "void sdfTake() {\n";
+  for (std::size_t i = 0; i < tables_[place].parameters.size(); ++i)
+    text += "  " + variable(place, i) + " = sdfRow[" + std::to_string(i / kNumbers) + "]." +
+            kComponents[i % kNumbers] + ";\n";
+  return text + "}\n";
 }
 
 }  // namespace sdf::viewer

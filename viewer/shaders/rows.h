@@ -19,6 +19,12 @@ class RowWriter {
   /// Writes the variables of the rows at these places, and for each `void sdfTake<place>(int row)`, which
   /// sets its variables. A writer then reads them in the parameters' places.
   std::string taking(const std::vector<std::size_t>& places, GlslWriter& writer) const;
+  /// Writes the variables of one row at this place, and `void sdfTake()`, which sets them from the uniform
+  /// sdfRow: faster than the texture where all pixels take the same.
+  std::string takingOne(std::size_t place, GlslWriter& writer) const;
+  /// Returns where the rows of a place begin, and how long each is, in texels.
+  std::size_t firstOf(std::size_t place) const { return tables_[place].first; }
+  std::size_t strideOf(std::size_t place) const { return tables_[place].stride; }
   /// Writes `void sdfTake<name>(int row)`, which sets the first `count` of one place's variables.
   std::string takingFirst(std::size_t place, std::size_t count, const std::string& name) const;
 
@@ -27,6 +33,7 @@ class RowWriter {
   Function numbers() const { return Function(numbers_); }
 
  private:
+  std::string variables(std::size_t place, GlslWriter& writer) const;
   struct Table {
     std::size_t first, stride;  // in texels
     std::vector<Expr> parameters;
