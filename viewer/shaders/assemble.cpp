@@ -81,6 +81,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan) {
                               ? ""
                               : "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
                                 "min(shadowReach, far) : shadowReach);";
+  macros["SHADOW_SPENT"] = plan.shadow == ShadowKind::None ? "false" : "shadowSpent";
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);
   for (int i = 0; i + 1 < kAttributeCount; ++i) macros[kAttributeNames[i]] = std::to_string(i);
   return macros;
@@ -158,6 +159,7 @@ Shader background(const Scene& scene, const Plan& plan) {
   const Functions functions{{"sdfBackground", [&] { return partsOf(scene.background); }}};
   Macros macros = pictureMacros(scene, plan);
   macros["START_RAY"] = "";
+  macros["SHADOW_SPENT"] = "false";
   Composer composer(plan.options.es, macros, functions, {});
   std::string text = composer.compose(std::string(parts::kCamera) +
                                       (plan.options.countReadings ? parts::kPictureCounts : "") +

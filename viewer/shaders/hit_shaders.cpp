@@ -20,6 +20,7 @@ constexpr std::size_t kMostUniforms = 960;
 Obstacles obstaclesOf(const OperandGroup& group, const Plan& plan) {
   Marched part = *plan.rest;
   part.distance = hoisted(group.distance);
+  part.step = hoisted(group.step);
   Obstacles result{part, part, {}, {}};
   if (!plan.operands.empty()) result.operand = group.nearest;
   return result;
@@ -28,8 +29,9 @@ Obstacles obstaclesOf(const OperandGroup& group, const Plan& plan) {
 Obstacles planesOf(const Plan& plan) {
   std::vector<NumberedOperand> operands;
   for (const HalfSpace& plane : plan.planes) operands.push_back(plane.operand);
-  Marched nearest{.distance = operands.front().distance};
-  for (const NumberedOperand& operand : operands) nearest.distance = min(nearest.distance, operand.distance);
+  Expr least = operands.front().distance;
+  for (const NumberedOperand& operand : operands) least = min(least, operand.distance);
+  const Marched nearest{least, least};
   Obstacles result{nearest, {}, plan.planes, {}};
   if (!plan.operands.empty()) result.operand = numberOfNearest(operands);
   return result;
@@ -46,6 +48,17 @@ std::string farEnd(const Box& bounds) {
          number(0.5 * glm::length(bounds.size())) + " + spread * ahead;\n" +
          "  return widening < 0.5 ? clamp(reach / (1.0 - widening), 0.0, maxDistance) : maxDistance;\n}\n";
 }
+
+bool isApart(const Marched& m) { return m.step != m.distance; }
+
+// A term for both at p, the step and the distance: of one function where they differ, so that what they have
+// in common is computed once.
+std::string bothOf(const Marched& m, const std::string& distance, const std::string& both) {
+  return isApart(m) ? both + "(p, vec3(0.0)).xy" : "vec2(" + distance + "(p, vec3(0.0)))";
+}
+
+// Three outputs make a vec3.
+std::vector<Expr> partsOf(const Marched& m) { return {m.step, m.distance, Expr(0.0)}; }
 
 /// Which shaders of a pass there are, and the share of one of the whole that one of its readings counts as.
 struct Parts {
@@ -92,13 +105,14 @@ std::string meeting(const Obstacles& obstacles) {
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
   const bool whole = obstacles.planes.empty();
   const auto& rest = obstacles.rest;
-  return {
-      {"REST",
-       !rest ? "1e30" : (whole ? "sdfDistance" : "sdfRest") + ("(p, vec3(0.0)) * " + number(rest->inverse))},
-      {"INVERSE_SLOPE", number(obstacles.whole.inverse)},
-      {"PLANES", std::to_string(2 * obstacles.planes.size())},
-      {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
-      {"OPERAND", obstacles.operand ? "sdfOperand(p, vec3(0.0))" : "0.0"}};
+  return {{"REST", !rest   ? "vec2(1e30)"
+                   : whole ? bothOf(*rest, "sdfDistance", "sdfBoth")
+                           : bothOf(*rest, "sdfRest", "sdfBothOfRest")},
+          {"FIELD", bothOf(obstacles.whole, "sdfDistance", "sdfBoth")},
+          {"OVER_SURFACE", isApart(obstacles.whole) ? "min(f, h)" : "f"},
+          {"PLANES", std::to_string(2 * obstacles.planes.size())},
+          {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
+          {"OPERAND", obstacles.operand ? "sdfOperand(p, vec3(0.0))" : "0.0"}};
 }
 
 Functions meetingFunctions(const Obstacles& obstacles) {
@@ -110,6 +124,8 @@ Functions meetingFunctions(const Obstacles& obstacles) {
   };
   return {{"sdfDistance", [=] { return std::vector{obstacles.whole.distance}; }},
           {"sdfRest", [=] { return std::vector{obstacles.rest->distance}; }},
+          {"sdfBoth", [=] { return partsOf(obstacles.whole); }},
+          {"sdfBothOfRest", [=] { return partsOf(*obstacles.rest); }},
           {"sdfPlanes", planes},
           {"sdfGradient", [=] { return partsOf(gradientOf(obstacles.whole.distance)); }},
           {"sdfOperand", [=] { return std::vector{*obstacles.operand}; }}};

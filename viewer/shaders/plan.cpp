@@ -64,8 +64,8 @@ Error withoutSlope(const Scene& scene) {
 }
 
 Result<Marched> marched(const Shape& shape, const Scene& scene) {
-  const auto [distance, slope] = marchable(shape);
-  if (slope < kInfinity) return Marched{hoisted(distance), 1.0 / slope, shape.bounds};
+  const auto [distance, step, slope] = marchable(shape);
+  if (slope < kInfinity) return Marched{hoisted(distance), hoisted(step), shape.bounds};
   return withoutSlope(scene);
 }
 

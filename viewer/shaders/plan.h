@@ -35,10 +35,10 @@ struct ShaderOptions {
   bool grouped = true;         ///< may draw a wide union's picture in groups; else one shader draws all of it
 };
 
-/// A Marched distance is one that rays can be marched through.
+/// A Marched distance is one that rays can be marched through; see Marchable.
 struct Marched {
-  Expr distance;
-  double inverse = 1.0;  ///< of the slope
+  Expr distance;  ///< how far it is
+  Expr step;      ///< how far one may go
   Box bounds = Box::everything();
 };
 

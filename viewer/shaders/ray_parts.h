@@ -54,14 +54,15 @@ struct Hit {
 };
 )";
 
-/// Defines field(p), the radius of the ball around p that is free of the whole's surface.
+/// Defines field(p) of the whole: x, how far one may go, the radius of a ball around p that is free of the
+/// surface; y, how far it is.
 inline constexpr const char* kField = R"(
-float field(vec3 p) { return sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE; }
+vec2 field(vec3 p) { return FIELD; }
 )";
 
 /// Defines rest(p), the same for the scene without its half spaces.
 inline constexpr const char* kRest = R"(
-float rest(vec3 p) { return REST; }
+vec2 rest(vec3 p) { return REST; }
 )";
 
 /// Either defines planesFrom(ray), the t at which a ray enters the first of the half spaces.
@@ -96,7 +97,8 @@ float march(Ray ray, out int status, out int readings) {
     return tMax;
   }
   while (readings < maxSteps) {
-    float next = rest(ray.origin + (t + z) * ray.direction);
+    vec2 both = rest(ray.origin + (t + z) * ray.direction);
+    float next = both.x;
     ++readings;
     if (z > r && z > r + next) {  // the balls do not overlap: something may lie between
       z = r;
@@ -106,7 +108,7 @@ float march(Ray ray, out int status, out int readings) {
     if (z > 0.0) slope += 0.3 * ((next - r) / z - slope);
     t += z;
     float near = hitDistance(ray, t);
-    if (next <= near) {
+    if (max(next, both.y) <= near) {
       if (z > 0.0 && next < r) t += clamp(next * z / (r - next), -z, 4.0 * near);  // where the secant meets 0
       status = HIT;
       return t;
@@ -208,7 +210,7 @@ void main() {
       break;
     }
     float at = back ? end : t, wide = spread * ahead + widening * at;
-    float free = rest(ray.origin + at * ray.direction) - wide;
+    float free = rest(ray.origin + at * ray.direction).x - wide;
     ++readings;
     if (free <= (1.0 + widening) * (0.25 * wide + epsilon)) {
       if (back || !first) break;

@@ -12,6 +12,7 @@
 
 #include "sdf/expr/hoist.h"
 #include "sdf/expr/payload.h"
+#include "sdf/model/model.h"
 
 namespace sdf {
 namespace {
@@ -92,16 +93,20 @@ glm::dvec3 placeOf(const Box& bounds) {
 
 struct Members {
   std::vector<Expr> distances, numbers;
+  std::vector<Steep> steeps;
 
-  void add(const Expr& distance, const Expr& number) {
-    distances.push_back(distance);
+  void add(const Steep& steep, const Expr& number) {
+    distances.push_back(steep.distance);
     numbers.push_back(number);
+    steeps.push_back(steep);
   }
 
   OperandGroup joined() const {
     Expr least = distances.front();
     for (std::size_t i = 1; i < distances.size(); ++i) least = min(least, distances[i]);
-    return {least, numberOfLeast(distances, numbers)};
+    const bool isSteep = std::ranges::any_of(steeps, [](const Steep& s) { return s.slope != 1.0; });
+    const Marchable steep = isSteep ? leastOf(steeps) : Marchable{least, least, 1.0};
+    return {steep.distance, steep.step, numberOfLeast(distances, numbers)};
   }
 };
 
@@ -134,6 +139,8 @@ bool split(std::span<const NumberedOperand> alike, std::vector<OperandGroup>& re
   std::vector<Placed> placed;
   for (const NumberedOperand& e : alike) placed.push_back({e, placeOf(e.bounds)});
   const std::size_t size = sizeOf(placed.size(), numbers);
+  // One for all, so that they stay alike.
+  const double slope = std::ranges::max(alike, {}, &NumberedOperand::slope).slope;
   arrange(placed, size);
   while (placed.size() % size != 0) placed.push_back(placed.back());
   for (std::size_t i = 0; i < placed.size(); i += size) {
@@ -142,7 +149,7 @@ bool split(std::span<const NumberedOperand> alike, std::vector<OperandGroup>& re
     std::ranges::sort(group, {}, [](const Placed& p) { return p.operand.number; });
     Members members;
     for (const Placed& p : group)
-      members.add(likeness.withParameters(p.operand.distance), likeness.parameter(p.operand.number));
+      members.add({likeness.withParameters(p.operand.distance), slope}, likeness.parameter(p.operand.number));
     result.push_back(members.joined());
   }
   return true;
@@ -161,7 +168,7 @@ Expr chosen(std::span<const Shape> operands, int attribute, double first, const 
 bool isHardUnion(const Shape& shape) { return shape.outer && shape.outer->blend.kind == Blend::Kind::Hard; }
 
 NumberedOperand numbered(const Shape& shape, double number) {
-  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, number};
+  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, number, slopeOf(shape)};
 }
 
 }  // namespace
@@ -204,7 +211,7 @@ std::vector<OperandGroup> groupsOf(std::span<const NumberedOperand> operands) {
   }
   std::ranges::sort(others, {}, &NumberedOperand::number);
   Members rest;
-  for (const NumberedOperand& e : others) rest.add(e.distance, e.number);
+  for (const NumberedOperand& e : others) rest.add({e.distance, e.slope, e.bounds}, e.number);
   if (!others.empty()) result.push_back(rest.joined());
   return result;
 }

@@ -13,6 +13,7 @@ struct NumberedOperand {
   Expr distance;
   Box bounds;
   double number;
+  double slope = 1.0;  ///< of the distance; infinite where it is not known
 };
 
 /// The operands of a hard union, numbered from `first` on; any other shape is its own only one.
@@ -28,6 +29,7 @@ Attributes surfaceOf(const Shape& shape, const Expr& number);
 /// Some of a union's operands.
 struct OperandGroup {
   Expr distance;  ///< the least of them
+  Expr step;      ///< how far one may go; see Marchable
   Expr nearest;   ///< the number of that one
 };
 
@@ -37,7 +39,8 @@ bool isGroupConstant(const std::string& name);
 /// Groups whose least distance is that of the operands: each of neighbours, by their bounds, that are made
 /// alike, but for one that takes all others. In those of like operands, numbers in which the operands differ
 /// are parameters that have these numbers as their defaults, so that groups of one kind are one formula, for
-/// there are as many in each. One group if there are not many alike. Cost: linear in the size of the graphs.
+/// there are as many in each; like operands count as steep as the steepest. Operands' slopes must be known.
+/// One group if there are not many alike. Cost: linear in the size of the graphs.
 std::vector<OperandGroup> groupsOf(std::span<const NumberedOperand> operands);
 
 }  // namespace sdf

@@ -42,7 +42,7 @@ struct Shadow {
   Expr sharpness = 8.0;           ///< k of k d / t; larger is harder
   std::optional<double> start{};  ///< where the shadow ray leaves the surface; none: see viewLengths
   std::optional<double> reach{};  ///< how far it goes; none: see viewLengths
-  int steps = 50;                 ///< at most
+  int steps = 500;  ///< readings that a ray may take; one that runs out of them is taken for dark
 };
 
 struct AmbientOcclusion {
