@@ -23,13 +23,23 @@ glm::vec3 axisOf(const Eye& eye) {
   return axis;
 }
 
+// What alpha says is told apart however it was rounded.
+template <class Holds>
+std::size_t countAlphas(const Picture& picture, Holds holds) {
+  constexpr std::size_t kAlpha = 3, kRgba = 4;
+  std::size_t count = 0;
+  for (std::size_t i = kAlpha; i < picture.bytes.size(); i += kRgba) count += holds(picture.bytes[i]);
+  return count;
+}
+
 }  // namespace
 
 std::size_t pixelsOutOfSteps(const Picture& picture) {
-  constexpr std::size_t kAlpha = 3, kRgba = 4;
-  std::size_t count = 0;
-  for (std::size_t i = kAlpha; i < picture.bytes.size(); i += kRgba) count += picture.bytes[i] == 0;
-  return count;
+  return countAlphas(picture, [](unsigned char alpha) { return alpha < 64; });
+}
+
+std::size_t pixelsOutOfShadowSteps(const Picture& picture) {
+  return countAlphas(picture, [](unsigned char alpha) { return alpha >= 64 && alpha < 192; });
 }
 
 Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options) {
