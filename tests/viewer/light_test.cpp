@@ -105,5 +105,36 @@ TEST(Light, IsDarkWhereAShadowRunsOutOfSteps) {
   }
 }
 
+// A grey that lies between two bytes is the mix of both that comes nearest to it in every 8 by 8 pixels; one
+// that is a byte's own is that byte throughout.
+TEST(Dither, KeepsTheMeanOfWhatBytesCannotHold) {
+  constexpr double kStep = 1.0 / 255.0;
+  Scene scene = darkScene();
+  scene.add("", ball({0.0, 0.0, -1000.0}, 1e-3, {}));
+  for (const double grey : {100.0, 100.3, 100.5, 100.9}) {
+    scene.background = Vec3E(grey * kStep);
+    for (const int samples : {1, 2}) {
+      GpuRenderOptions options;
+      options.samples = samples;
+      options.format = viewer::PixelFormat::Rgba8;
+      const auto bytes = renderOnGpu(scene, options);
+      for (int row = 0; row + 8 <= options.height; row += 8)
+        for (int column = 0; column + 8 <= options.width; column += 8) {
+          double sum = 0.0;
+          for (int i = 0; i < 64; ++i) {
+            const double shown = bytes[(row + i / 8) * options.width + column + i % 8].g / kStep;
+            ASSERT_LT(std::abs(shown - grey), grey == 100.0 ? 1e-3 : 1.0);
+            sum += shown / 64.0;
+          }
+          ASSERT_NEAR(sum, grey, 1.0 / 64.0) << samples;
+        }
+      EXPECT_EQ(bytes, renderOnGpu(scene, options));
+      options.format = viewer::PixelFormat::Rgba32f;
+      for (const glm::vec4& pixel : renderOnGpu(scene, options))
+        ASSERT_NEAR(pixel.g, grey * kStep, 1e-6) << "not dithered";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sdf::test

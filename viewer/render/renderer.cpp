@@ -86,6 +86,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
     program.set("lightColor", colors);
   }
   if (view == View::Picture) {
+    program.set("grain", grain_);
     program.set("ambient", look.ambient);
     program.set("fogColor", look.fogColor);
     program.set("fogDensity", look.fogDensity);
@@ -120,6 +121,7 @@ void Renderer::drawPicture(const Frame& frame, const Shot& shot) const {
 void Renderer::drawBackground(const Shot& shot) const {
   if (!background_) return;
   shot.set(*background_, backgroundValues_->vectors());
+  background_->set("grain", grain_);  // tiles are of pictures only
   background_->draw();
 }
 
@@ -145,6 +147,7 @@ Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& targe
   sums_->bindTexture(0);
   resolve_->set("sums", 0);
   resolve_->set("weight", shot.weight());
+  if (shaders_.plan.options.view == View::Picture) resolve_->set("grain", grain_);
   resolve_->draw();
   return okStatus();
 }
@@ -159,6 +162,7 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
   prepare(frame);
   Shot shot(frame, target.width(), target.height(), extent_);
   samples_ = shot.samples();
+  grain_ = target.step();
   if (hits_)
     if (auto s = hits_->begin(shot); !s) return s;
   if (samples_ > 1) {

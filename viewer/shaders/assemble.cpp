@@ -31,14 +31,20 @@ GlslWriter labelled(const Scene& scene) {
   return writer;
 }
 
+// What is shown of a linear colour c, by debug views as it is.
 std::string encoding(const Scene& scene, const Plan& plan) {
   if (plan.options.view != View::Picture && plan.options.view != View::Material) return "(c)";
-  if (!scene.gamma) return "encode(c)";
-  return *scene.gamma == 1.0 ? "(c)" : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
+  const std::string curve = !scene.gamma ? "encode(c)"
+                            : *scene.gamma == 1.0
+                                ? "(c)"
+                                : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
+  return plan.options.view == View::Picture ? "dithered(" + curve + ")" : curve;
 }
 
 std::string encoder(const Scene& scene, const Plan& plan) {
-  return encoding(scene, plan) == "encode(c)" ? parts::kSrgb : "";
+  const bool isPicture = plan.options.view == View::Picture;
+  const bool isSrgb = !scene.gamma && (isPicture || plan.options.view == View::Material);
+  return std::string(isSrgb ? parts::kSrgb : "") + (isPicture ? parts::kDither : "");
 }
 
 // The primary rays are marched by the picture's shader, from where the cones say.

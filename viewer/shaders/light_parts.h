@@ -240,6 +240,19 @@ vec3 encode(vec3 c) {
 }
 )";
 
+/// Defines dithered(c): a colour moved by less than half a step of what the target holds, so that slow changes do
+/// not show as bands. How far follows from the pixel, by Bayer's pattern of 8 by 8, which files still pack well; a
+/// colour that is one of the target's stays.
+inline constexpr const char* kDither = R"(
+uniform float grain;  // the step; 0: floats, which need none
+
+vec3 dithered(vec3 c) {
+  uint y = uint(gl_FragCoord.y), x = uint(gl_FragCoord.x) ^ y;
+  uint place = (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
+  return c + grain * ((float(place) + 0.5) / 64.0 - 0.5);
+}
+)";
+
 /// Defines main() of the picture: one sample of each pixel, encoded if it is the only one.
 inline constexpr const char* kPicture = R"(
 layout(location = 0) out vec4 color;  // alpha is 0 where a ray ran out of steps, 1/2 where only a shadow's did
