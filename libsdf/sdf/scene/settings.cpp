@@ -220,7 +220,7 @@ const std::vector<Setting<Light>>& lightSettings() {
   };
   static const std::vector<Setting<Light>> settings{
       {"directional_light", "directional_light{direction = {1, 1, 1}}",
-       "adds a light from far away; a scene that has no light and does not call `ambient` gets a warm one from above, a weak one from the right, and a grey background if it names none",
+       "adds a light from far away; a scene that has no light and does not call `ambient` gets a warm one from above that casts a soft shadow, unless `shadows` says which, a weak one from the right, and a grey background if it names none",
        fields("direction", "towards the light", Rule::NotZero), false,
        [](Light& light) { light.kind = Light::Kind::Directional; }},
       {"point_light", "point_light{position = {1, 1, 1}}", "adds a light at a point",
