@@ -304,6 +304,32 @@ TEST(GroupedPicture, FollowsParameters) {
   EXPECT_LE(psnr(colors(picture), colors(drawn(lit(moving), {}).whole)), 25.0) << "it has moved";
 }
 
+// Of one kind, but of four slopes, beside balls of slope 1.
+TEST(GroupedPicture, OfSteepOperandsIsTheWholes) {
+  std::vector<Shape> all;
+  Places places(8);
+  for (int i = 0; i < 60; ++i) {
+    Shape steep = translate(sphere(0.15), Vec3E(places.next()));
+    const double slope = 1.5 + 0.5 * (i % 4);
+    steep.distance = slope * steep.distance;
+    steep.claim = {.kind = ClaimKind::Field, .lipschitz = slope};
+    all.push_back(steep);
+  }
+  const Shape whole = unite(all) | balls(50);
+  ASSERT_EQ(slopeOf(whole), 3.0);
+  int divided = 0;
+  for (const OperandGroup& group : groupsOf(whole)) {
+    if (group.step == group.distance) continue;
+    ++divided;
+    const glm::dvec3 p(0.3, 0.2, 0.1);
+    EXPECT_NEAR(3.0 * evaluate(Tape(group.step), p), evaluate(Tape(group.distance), p), 1e-12)
+        << "by the steepest";
+  }
+  EXPECT_GT(divided, 0);
+  EXPECT_LT(divided, static_cast<int>(groupsOf(whole).size())) << "balls need not be";
+  expectSamePicture(lit(whole));
+}
+
 TEST(GroupedPicture, IsSeenFromWithin) {
   Scene scene = lit(balls(200));
   scene.camera.from = Vec3E(Expr(0.01), Expr(0.02), Expr(0.3));
