@@ -240,9 +240,9 @@ vec3 encode(vec3 c) {
 }
 )";
 
-/// Defines dithered(c): a colour moved by less than half a step of what the target holds, so that slow changes do
-/// not show as bands. How far follows from the pixel, by Bayer's pattern of 8 by 8, which files still pack well; a
-/// colour that is one of the target's stays.
+/// Defines dithered(c): a colour moved by less than half a step of what the target holds, so that slow
+/// changes do not show as bands. How far follows from the pixel, by Bayer's pattern of 8 by 8, which files
+/// still pack well; a colour that is one of the target's stays.
 inline constexpr const char* kDither = R"(
 uniform float grain;  // the step; 0: floats, which need none
 
