@@ -124,6 +124,19 @@ TEST(Shadows, StayBetweenNoneAndAll) {
     }
 }
 
+// The balls of a distance that grows faster than the ray goes do not meet: nothing is between the readings.
+TEST(Shadows, ImprovedLightsWhatLeavesASurfaceSteeperThanADistance) {
+  const Vec3E p = position();
+  const Expr steep = (length(p) - 1.0) * 1.2;  // of which rays may go a third
+  const MarchField field = marchField(steep, 3.6);
+  Vectors points;
+  for (double angle = 0.0; angle < 1.5; angle += 0.1) points.add({std::cos(angle), std::sin(angle), 0.0});
+  Rays rays;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    rays.add(points[i], {std::sqrt(0.5), std::sqrt(0.5), 0.0}, 0.05, 5.0);
+  for (const double light : shade(field, rays, {ShadowMethod::Improved, 4.0}).light) EXPECT_GT(light, 0.9);
+}
+
 // The least k g / t along rays past a box's edges. Soft reads g only now and then, and is too light between
 // the readings. Improved supposes the worst between two balls: most where they are of one size, which makes d
 // the height of a triangle with three equal sides.

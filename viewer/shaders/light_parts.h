@@ -108,8 +108,9 @@ float shadow(vec3 p, vec3 l, float reach) {
     COUNT_SHADOW
     if (max(both.x, f) <= shadowHit) return 0.0;
     float y = step > 0.0 ? (step * step + f * f - before * before) / (2.0 * step) : 0.0;
-    float d = step > 0.0 ? sqrt(max(0.0, f * f - y * y)) : f;
-    if (t - y > 0.0) light = min(light, sharpness * d / (t - y));
+    if (y >= step) y = 0.0;
+    y = max(y, 0.0);
+    light = min(light, sharpness * sqrt(max(0.0, f * f - y * y)) / (t - y));
     step = both.x;
     before = f;
     t += step;

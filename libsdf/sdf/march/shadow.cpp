@@ -62,9 +62,8 @@ class ShadowWalker {
     if (options_.method == ShadowMethod::Hard) return 1.0;
     if (options_.method != ShadowMethod::Improved || s.step == 0.0) return options_.sharpness * f / s.at;
     const double y = (s.step * s.step + f * f - s.before * s.before) / (2.0 * s.step);
-    const double d = std::sqrt(std::max(0.0, f * f - y * y));
-    const double along = s.at - y;
-    return along > 0.0 ? options_.sharpness * d / along : 1.0;
+    if (!(y > 0.0 && y < s.step)) return options_.sharpness * f / s.at;
+    return options_.sharpness * std::sqrt(std::max(0.0, f * f - y * y)) / (s.at - y);
   }
 
   double lightOf(const State& s) const {

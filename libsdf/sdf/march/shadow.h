@@ -17,7 +17,8 @@ namespace sdf {
 ///
 ///   Improved: the same with the closest approach estimated between two samples (Aaltonen 2018). The balls of
 ///   radius f' and f around samples s apart meet y = (s^2 + f^2 - f'^2) / (2 s) before the second, at d =
-///   sqrt(max(0, f^2 - y^2)) from the ray; least k d / max(t - y, 0). Aaltonen writes f' for s. No bands, but
+///   sqrt(max(0, f^2 - y^2)) from the ray; least k d / (t - y) where that is between the two, else k f / t,
+///   for a ray that leaves a surface steeper than 1 would meet none. Aaltonen writes f' for s. No bands, but
 ///   up to 13 % too dark.
 ///
 ///   Signed: least x = k f / t, down to -1, the march going on through the solid; then (1 + x)^2 (2 - x) / 4
