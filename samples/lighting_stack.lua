@@ -29,7 +29,7 @@ directional_light { direction = {0.8, 1.2, -0.5} }
 ambient(0.1)
 background({0.04, 0.04, 0.08})
 fog { color = {0.04, 0.04, 0.08}, density = 0.025 }
-shadows { kind = "soft", sharpness = 8, start = 0.02, reach = 20, steps = 50 }
+shadows { kind = "soft", sharpness = 8, start = 0.02, reach = 20 }
 ambient_occlusion { kind = "taps", spacing = 0.08, count = 5, strength = 0.2 }
 reflections { bounces = 1 }
 max_distance(80)

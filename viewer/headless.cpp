@@ -97,7 +97,8 @@ class Headless {
                                     {"occlusion", readings->occlusion},
                                     {"reflection", readings->reflection}}},
                                   {"rays", pixels * options_.samples * options_.samples},
-                                  {"pixels_out_of_steps", pixelsOutOfSteps(*drawn)}}
+                                  {"pixels_out_of_steps", pixelsOutOfSteps(*drawn)},
+                                  {"pixels_out_of_shadow_steps", pixelsOutOfShadowSteps(*drawn)}}
                .dump(2)
         << '\n';
     return okStatus();
@@ -148,12 +149,17 @@ class Headless {
   Status write(const Target& target, const std::filesystem::path& file) const {
     auto drawn = target.picture();
     if (!drawn) return drawn.error();
-    const std::size_t spent = pixelsOutOfSteps(*drawn);
+    const std::size_t spent = pixelsOutOfSteps(*drawn), dark = pixelsOutOfShadowSteps(*drawn);
     for (std::size_t i = 3; i < drawn->bytes.size(); i += 4) drawn->bytes[i] = 255;
     if (spent > 0)
       std::cerr << "sdfview: warning: " << spent
                 << " pixels ran out of steps; give more with --steps, or see them with "
                 << "--view steps\n";
+    if (dark > 0)
+      std::cerr << "sdfview: warning: in " << dark
+                << " pixels the ray of a shadow ran out of steps and is taken for dark; the scene has "
+                   "shadows{steps = "
+                << scene_.shadow.steps << "}: give it more\n";
     return writePng(file, *drawn);
   }
 

@@ -120,6 +120,29 @@ TEST(OcclusionByTaps, CountsTheMissingShareOfEachHeightWhereWeightsAreRelative) 
   }
 }
 
+TEST(OcclusionByTaps, DoesNotDependOnHowTightTheSlopeIsKnown) {
+  const Corner corner;
+  const Expr distance = min(position().x, position().y);
+  const auto seen = [&](double lipschitz) {
+    return occlusionByTaps(marchField(distance, lipschitz), corner.points, corner.normals, {}).value();
+  };
+  const std::vector<double> tight = seen(1.0), loose = seen(10.0);
+  EXPECT_LT(tight[0], 0.9);
+  for (std::size_t i = 0; i < tight.size(); ++i) EXPECT_NEAR(tight[i], loose[i], 0x1p-24) << "rounding";
+}
+
+// Three times the distance to the floor and to a wall: the floor's taps, which say more than their heights,
+// make up for nothing that the wall hides.
+TEST(OcclusionByTaps, CountsNoTapAsFartherThanItsHeight) {
+  const Vec3E p = position();
+  Vectors points, normals;
+  points.add({0.05, 0.0, 0.0});
+  normals.add({0, 1, 0});
+  const TapOptions options{2, 0.1, 0.5, TapWeights::Relative};  // 0.15 to the wall at 0.1 and at 0.2
+  const MarchField steep = marchField(3.0 * min(p.x, p.y), 3.0);
+  EXPECT_NEAR(occlusionByTaps(steep, points, normals, options).value()[0], 1.0 - 0.5 * 0.25, 1e-6);
+}
+
 TEST(OcclusionBySteps, DarkensWithEachStepDownToBlack) {
   const int steps[] = {0, 10, 100};
   EXPECT_EQ(occlusionBySteps(steps, 0.0625).value(), (std::vector<double>{1.0, 0.375, 0.0}));

@@ -61,8 +61,7 @@ TEST(Marcher, RefusesAFieldOfUnknownSlopeUnlessItNeedsNone) {
 }
 
 TEST(Marcher, RefusesASlopeThatIsNotPositive) {
-  const Result<Marcher> marcher =
-      Marcher::make(MarchField{std::make_shared<const Tape>(position().x), 0.0}, MarchOptions{});
+  const Result<Marcher> marcher = Marcher::make(marchField(position().x, 0.0), MarchOptions{});
   ASSERT_FALSE(marcher);
   EXPECT_EQ(marcher.error().message, "march: the Lipschitz constant must be positive");
 }

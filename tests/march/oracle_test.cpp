@@ -31,7 +31,7 @@ TEST(DenseMarch, BracketsTheFirstRootWithinAStep) {
 }
 
 TEST(DenseMarch, StepsShorterThroughASteeperField) {
-  const MarchField steep{std::make_shared<const Tape>(4.0 * (length(position()) - 1.0)), 4.0};
+  const MarchField steep = marchField(4.0 * (length(position()) - 1.0), 4.0);
   Rays rays;
   rays.add({0, 0, -3}, {0, 0, 1}, 0.0, 5.0);
   const auto found = marchDensely(steep, rays, 0, kStep);

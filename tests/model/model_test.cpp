@@ -39,7 +39,7 @@ std::vector<Shape> strewn(std::mt19937& random, int count) {
 }
 
 struct Seen {
-  std::size_t near = 0;    // points at which the model's distance was small
+  std::size_t near = 0;    // points at which the model's distance was gentle
   std::size_t linked = 0;  // operands, summed over regions
   std::size_t regions = 0;
 };
@@ -172,6 +172,71 @@ TEST(Model, AFieldsSlopeHoldsInItsTapesOnlyWhereItIsClaimed) {
   EXPECT_GE(Tape(unite(wrong, right).distance).lipschitz(), 3.0f);
 }
 
+TEST(Marchable, DistanceAndStepAreOneNodeWhereTheSlopeIsOne) {
+  const Shape many = unite({sphere(1.0), box(Vec3E(0.5)), translate(torus(1.0, 0.2), Vec3E(2.0, 0.0, 0.0))});
+  for (const Shape& shape : {sphere(1.0), many}) {
+    const Marchable m = marchable(shape);
+    EXPECT_EQ(m.distance, shape.distance);
+    EXPECT_EQ(m.step, shape.distance);
+    EXPECT_EQ(m.slope, 1.0);
+  }
+}
+
+TEST(Marchable, TheDistanceDoesNotDependOnTheSlope) {
+  const Expr formula = 3.0 * position().y - 3.0;
+  const Box bounds{{-1.0, -2.0, -1.0}, {1.0, 1.0, 1.0}};
+  for (const double slope : {3.0, 4.0, 30.0}) {
+    const Marchable m = marchable(field(formula, bounds, slope));
+    EXPECT_EQ(m.slope, 3.0) << "the formula's own is known";
+    const Tape distance(m.distance), step(m.step);
+    EXPECT_EQ(evaluate(distance, {0.0, 1.25, 0.0}), 0.75);
+    EXPECT_NEAR(evaluate(step, {0.0, 1.25, 0.0}), 0.25, 1e-15);
+    EXPECT_EQ(evaluate(step, {5.0, 1.25, 0.0}), 4.0) << "the way to its bounds is longer";
+  }
+}
+
+TEST(Marchable, OneSteepOperandSlowsNoOtherDown) {
+  const Vec3E p = position();
+  const Shape steep = field(4.0 * (p.y + 5.0)), ball = sphere(1.0), gentle = field(0.5 * (9.0 - p.x));
+  const Marchable m = marchable(unite({steep, ball, gentle}));
+  EXPECT_EQ(m.slope, slopeOf(steep));
+  const Tape distance(m.distance), step(m.step);
+  EXPECT_EQ(evaluate(distance, {0.0, 1.5, 0.0}), 0.5);
+  EXPECT_EQ(evaluate(step, {0.0, 1.5, 0.0}), 0.5) << "the ball's, undivided";
+  EXPECT_EQ(evaluate(distance, {8.0, 1.5, 0.0}), 0.5);
+  EXPECT_NEAR(evaluate(step, {8.0, 1.5, 0.0}), 1.0, 1e-12) << "the gentle field's, made larger";
+  EXPECT_EQ(evaluate(distance, {5.0, -4.75, 0.0}), 1.0);
+  EXPECT_NEAR(evaluate(step, {5.0, -4.75, 0.0}), 0.25, 1e-12) << "the steep field's";
+}
+
+// A step is free of the surface, and has the sign of the distance: at random places about unions of all
+// kinds.
+TEST(Marchable, StepsAreFreeAndHaveTheDistancesSign) {
+  const Vec3E p = position();
+  const Expr waves = p.y + 0.3 * sin(4.0 * p.x) * cos(3.0 * p.z);
+  const Shape bumps = field(waves, Box{{-1.0, -0.5, -1.0}, {1.0, 0.5, 1.0}}) & box(Vec3E(1.0, 0.5, 1.0));
+  const Shape wild = field(max(p.x * p.x * p.x - p.y, max(max(abs(p.x), abs(p.y)), abs(p.z)) - 1.0),
+                           Box::centred(glm::dvec3(1.0)));
+  const Shape scene =
+      unite({bumps, translate(wild, Vec3E(3.0, 0.0, 0.0)), translate(sphere(0.5), Vec3E(0.0, 2.0, 0.0)),
+             translate(bumps, Vec3E(0.0, -2.0, 0.0))});
+  const Marchable m = marchable(scene);
+  ASSERT_LT(m.slope, kInfinity);
+  ASSERT_NE(m.step, m.distance);
+  const Tape distance(m.distance), step(m.step);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<> within(-4.0, 4.0);
+  std::normal_distribution<> normal;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 a(within(random), within(random), within(random));
+    const double f = evaluate(distance, a), g = evaluate(step, a);
+    ASSERT_EQ(f > 0.0, g > 0.0) << f << ' ' << g << " at " << a.x << ", " << a.y << ", " << a.z;
+    const glm::dvec3 way = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    const double there = evaluate(distance, a + 0.999 * std::abs(g) * way);
+    ASSERT_EQ(f > 0.0, there > 0.0) << f << ' ' << g << " at " << a.x << ", " << a.y << ", " << a.z;
+  }
+}
+
 TEST(Marchable, AUnionIsAsMarchableAsEachOfItsOperands) {
   const Vec3E p = position();
   const Shape wild = field(p.x * p.x * p.x - p.y, Box::centred(glm::dvec3(1.0)));
@@ -188,9 +253,10 @@ TEST(Marchable, AFieldOfUnknownSlopeIsTheWayToItsBoundsFarAway) {
   const Shape wild = field(p.x * p.x * p.x - p.y, Box::centred(glm::dvec3(1.0)));
   const Marchable m = marchable(wild);
   ASSERT_TRUE(std::isfinite(m.slope));
-  const Tape tape(m.distance);
-  EXPECT_EQ(evaluate(tape, {0.5, 0.25, 0.0}), 0.125 - 0.25);
-  EXPECT_EQ(evaluate(tape, {0.0, 0.0, 11.0}) / m.slope, 10.0);
+  const Tape distance(m.distance), step(m.step);
+  EXPECT_EQ(evaluate(distance, {0.5, 0.25, 0.0}), 0.125 - 0.25);
+  EXPECT_EQ(evaluate(distance, {0.0, 0.0, 11.0}), 10.0);
+  EXPECT_EQ(evaluate(step, {0.0, 0.0, 11.0}), 10.0);
   EXPECT_EQ(marchable(field(p.x * p.x)).slope, kInfinity) << "nothing is known of it";
   EXPECT_GT(marchable(field(Expr(1.0))).slope, 0.0);
 }

@@ -66,6 +66,15 @@ TEST(Settings, LightsAreTheStandardOnesWhereNothingIsSaidOfLight) {
   EXPECT_TRUE(withSphere("ambient(0.5)").background == Scene().background);
 }
 
+TEST(Settings, TheStandardLightsCastASoftShadowUnlessTheSceneSaysWhich) {
+  const auto kind = [](const std::string& text) { return withSphere(text).shadow.kind; };
+  EXPECT_EQ(kind(""), Shadow::Kind::Soft);
+  EXPECT_EQ(kind("shadows{kind = 'none'}"), Shadow::Kind::None);
+  EXPECT_EQ(kind("shadows{kind = 'hard'}"), Shadow::Kind::Hard);
+  EXPECT_EQ(kind("point_light()"), Shadow::Kind::None);
+  EXPECT_EQ(kind("ambient(0.5)"), Shadow::Kind::None);
+}
+
 TEST(Settings, StandardLightsTellTheSidesOfABoxApart) {
   double side[3] = {};  // towards x, y and z
   for (const Light& light : standardLights()) {
@@ -114,7 +123,7 @@ TEST(Settings, WithoutSettingsTheScenesDefaultsStand) {
   const Scene scene = withSphere(""), fresh;
   EXPECT_FALSE(scene.camera.from);
   EXPECT_TRUE(scene.ambient == fresh.ambient);
-  EXPECT_EQ(scene.shadow.kind, Shadow::Kind::None);
+  EXPECT_EQ(scene.shadow.kind, standardShadow().kind);
   EXPECT_FALSE(scene.bounds);
   EXPECT_FALSE(scene.gamma);
 }

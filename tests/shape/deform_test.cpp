@@ -87,11 +87,15 @@ TEST(Round, GrowsByTheRadius) {
   expectClaim(round(odd(), 0.1), cube(2.0), 5);
 }
 
-TEST(Round, OfADistanceThatIsTooSlowGrowsBoundsByTheProvenRate) {
-  const Shape thin = scale(sphere(1.0), Vec3E(0.25, 1.0, 1.0));
+TEST(Round, OfAScaledBoxGrowsByTheRadius) {
+  const Shape thin = scale(box(Vec3E(1.0)), Vec3E(0.25, 1.0, 1.0));
   expectClaim(round(thin, 0.2), cube(3.0), 6);
-  EXPECT_GT(Probe(round(thin, 0.2).distance)(0.0, 1.25, 0.0), -1.0);
-  EXPECT_LT(Probe(round(thin, 0.2).distance)(0.0, 1.75, 0.0), 0.0) << "it reaches farther than the radius";
+  const Probe f(round(thin, 0.2).distance), same(round(box(Vec3E(0.25, 1.0, 1.0)), 0.2).distance);
+  Points points(6);
+  for (int i = 0; i < 1000; ++i) {
+    const glm::dvec3 p = points.in(cube(2.0));
+    ASSERT_NEAR(f(p), same(p), kRounding) << text(p);
+  }
 }
 
 TEST(Shell, IsTheSkinOnBothSides) {
@@ -120,10 +124,10 @@ TEST(Elongate, FillsTheGapWithCrossSections) {
   EXPECT_EQ(elongate(sphere(0.5), Vec3E(0.0)).distance, sphere(0.5).distance);
 }
 
-TEST(Displace, StaysABoundBecauseItDividesByItsSteepestSlope) {
+TEST(Displace, AddsTheSlopes) {
   const Shape s = displace(sphere(1.0), 0.1, 8.0);
-  EXPECT_EQ(s.claim.kind, ClaimKind::Bound);
-  EXPECT_EQ(s.distance.lipschitz(), 1.0);
+  EXPECT_EQ(s.claim.kind, ClaimKind::Field);
+  EXPECT_NEAR(s.distance.lipschitz(), 1.8, 1e-9);
   EXPECT_NEAR(s.bounds.max.x, 1.1, 1e-9);
   expectClaim(s, cube(2.0), 13);
   expectClaim(displace(carved(), -0.05, 10.0), cube(2.0), 14);
@@ -137,9 +141,8 @@ TEST(Displace, HasTheTightConstant) {
   nothing.distance = 0.0;
   nothing.claim = {ClaimKind::Field, 0.0};
   const Shape wave = displace(nothing, amplitude, frequency);
-  const double divided = std::max(1.0, amplitude * frequency);
-  EXPECT_GT(steepestMet(wave, cube(0.8), 15) * divided, 0.98 * amplitude * frequency);
-  EXPECT_LE(steepestMet(wave, cube(0.8), 15) * divided, amplitude * frequency * (1.0 + 1e-9));
+  EXPECT_GT(steepestMet(wave, cube(0.8), 15), 0.98 * amplitude * frequency);
+  EXPECT_LE(steepestMet(wave, cube(0.8), 15), amplitude * frequency * (1.0 + 1e-9));
 }
 
 TEST(Displace, ByAnyExpressionCarvesWherePositive) {
@@ -198,8 +201,7 @@ TEST(Revolve, OfWhatStandsOnTheAxisIsExactOnlyOutside) {
 TEST(Twist, TurnsWithHeight) {
   const double rate = 1.3;
   const Shape s = twist(post(), rate);
-  EXPECT_EQ(s.claim.kind, ClaimKind::Bound);
-  EXPECT_EQ(s.distance.lipschitz(), 1.0);
+  EXPECT_LT(s.claim.lipschitz, 1.7);
   for (const double y : {-0.9, 0.0, 0.5}) {
     // The section at height y is the box's, turned by rate * y about y.
     const Probe turned(rotate(post(), Vec3E(0.0, rate * y, 0.0)).distance), f(s.distance);
@@ -242,8 +244,7 @@ TEST(Twist, OfAnUnboundedShapeIsAField) {
 TEST(Bend, LaysABarAroundACircle) {
   const double curvature = 0.8, radius = 1.0 / curvature;
   const Shape s = bend(bar(), curvature);
-  EXPECT_EQ(s.claim.kind, ClaimKind::Bound);
-  EXPECT_EQ(s.distance.lipschitz(), 1.0);
+  EXPECT_LT(s.claim.lipschitz, 2.5);
   const Probe f(s.distance), straight(bar().distance);
   Points points(28);
   for (int i = 0; i < 5000; ++i) {
@@ -301,8 +302,7 @@ TEST(Bend, ByASliderFromZeroHoldsForEveryValue) {
 
 TEST(Taper, ScalesTheCrossSectionWithHeight) {
   const Shape s = taper(post(), -0.4);
-  EXPECT_EQ(s.claim.kind, ClaimKind::Bound);
-  EXPECT_EQ(s.distance.lipschitz(), 1.0);
+  EXPECT_LT(s.claim.lipschitz, 1.7);
   const Probe f(s.distance);
   EXPECT_NEAR(f(0.3, 0.0, 0.0), 0.0, kRounding);
   EXPECT_NEAR(f(0.3 * 0.6, 0.99, 0.0), 0.0, 0.01);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "support/folder.h"
 #include "tools/command.h"
@@ -359,6 +360,31 @@ TEST_F(Sdfview, WarnsOfPixelsThatRanOutOfSteps) {
   for (std::size_t i = 3; i < picture.bytes.size(); i += 4) ASSERT_EQ(picture.bytes[i], 255);
 }
 
+// Under a light that grazes the floor two readings bring no ray to its end.
+constexpr const char* kGrazed = R"(
+  camera{from = {0, 3, 4}, to = {0, 0, 0}}
+  directional_light{direction = {1, 0.05, 0}}
+  part("floor", box({2, 0.5, 2}) | sphere(1):translate({0, 0.6, 0}))
+  shadows{kind = "hard", steps = value(param("n", 500, {min = 1, max = 500}))}
+)";
+
+TEST_F(Sdfview, WarnsOfShadowsThatRanOutOfSteps) {
+  const std::string png = at("a.png");
+  for (const char* samples : {"1", "4", "9"}) {
+    const Outcome outcome =
+        run({scene(kGrazed), "--render", png, "--size", "64x48", "--samples", samples, "-D", "n=2"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(std::regex_match(outcome.err,
+                                 std::regex("sdfview: warning: in \\d+ pixels the ray of a shadow ran out of "
+                                            "steps and is taken for dark; the scene has shadows\\{steps = "
+                                            "2\\}: give it more\n")))
+        << outcome.err;
+    const Picture picture = read(png);
+    for (std::size_t i = 3; i < picture.bytes.size(); i += 4) ASSERT_EQ(picture.bytes[i], 255);
+  }
+  EXPECT_EQ(run({scene(kGrazed), "--render", png, "--size", "64x48"}).err, "");
+}
+
 TEST_F(Sdfview, ReportsWhatFramesCost) {
   const Outcome outcome = run({std::string(SDF_SOURCE_DIR) + "/samples/lighting_stack.lua", "--bench", "2",
                                "--size", "40x30", "--samples", "4"});
@@ -369,12 +395,13 @@ TEST_F(Sdfview, ReportsWhatFramesCost) {
   EXPECT_EQ(report["samples"], 4);
   EXPECT_EQ(report["rays"], 40.0 * 30.0 * 4.0);
   EXPECT_EQ(report["pixels_out_of_steps"], 0);
+  EXPECT_EQ(report["pixels_out_of_shadow_steps"], 0);
   EXPECT_NE(report["driver"].get<std::string>().find("OpenGL"), std::string::npos);
   for (const char* key : {"compile_ms", "first_frame_ms", "frame_ms", "cpu_ms", "shader_bytes"})
     EXPECT_GT(report[key].get<double>(), 0.0) << key;
   for (const char* ray : {"primary", "shadow", "occlusion", "reflection"})
     EXPECT_GT(report["readings_a_ray"][ray].get<double>(), 0.0) << ray;
-  EXPECT_EQ(report.size(), 12u);
+  EXPECT_EQ(report.size(), 13u);
 }
 
 TEST_F(Sdfview, DrawsBenchesAndWritesTheShaderAtOnce) {

@@ -51,7 +51,7 @@ struct Present {
         occlusionStrength(uniformValue(scene.ambientOcclusion.strength)) {
     const Shape whole = scene.whole();
     field = shadeField = take(marchField(whole));
-    shadeField.lipschitz = field.divisor();  // one of unknown slope shades as it stands
+    if (!field.hasSlope()) shadeField = marchField(whole.distance, 1.0);  // it shades as it stands
     if (scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps) march.method = MarchMethod::Plain;
     if (!field.hasSlope()) march.method = MarchMethod::Bisection;
     surface = std::make_shared<const Tape>(whole.surface);

@@ -31,8 +31,8 @@ struct Drawn {
 Drawn draw(const Scene& scene, const GpuRenderOptions& options) {
   makeContextCurrent();
   auto renderer = take(viewer::Renderer::make(scene, options.shader));
-  auto target = take(viewer::Target::create(options.width, options.height,
-                                            {viewer::PixelFormat::Rgba32f, viewer::PixelFormat::Rgba32f}));
+  auto target = take(
+      viewer::Target::create(options.width, options.height, {options.format, viewer::PixelFormat::Rgba32f}));
   viewer::Frame frame = viewer::frameOf(viewer::LookFunction(scene), options.parameters,
                                         static_cast<double>(options.width) / options.height);
   frame.samples = options.samples;

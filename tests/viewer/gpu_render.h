@@ -16,11 +16,12 @@ struct GpuRenderOptions {
   int maxSteps = viewer::Frame{}.maxSteps;
   double epsilon = viewer::Frame{}.epsilon;
   double threshold = viewer::Frame{}.threshold;
+  viewer::PixelFormat format = viewer::PixelFormat::Rgba32f;  ///< of what is drawn into
   Values parameters;  ///< those that do not stand at their present values
 };
 
-/// Encoded as the scene asks, in floats, rows from the top; alpha 0 where steps ran out. Throws
-/// std::runtime_error where there is no OpenGL or the scene is refused.
+/// Encoded as the scene asks, in floats, rows from the top; alpha 0 where steps ran out, 1/2 where only those
+/// of a shadow did. Throws std::runtime_error where there is no OpenGL or the scene is refused.
 std::vector<glm::vec4> renderOnGpu(const Scene& scene, const GpuRenderOptions& options);
 
 /// What the picture's rays read of the distance. Throws as renderOnGpu.

@@ -13,8 +13,10 @@
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/hoist.h"
+#include "sdf/model/model.h"
 #include "sdf/script/script.h"
 #include "sdf/shape/booleans.h"
+#include "sdf/shape/deform.h"
 #include "sdf/shape/operators.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
@@ -60,7 +62,7 @@ std::size_t sizeOf(const Expr& least) {
 
 /// A group as a formula of its own.
 struct Group {
-  Expr distance, nearest, gap;
+  Expr distance, nearest, gap, step;
 };
 
 std::vector<Group> groupsOf(const OperandKind& kind) {
@@ -68,12 +70,12 @@ std::vector<Group> groupsOf(const OperandKind& kind) {
   for (const std::vector<Expr>& row : kind.groups.numbers) {
     std::unordered_map<Expr, Expr> numbers;
     for (std::size_t i = 0; i < row.size(); ++i) numbers.emplace(kind.groups.parameters[i], row[i]);
-    const auto own = rewrite(std::array{kind.distance, kind.nearest, kind.gap},
+    const auto own = rewrite(std::array{kind.distance, kind.nearest, kind.gap, kind.step},
                              [&](const Expr& e, std::span<const Expr>) -> std::optional<Expr> {
                                const auto found = numbers.find(e);
                                return found == numbers.end() ? std::nullopt : std::optional(found->second);
                              });
-    groups.push_back({own[0], own[1], own[2]});
+    groups.push_back({own[0], own[1], own[2], own[3]});
   }
   return groups;
 }
@@ -85,9 +87,10 @@ std::vector<Group> groupsOf(const Shape& shape) {
   for (const OperandKind& kind : kinds.many)
     for (const Group& group : groupsOf(kind)) groups.push_back(group);
   if (kinds.others.empty()) return groups;
-  Group rest{kinds.others.front().distance, numberOfNearest(kinds.others), Expr(-kInfinity)};
-  for (const NumberedOperand& operand : kinds.others) rest.distance = min(rest.distance, operand.distance);
-  groups.push_back(rest);
+  std::vector<Steep> others;
+  for (const NumberedOperand& e : kinds.others) others.push_back({e.distance, e.slope, e.bounds});
+  const Marchable rest = leastOf(others);
+  groups.push_back({rest.distance, numberOfNearest(kinds.others), Expr(-kInfinity), rest.step});
   return groups;
 }
 
@@ -111,12 +114,22 @@ TEST(Groups, HaveTheUnionsDistanceAndTellWhichOperandIsNearest) {
   }
 }
 
-// Distances of a bound may be less than the way to the bounds, by the growth.
+/// As many times as far as it is.
+Shape multiplied(Shape shape, double slope) {
+  shape.distance = slope * shape.distance;
+  shape.claim = {.kind = ClaimKind::Field, .lipschitz = slope, .growth = 1.0 / slope};
+  return shape;
+}
+
+// Distances of a bound may be less than the way to the bounds, by the growth; steps of what is steep may not.
 TEST(Groups, AreNoNearerThanTheirGaps) {
   const Shape stretched = scale(sphere(0.1), Vec3E(Expr(1.0), Expr(3.0), Expr(1.0)));
-  const Kinds kinds = kindsOf(balls(100) | unite(scattered(stretched, 70, 8)));
-  ASSERT_EQ(kinds.many.size(), 2u);
-  EXPECT_GT(std::max(kinds.many[0].growth, kinds.many[1].growth), 1.0);
+  const Shape steep = multiplied(torus(0.1, 0.05), 3.0), gentle = multiplied(box(Vec3E(Expr(0.1))), 0.4);
+  const Kinds kinds =
+      kindsOf(unite(std::vector{balls(100), unite(scattered(stretched, 70, 8)),
+                                unite(scattered(steep, 70, 12)), unite(scattered(gentle, 70, 13))}));
+  ASSERT_EQ(kinds.many.size(), 4u);
+  EXPECT_GT(std::ranges::max(kinds.many, {}, &OperandKind::growth).growth, 1.0);
   Places places(9);
   for (int i = 0; i < 100; ++i) {
     const glm::dvec3 p = 2.0 * places.next();
@@ -124,6 +137,7 @@ TEST(Groups, AreNoNearerThanTheirGaps) {
       for (const Group& group : groupsOf(kind)) {
         const double gap = evaluate(Tape(group.gap), p), distance = evaluate(Tape(group.distance), p);
         EXPECT_GE(distance, gap > 0.0 ? gap / kind.growth : -kInfinity);
+        EXPECT_GE(evaluate(Tape(group.step), p), gap > 0.0 ? gap / kind.stepGrowth : -kInfinity);
         EXPECT_TRUE(gap > -1.0 || distance > -1.0) << "there are bounds";
       }
   }
@@ -380,6 +394,31 @@ TEST(GroupedPicture, FollowsParameters) {
   EXPECT_LE(psnr(colors(picture), colors(drawn(lit(moving), {}).whole)), 25.0) << "it has moved";
 }
 
+// Of one kind, but of four slopes, beside balls of slope 1.
+TEST(GroupedPicture, OfSteepOperandsIsTheWholes) {
+  std::vector<Shape> all;
+  Places places(8);
+  for (int i = 0; i < 60; ++i) {
+    const Shape ball = translate(sphere(0.15), Vec3E(places.next()));
+    all.push_back(multiplied(ball, 1.5 + 0.5 * (i % 4)));
+  }
+  const Shape whole = unite(all) | balls(50);
+  ASSERT_EQ(slopeOf(whole), 3.0);
+  int divided = 0;
+  for (const OperandKind& kind : kindsOf(whole).many) {
+    if (kind.step == kind.distance) continue;
+    ++divided;
+    const glm::dvec3 p(0.3, 0.2, 0.1);
+    for (const Group& group : groupsOf(kind)) {
+      const double byTheSteepest = evaluate(Tape(group.distance), p) / 3.0;
+      EXPECT_NEAR(evaluate(Tape(group.step), p), std::max(byTheSteepest, evaluate(Tape(group.gap), p)),
+                  1e-12);
+    }
+  }
+  EXPECT_EQ(divided, 1) << "balls need not be";
+  expectSamePicture(lit(whole));
+}
+
 TEST(GroupedPicture, IsSeenFromWithin) {
   Scene scene = lit(balls(200));
   scene.camera.from = Vec3E(Expr(0.01), Expr(0.02), Expr(0.3));
@@ -467,6 +506,34 @@ TEST(GroupedPicture, LightsSharedOperandsAsThoseWrittenOut) {
     Scene scene = furnished(3);
     scene.shadow.kind = shadow;
     scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
+    GpuRenderOptions options;
+    options.threshold = 0.0;
+    options.samples = 2;
+    const Both both = drawn(scene, options);
+    EXPECT_GE(psnr(colors(both.grouped), colors(both.whole)), kBar) << static_cast<int>(shadow);
+  }
+}
+
+// The same of operands with a step of their own, beside some without and half spaces that are steep.
+TEST(GroupedPicture, LightsSteepSharedOperandsAsThoseWrittenOut) {
+  constexpr double kBar = 50.0;
+  std::vector<Shape> all = scattered(carved(), 3, 14);
+  for (int i = 0; i < 6; ++i) {
+    const Shape column = twist(box(Vec3E(Expr(0.15), Expr(0.5), Expr(0.15))), Expr(0.5 + 0.4 * i));
+    all.push_back(translate(column, Vec3E(Expr(0.8 * i - 2.0), Expr(0.0), Expr(-0.5))));
+  }
+  all.push_back(multiplied(translate(sphere(0.3), Vec3E(Expr(0.0), Expr(0.6), Expr(1.0))), 2.5));
+  Scene scene = lit(unite(all));
+  scene.add("floor", multiplied(plane(Vec3E(Expr(0.0), Expr(1.0), Expr(0.0)), -0.8), 2.0));
+  for (const auto shadow :
+       {Shadow::Kind::Hard, Shadow::Kind::Soft, Shadow::Kind::Improved, Shadow::Kind::Signed}) {
+    scene.shadow.kind = shadow;
+    scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
+    const auto shaders = viewer::assemble(scene, {});
+    ASSERT_TRUE(shaders) << shaders.error().message;
+    ASSERT_EQ(shaders->plan.kinds->many.size(), 2u);
+    const auto isSteep = [](const OperandKind& kind) { return kind.step != kind.distance; };
+    EXPECT_EQ(std::ranges::count_if(shaders->plan.kinds->many, isSteep), 1);
     GpuRenderOptions options;
     options.threshold = 0.0;
     options.samples = 2;

@@ -82,8 +82,9 @@ TEST_P(PictureOf, IsTheCpusWhereBothHitAtTheSameDistance) {
   EXPECT_GE(db, kBar);
 }
 
-// How many times farther off the surface is at each pixel's hit than g = f / L says: there it is f / |grad f|
-// away, to first order. 1 where f is the distance, and where there is no hit.
+// How many times farther off the surface is at each pixel's hit than what is held to the threshold says, the
+// greater of f and f / L: there it is f / |grad f| away, to first order. 1 where f is the distance, and where
+// there is no hit.
 std::vector<double> stretches(const Scene& scene, const Picture& picture) {
   const Shape whole = scene.whole();
   const Tape tape(whole.distance);
@@ -95,7 +96,7 @@ std::vector<double> stretches(const Scene& scene, const Picture& picture) {
       if (!picture.hit(column, row)) continue;
       const std::size_t i = picture.at(column, row);
       const glm::dvec3 p = camera.from() + picture.depth[i] * camera.through(column + 0.5, row + 0.5);
-      result[i] = field.divisor() / glm::length(evaluateGradient(tape, p).gradient);
+      result[i] = std::min(field.lipschitz, 1.0) / glm::length(evaluateGradient(tape, p).gradient);
     }
   return result;
 }

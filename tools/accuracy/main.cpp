@@ -62,8 +62,14 @@ int run(const std::string& output, std::uint64_t fraction) {
                                  [&](const PrimitiveCases& c) { return rowOf(c.entry, c.makers, fraction); });
   const auto operators = runAll(operatorCases(), &OperatorCases::entry,
                                 [&](const OperatorCases& c) { return operatorRow(c, fraction); });
+  // A page that is only tried does with one part.
+  const std::size_t parts = fraction == 1 ? deformedParts().size() : 1;
+  std::vector<OffsetRow> offsets;
+  for (const auto& rows :
+       runAll(deformations(), &Deformation::name, [&](const Deformation& d) { return offsetRows(d, parts); }))
+    offsets.insert(offsets.end(), rows.begin(), rows.end());
   const Status written = writeFile(output, [&](std::ostream& out) {
-    writeReport(out, primitives, operators, failures);
+    writeReport(out, primitives, operators, offsets, failures);
     return okStatus();
   });
   if (!written) return failed(written.error());

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "failures/failure_case.h"
+#include "offset_cases.h"
 #include "rows.h"
 
 namespace sdf::accuracy {
@@ -17,6 +18,6 @@ struct FailureRow {
 /// The whole page. Deterministic but for the float readings, which are those of the machine's instruction
 /// set.
 void writeReport(std::ostream& out, std::span<const Row> primitives, std::span<const Row> operators,
-                 std::span<const FailureRow> failures);
+                 std::span<const OffsetRow> offsets, std::span<const FailureRow> failures);
 
 }  // namespace sdf::accuracy

@@ -63,7 +63,7 @@ Status Canvas::draw(Session& session, double scale, int samples) {
   const double start = secondsNow();
   if (const Status drawn = session.renderer().draw(frame, *target_); !drawn) return drawn;
   glFinish();
-  statistics_ = {width, height, samples, secondsNow() - start, {}};
+  statistics_ = {width, height, samples, secondsNow() - start, {}, {}};
   const double rays = double(width) * height * samples * samples;
   pace_.drew(statistics_.seconds, rays / (double(shown_->width) * shown_->height));
   whole_ = scale == 1.0 && samples == session.controls.samples;
@@ -71,7 +71,9 @@ Status Canvas::draw(Session& session, double scale, int samples) {
 
   const auto picture = target_->picture();  // also where a lost context shows
   if (!picture) return picture.error();
-  statistics_.outOfSteps = static_cast<double>(pixelsOutOfSteps(*picture)) / (double(width) * height);
+  const double pixels = double(width) * height;
+  statistics_.outOfSteps = static_cast<double>(pixelsOutOfSteps(*picture)) / pixels;
+  statistics_.outOfShadowSteps = static_cast<double>(pixelsOutOfShadowSteps(*picture)) / pixels;
   return okStatus();
 }
 

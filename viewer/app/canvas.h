@@ -13,6 +13,7 @@ struct FrameStatistics {
   int samples = 1;                   ///< a side
   double seconds = 0.0;              ///< until it was finished
   std::optional<double> outOfSteps;  ///< share of pixels whose ray ran out of steps; of whole pictures only
+  std::optional<double> outOfShadowSteps;  ///< the same of the others' shadows
 };
 
 /// A Pace learns from the frames that were drawn what share of the window's pixels can be drawn in time.

@@ -197,6 +197,8 @@ void Gui::statistics(const Session& session, const Canvas& canvas, Requests& req
   ImGui::Text("shaders: %zu bytes, compiled in %.0f ms", renderer.shaders().bytes(),
               1e3 * renderer.compileSeconds());
   if (frame.outOfSteps) ImGui::Text("%.2f %% of the pixels ran out of steps", 100.0 * *frame.outOfSteps);
+  if (frame.outOfShadowSteps.value_or(0.0) > 0.0)
+    ImGui::Text("%.2f %% are dark where a shadow ran out of its steps", 100.0 * *frame.outOfShadowSteps);
   requests.measure |= ImGui::Button("Count readings (M)");
   if (readings)
     ImGui::Text("a pixel: %.1f primary, %.1f shadow,\n%.1f occlusion, %.1f reflection", readings->primary,

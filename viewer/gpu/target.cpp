@@ -62,6 +62,7 @@ Result<Target> Target::create(int width, int height, const std::vector<PixelForm
   if (const Status fits = checkSize(width, height); !fits) return fits.error();
   const KeepBound bindings;
   Target target(width, height);
+  target.step_ = layers.front() == PixelFormat::Rgba8 ? 1.0 / 255.0 : 0.0;
   target.framebuffer_ = Handle(glGenFramebuffers, [](unsigned id) { glDeleteFramebuffers(1, &id); });
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer_.id());
   for (const PixelFormat format : layers)

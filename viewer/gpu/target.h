@@ -26,6 +26,8 @@ class Target {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  /// Returns how far apart the values are that the first layer holds: 1/255, or 0 for floats.
+  double step() const { return step_; }
 
   /// Makes the whole target what is drawn into.
   void bind() const;
@@ -60,6 +62,7 @@ class Target {
   Status read(int layer, unsigned type, void* rowsFromBottom) const;
 
   int width_, height_;
+  double step_ = 0.0;
   Handle framebuffer_, depth_;
   std::vector<Handle> textures_;
 };

@@ -24,13 +24,23 @@ glm::vec3 axisOf(const Eye& eye) {
   return axis;
 }
 
+// What alpha says is told apart however it was rounded.
+template <class Holds>
+std::size_t countAlphas(const Picture& picture, Holds holds) {
+  constexpr std::size_t kAlpha = 3, kRgba = 4;
+  std::size_t count = 0;
+  for (std::size_t i = kAlpha; i < picture.bytes.size(); i += kRgba) count += holds(picture.bytes[i]);
+  return count;
+}
+
 }  // namespace
 
 std::size_t pixelsOutOfSteps(const Picture& picture) {
-  constexpr std::size_t kAlpha = 3, kRgba = 4;
-  std::size_t count = 0;
-  for (std::size_t i = kAlpha; i < picture.bytes.size(); i += kRgba) count += picture.bytes[i] == 0;
-  return count;
+  return countAlphas(picture, [](unsigned char alpha) { return alpha < 64; });
+}
+
+std::size_t pixelsOutOfShadowSteps(const Picture& picture) {
+  return countAlphas(picture, [](unsigned char alpha) { return alpha >= 64 && alpha < 192; });
 }
 
 Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options) {
@@ -78,6 +88,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
     program.set("lightColor", colors);
   }
   if (view == View::Picture) {
+    program.set("grain", grain_);
     program.set("ambient", look.ambient);
     program.set("fogColor", look.fogColor);
     program.set("fogDensity", look.fogDensity);
@@ -113,6 +124,7 @@ void Renderer::drawPicture(const Frame& frame, const Shot& shot) const {
 void Renderer::drawBackground(const Shot& shot) const {
   if (!background_) return;
   shot.set(*background_, backgroundValues_->vectors());
+  background_->set("grain", grain_);  // tiles are of pictures only
   background_->draw();
 }
 
@@ -138,6 +150,7 @@ Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& targe
   sums_->bindTexture(0);
   resolve_->set("sums", 0);
   resolve_->set("weight", shot.weight());
+  if (shaders_.plan.options.view == View::Picture) resolve_->set("grain", grain_);
   resolve_->draw();
   return okStatus();
 }
@@ -161,6 +174,7 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
   Shot shot(frame, target.width(), target.height(), extent_);
   samples_ = shot.samples();
   giveRows();
+  grain_ = target.step();
   if (hits_)
     if (auto s = hits_->begin(shot, rowValues_.vectors()); !s) return s;
   if (samples_ > 1) {

@@ -18,8 +18,11 @@ struct Readings {
   double shadow = 0.0, occlusion = 0.0, reflection = 0.0;
 };
 
-/// Counts the pixels, of a picture that a Renderer drew, whose rays ran out of steps.
+/// Counts the pixels, of a picture that a Renderer drew, of which a ray ran out of steps.
 std::size_t pixelsOutOfSteps(const Picture& picture);
+
+/// Counts the others of which the ray of a shadow ran out of the scene's shadow steps, and is taken for dark.
+std::size_t pixelsOutOfShadowSteps(const Picture& picture);
 
 /// A Renderer draws one scene.
 class Renderer {
@@ -31,9 +34,9 @@ class Renderer {
   /// compiles nothing and calls no OpenGL.
   void prepare(const Frame& frame);
 
-  /// Draws into the target, whose first layer is the picture (alpha 0 where a primary ray ran out of steps)
-  /// and, with countReadings, whose second (floats) holds what readings(target) then sums up. Errors: Limits,
-  /// Graphics.
+  /// Draws into the target, whose first layer is the picture (dithered where it holds bytes; alpha 0 where a
+  /// ray ran out of steps, 1/2 where only one of a shadow did) and, with countReadings, whose second (floats)
+  /// holds what readings(target) then sums up. Errors: Limits, Graphics.
   Status draw(const Frame& frame, const Target& target);
 
   /// Returns the readings that the last picture, in this target, took. Errors: as Target::pixels.
@@ -57,6 +60,7 @@ class Renderer {
   std::optional<Program> resolve_;
   std::optional<Target> sums_;  // of several samples
   int samples_ = 1;             // of the frame drawn last
+  double grain_ = 0.0;          // step of the values of what it was drawn into
   UniformValues values_;        // of the picture
   std::optional<UniformValues> backgroundValues_;
   UniformValues rowValues_;

@@ -33,14 +33,20 @@ GlslWriter labelled(const Scene& scene) {
   return writer;
 }
 
+// What is shown of a linear colour c, by debug views as it is.
 std::string encoding(const Scene& scene, const Plan& plan) {
   if (plan.options.view != View::Picture && plan.options.view != View::Material) return "(c)";
-  if (!scene.gamma) return "encode(c)";
-  return *scene.gamma == 1.0 ? "(c)" : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
+  const std::string curve = !scene.gamma ? "encode(c)"
+                            : *scene.gamma == 1.0
+                                ? "(c)"
+                                : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
+  return plan.options.view == View::Picture ? "dithered(" + curve + ")" : curve;
 }
 
 std::string encoder(const Scene& scene, const Plan& plan) {
-  return encoding(scene, plan) == "encode(c)" ? parts::kSrgb : "";
+  const bool isPicture = plan.options.view == View::Picture;
+  const bool isSrgb = !scene.gamma && (isPicture || plan.options.view == View::Material);
+  return std::string(isSrgb ? parts::kSrgb : "") + (isPicture ? parts::kDither : "");
 }
 
 // The primary rays are marched by the picture's shader, from where the cones say.
@@ -88,6 +94,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
                               ? ""
                               : "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
                                 "min(shadowReach, far) : shadowReach);";
+  macros["SHADOW_SPENT"] = plan.shadow == ShadowKind::None ? "false" : "shadowSpent";
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);
   for (int i = 0; i + 1 < kAttributeCount; ++i) macros[kAttributeNames[i]] = std::to_string(i);
   return macros;
@@ -186,6 +193,7 @@ Shader background(const Scene& scene, const Plan& plan) {
   const Functions functions{{"sdfBackground", [&] { return partsOf(scene.background); }}};
   Macros macros = pictureMacros(scene, plan);
   macros["START_RAY"] = "";
+  macros["SHADOW_SPENT"] = "false";
   Composer composer(plan.options.es, macros, functions, {});
   std::string text = composer.compose(std::string(parts::kCamera) +
                                       (plan.options.countReadings ? parts::kPictureCounts : "") +

@@ -57,6 +57,15 @@ float leastOfPlanes(vec3 p, vec3 l, float reach) { return 1.0; }
 inline constexpr const char* kShadowSettings = R"(
 uniform float shadowStart, shadowReach, shadowHit, sharpness;
 uniform int shadowSteps;
+
+bool shadowSpent = false;  // a ray of the pixel's shadows ran out of steps
+
+// The light of a ray that came so far. What lies behind the last step of one that ran out is not known: it is dark.
+float ended(float t, float reach, float light) {
+  if (t >= reach) return light;
+  shadowSpent = true;
+  return 0.0;
+}
 )";
 
 inline constexpr const char* kHardShadow = R"(
@@ -65,12 +74,12 @@ float shadow(vec3 p, vec3 l, float reach) {
   if (leastOfPlanes(p, l, reach) <= 0.0) return 0.0;
   clip(p, l, 0.0, t, reach);
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
-    float g = rest(p + t * l);
+    vec2 g = rest(p + t * l);
     COUNT_SHADOW
-    if (g <= shadowHit) return 0.0;
-    t += g;
+    if (max(g.x, g.y) <= shadowHit) return 0.0;
+    t += g.x;
   }
-  return 1.0;
+  return ended(t, reach, 1.0);
 }
 )";
 
@@ -80,46 +89,47 @@ float shadow(vec3 p, vec3 l, float reach) {
   if (light == 0.0) return 0.0;
   clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
-    float g = rest(p + t * l);
+    vec2 g = rest(p + t * l);
     COUNT_SHADOW
-    if (g <= shadowHit) return 0.0;
-    light = min(light, sharpness * g / t);
-    t += g;
+    if (max(g.x, g.y) <= shadowHit) return 0.0;
+    light = min(light, sharpness * g.y / t);
+    t += g.x;
   }
-  return light;
+  return ended(t, reach, light);
 }
 )";
 
 inline constexpr const char* kImprovedShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, light = 1.0, step = 0.0, before = 0.0;
-  for (int i = 0; i < shadowSteps; ++i) {
-    float g = field(p + t * l);
+  for (int i = 0; i < shadowSteps && (i == 0 || t < reach); ++i) {
+    vec2 both = field(p + t * l);
+    float f = both.y;
     COUNT_SHADOW
-    if (g <= shadowHit) return 0.0;
-    float y = step > 0.0 ? (step * step + g * g - before * before) / (2.0 * step) : 0.0;
-    float d = step > 0.0 ? sqrt(max(0.0, g * g - y * y)) : g;
-    if (t - y > 0.0) light = min(light, sharpness * d / (t - y));
-    step = before = g;
-    t += g;
-    if (t >= reach) break;
+    if (max(both.x, f) <= shadowHit) return 0.0;
+    float y = step > 0.0 ? (step * step + f * f - before * before) / (2.0 * step) : 0.0;
+    if (y >= step) y = 0.0;
+    y = max(y, 0.0);
+    light = min(light, sharpness * sqrt(max(0.0, f * f - y * y)) / (t - y));
+    step = both.x;
+    before = f;
+    t += step;
   }
-  return light;
+  return ended(t, reach, light);
 }
 )";
 
 inline constexpr const char* kSignedShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, x = 1.0;
-  for (int i = 0; i < shadowSteps; ++i) {
-    float g = field(p + t * l);
+  for (int i = 0; i < shadowSteps && (i == 0 || t < reach); ++i) {
+    vec2 g = field(p + t * l);
     COUNT_SHADOW
-    x = min(x, sharpness * g / t);
+    x = min(x, sharpness * g.y / t);
     if (x <= -1.0) return 0.0;
-    t += max(abs(g), shadowHit);
-    if (t >= reach) break;
+    t += max(abs(g.x), shadowHit);
   }
-  return 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x);
+  return ended(t, reach, 0.25 * (1.0 + x) * (1.0 + x) * (2.0 - x));
 }
 )";
 
@@ -130,8 +140,8 @@ uniform float tapSpacing, tapStrength;
 float occlusion(vec3 p, vec3 n) {
   float closed = 0.0;
   for (int i = 1; i <= TAPS; ++i) {
-    float h = tapSpacing * float(i);
-    closed += (h - field(p + h * n)) / h;
+    float h = tapSpacing * float(i), f = sdfDistance(p + h * n, vec3(0.0));
+    closed += (h - OVER_SURFACE) / h;
     COUNT_OCCLUSION
   }
   return clamp(1.0 - tapStrength * closed, 0.0, 1.0);
@@ -232,9 +242,22 @@ vec3 encode(vec3 c) {
 }
 )";
 
+/// Defines dithered(c): a colour moved by less than half a step of what the target holds, so that slow
+/// changes do not show as bands. How far follows from the pixel, by Bayer's pattern of 8 by 8, which files
+/// still pack well; a colour that is one of the target's stays.
+inline constexpr const char* kDither = R"(
+uniform float grain;  // the step; 0: floats, which need none
+
+vec3 dithered(vec3 c) {
+  uint y = uint(gl_FragCoord.y), x = uint(gl_FragCoord.x) ^ y;
+  uint place = (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
+  return c + grain * ((float(place) + 0.5) / 64.0 - 0.5);
+}
+)";
+
 /// Defines main() of the picture: one sample of each pixel, encoded if it is the only one.
 inline constexpr const char* kPicture = R"(
-layout(location = 0) out vec4 color;  // alpha is 0 where a ray ran out of steps
+layout(location = 0) out vec4 color;  // alpha is 0 where a ray ran out of steps, 1/2 where only a shadow's did
 
 void main() {
   sdfTakeValues();
@@ -242,7 +265,12 @@ void main() {
   START_RAY
   bool spent;
   vec3 c = colorOf(ray, spent);
-  color = vec4(weight < 1.0 ? weight * c : ENCODE(c), spent ? 0.0 : weight);
+  bool shaded = !spent && SHADOW_SPENT;
+  // Among the samples of a sum, each whose shadow ran out adds 2 to the share of those that did not run out at all.
+  if (weight < 1.0)
+    color = vec4(weight * c, spent ? 0.0 : shaded ? weight + 2.0 : weight);
+  else
+    color = vec4(ENCODE(c), spent ? 0.0 : shaded ? 0.5 : 1.0);
   STORE_COUNTS
 }
 )";
@@ -255,7 +283,8 @@ layout(location = 0) out vec4 color;
 
 void main() {
   vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
-  color = vec4(ENCODE(sum.rgb), sum.a > 1.0 - 0.5 * weight ? 1.0 : 0.0);
+  float shaded = floor(0.5 * (sum.a + 0.5 * weight)), unspent = sum.a - 2.0 * shaded;
+  color = vec4(ENCODE(sum.rgb), unspent < 1.0 - 0.5 * weight ? 0.0 : shaded > 0.0 ? 0.5 : 1.0);
 }
 )";
 

@@ -64,8 +64,8 @@ Error withoutSlope(const Scene& scene) {
 }
 
 Result<Marched> marched(const Shape& shape, const Scene& scene) {
-  const auto [distance, slope] = marchable(shape);
-  if (slope < kInfinity) return Marched{hoisted(distance), 1.0 / slope, shape.bounds};
+  const auto [distance, step, slope] = marchable(shape);
+  if (slope < kInfinity) return Marched{hoisted(distance), hoisted(step), shape.bounds};
   return withoutSlope(scene);
 }
 
@@ -110,7 +110,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   if (isPicture || view == View::Material) planSurface(whole, plan);
   // A group is read without what marchable() adds where a slope is known near the bounds only.
-  if (options.sharing && slopeOf(rest) < kInfinity)
+  if (options.sharing && slopeOf(whole) < kInfinity)
     if (Kinds kinds = kindsOf(parts.operands); !kinds.many.empty()) plan.kinds = std::move(kinds);
   // Counts of steps, gradients and slices are the whole's.
   const bool showsHits = isPicture || view == View::Normals || view == View::Material ||

@@ -35,10 +35,10 @@ struct ShaderOptions {
   bool sharing = true;         ///< like operands may share their code; else all of it is written out
 };
 
-/// A Marched distance is one that rays can be marched through.
+/// A Marched distance is one that rays can be marched through; see Marchable.
 struct Marched {
-  Expr distance;
-  double inverse = 1.0;  ///< of the slope
+  Expr distance;  ///< how far it is
+  Expr step;      ///< how far one may go
   Box bounds = Box::everything();
 };
 

@@ -54,23 +54,24 @@ struct Hit {
 };
 )";
 
-/// Defines field(p), the radius of the ball around p that is free of the whole's surface.
+/// Defines field(p) of the whole: x, how far one may go, the radius of a ball around p that is free of the
+/// surface; y, how far it is.
 inline constexpr const char* kField = R"(
-float field(vec3 p) { return sdfDistance(p, vec3(0.0)) * INVERSE_SLOPE; }
+vec2 field(vec3 p) { return FIELD; }
 )";
 
 /// Defines rest(p), the same for the scene without its half spaces.
 inline constexpr const char* kRest = R"(
-float rest(vec3 p) { return REST; }
+vec2 rest(vec3 p) { return REST; }
 )";
 
 /// The same of a box.
 inline constexpr const char* kRestByBox = R"(
 uniform vec3 boxMiddle, boxHalf;
 
-float rest(vec3 p) {
+vec2 rest(vec3 p) {
   vec3 gap = abs(p - boxMiddle) - boxHalf;
-  return length(max(gap, 0.0)) + min(max(gap.x, max(gap.y, gap.z)), 0.0);
+  return vec2(length(max(gap, 0.0)) + min(max(gap.x, max(gap.y, gap.z)), 0.0));
 }
 )";
 
@@ -106,7 +107,8 @@ float march(Ray ray, out int status, out int readings) {
     return tMax;
   }
   while (readings < maxSteps) {
-    float next = rest(ray.origin + (t + z) * ray.direction);
+    vec2 both = rest(ray.origin + (t + z) * ray.direction);
+    float next = both.x;
     ++readings;
     if (z > r && z > r + next) {  // the balls do not overlap: something may lie between
       z = r;
@@ -116,7 +118,7 @@ float march(Ray ray, out int status, out int readings) {
     if (z > 0.0) slope += 0.3 * ((next - r) / z - slope);
     t += z;
     float near = hitDistance(ray, t);
-    if (next <= near) {
+    if (max(next, both.y) <= near) {
       if (z > 0.0 && next < r) t += clamp(next * z / (r - next), -z, 4.0 * near);  // where the secant meets 0
       status = HIT;
       return t;
@@ -220,7 +222,7 @@ void main() {
       break;
     }
     float at = back ? end : t, wide = spread * ahead + widening * at;
-    float free = rest(ray.origin + at * ray.direction) - wide;
+    float free = rest(ray.origin + at * ray.direction).x - wide;
     ++readings;
     if (free <= (1.0 + widening) * (0.25 * wide + epsilon)) {
       if (back || !first) break;

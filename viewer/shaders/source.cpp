@@ -89,7 +89,7 @@ std::vector<std::string> deadMacros(const Macros& macros) {
       kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kHardShadow, kSoftShadow,
       kImprovedShadow, kSignedShadow, kOcclusionTaps, kOcclusionSteps, kLightSettings, kLights, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
-      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kPicture, kResolve};
+      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kDither, kPicture, kResolve};
   // clang-format on
   std::set<std::string> used;
   for (const char* const part : kParts) used.merge(usedMacros(part));

@@ -16,9 +16,7 @@ Dual<Interval, 1> AlongRay::over(double from, double to) {
     variables[axis] = {add(mul(slope, t), Interval(origin_[axis])), {slope}};
   }
   segments_.run(*field_.distance, variables);
-  const D f = segments_.output();
-  const Interval divisor(field_.divisor());
-  D g{div(f.v, divisor), {div(f.d[0], divisor)}};
+  D g = segments_.output(1);
   if (field_.hasSlope()) {
     g.d[0].lo = std::clamp(g.d[0].lo, -1.0, 1.0);
     g.d[0].hi = std::clamp(g.d[0].hi, -1.0, 1.0);
@@ -28,11 +26,11 @@ Dual<Interval, 1> AlongRay::over(double from, double to) {
 
 namespace {
 
-// Steepest fall of g over the next `length`, which is halved while nothing is known of it. Where that fails
-// down to epsilon the result is infinite: g may jump there.
+// Steepest fall of g over the next `length`, which is halved while nothing is known of it, rounded up. Where
+// that fails down to epsilon the result is infinite: g may jump there.
 double steepestFall(AlongRay& g, const MarchOptions& options, double t, double& length) {
   while (true) {
-    const double fall = std::max(0.0, -g.over(t, t + length).d[0].lo);
+    const double fall = std::nextafter(std::max(0.0, -g.over(t, t + length).d[0].lo), kInfinity);
     if (std::isfinite(fall) || length <= options.epsilon || g.readings() >= options.maxSteps) return fall;
     length = std::max(0.5 * length, options.epsilon);
   }
@@ -49,7 +47,7 @@ bool proveFree(AlongRay& g, const Interval& start, double from, double to) {
 // The same by the Lipschitz constant and a value in double: intervals cannot tell a sign that flips twice at
 // one point, as that of a polygon does at the height of a corner.
 bool slopeProvesFree(AlongRay& g, double from, double to) {
-  return g.hasSlope() && g.value(from) > to - from;
+  return g.hasSlope() && g.at(from).step > to - from;
 }
 
 }  // namespace
@@ -57,14 +55,17 @@ bool slopeProvesFree(AlongRay& g, double from, double to) {
 RayEnd marchBySegments(AlongRay& g, const MarchOptions& options, double tMin, double tMax) {
   double t = tMin, length = tMax - tMin;
   while (g.readings() < options.maxSteps) {
-    const double r = g.value(t);
-    if (std::isnan(r)) return {t, g.readings(), RayStatus::Undefined};
-    if (r <= threshold(options, t)) return {t, g.readings(), RayStatus::Hit};
+    const Sample here = g.at(t);
+    const double r = here.step;
+    if (std::isnan(here.distance)) return {t, g.readings(), RayStatus::Undefined};
+    if (here.toHit() <= threshold(options, t)) return {t, g.readings(), RayStatus::Hit};
     if (t >= tMax) return {t, g.readings(), RayStatus::Miss};
     length = std::min(length, tMax - t);
     const double fall = steepestFall(g, options, t, length);
     // Where g falls without bound, epsilon at a time is what the dense march would do.
-    const double step = std::max(fall * length < r ? length : r / fall, std::min(length, options.epsilon));
+    const double step = !std::isfinite(fall) ? std::min(length, options.epsilon)
+                        : fall * length < r  ? length
+                                             : r / fall;
     t = step >= tMax - t ? tMax : t + step;
     length = options.growth * step;
   }
@@ -73,8 +74,9 @@ RayEnd marchBySegments(AlongRay& g, const MarchOptions& options, double tMin, do
 
 RayEnd marchByBisection(AlongRay& g, const MarchOptions& options, double tMin, double tMax) {
   double from = tMin;
-  if (const double first = g.value(tMin); !(first > threshold(options, tMin)))
-    return {tMin, g.readings(), std::isnan(first) ? RayStatus::Undefined : RayStatus::Hit};
+  const Sample first = g.at(tMin);
+  if (std::isnan(first.distance)) return {tMin, g.readings(), RayStatus::Undefined};
+  if (first.toHit() <= threshold(options, tMin)) return {tMin, g.readings(), RayStatus::Hit};
   Interval start = g.over(from, from).v;
   std::vector<double> ends{tMax};  // of the pieces still to be searched, the nearest last
   while (!ends.empty()) {

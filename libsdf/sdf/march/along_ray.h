@@ -2,6 +2,7 @@
 #pragma once
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/march/march.h"
+#include "sdf/march/sampler.h"
 
 namespace sdf {
 
@@ -12,17 +13,17 @@ struct RayEnd {
   RayStatus status;
 };
 
-/// g = f / L as a function of t alone. Counts its readings.
+/// f and g as functions of t alone. Counts its readings.
 class AlongRay {
  public:
   AlongRay(const MarchField& field, const Rays& rays, std::size_t ray)
       : field_(field), origin_(rays.origin[ray]), direction_(rays.direction[ray]) {}
 
-  double value(double t) {
+  Sample at(double t) {
     ++readings_;
     const glm::dvec3 p = origin_ + t * direction_;
     points_.run(*field_.distance, {p.x, p.y, p.z, 0.0, 0.0, 0.0});
-    return points_.output() / field_.divisor();
+    return {points_.output(0), points_.output(1)};
   }
 
   /// Encloses g over t in [from, to], and in d[0] every quotient (g(s) - g(t)) / (s - t) there.

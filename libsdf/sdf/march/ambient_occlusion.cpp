@@ -75,14 +75,20 @@ Result<std::vector<double>> occlusionByTaps(const MarchField& field, const Vecto
   if (const Status s = checkRows(points, normals); !s) return s.error();
   if (const Status s = checkSlope(field, "ambient occlusion"); !s) return s.error();
   Sampler sampler(field);
-  std::vector<double> hidden(points.size(), 0.0), g;
+  std::vector<double> hidden(points.size(), 0.0);
+  std::vector<Sample> samples;
+  // Above a surface nothing is farther off than the surface, whatever a steeper distance says.
+  const bool isSteep = field.lipschitz > 1.0;
   for (int tap = 1; tap <= options.count; ++tap) {
     const double height = tap * options.spacing;
     const double weight = options.weights == TapWeights::Halving ? std::ldexp(1.0, -tap) : 1.0 / height;
     Vectors at;
     for (std::size_t i = 0; i < points.size(); ++i) at.add(points[i] + height * normals[i]);
-    sampler.sample(at, g);
-    for (std::size_t i = 0; i < points.size(); ++i) hidden[i] += weight * (height - g[i]);
+    sampler.sample(at, samples);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double f = samples[i].distance;
+      hidden[i] += weight * (height - (isSteep && f > height ? height : f));
+    }
   }
   for (double& h : hidden) h = std::isnan(h) ? 0.0 : std::clamp(1.0 - options.strength * h, 0.0, 1.0);
   return hidden;

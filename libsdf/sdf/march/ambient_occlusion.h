@@ -14,11 +14,12 @@ namespace sdf {
 /// look: creases and grazing rays take many steps. strength >= 0. Errors (Usage): strength.
 Result<std::vector<double>> occlusionBySteps(std::span<const int> steps, double strength);
 
-/// What a tap at height h = i spacing counts for, g = f / L being the distance there:
+/// What a tap at height h = i spacing counts for, f being the distance there or, of a field steeper than 1, h
+/// where f says more:
 ///
-///   Halving   (h - g) / 2^i: near taps count most (Evans, "Fast approximations for global illumination on
+///   Halving   (h - f) / 2^i: near taps count most (Evans, "Fast approximations for global illumination on
 ///             dynamic scenes", 2006, with five taps)
-///   Relative  (h - g) / h: the missing share of the height, all taps alike; with strength 1 / count a point
+///   Relative  (h - f) / h: the missing share of the height, all taps alike; with strength 1 / count a point
 ///             against a wall gets nothing (Learn Creative Coding 40, "Raymarching: Materials and Lighting")
 enum class TapWeights { Halving, Relative };
 

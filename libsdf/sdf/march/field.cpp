@@ -1,6 +1,7 @@
 #include "sdf/march/field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -14,6 +15,10 @@ bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.
 
 bool sameLength(const Vectors& v, std::size_t count) {
   return v.x.size() == count && v.y.size() == count && v.z.size() == count;
+}
+
+MarchField fieldOf(const Expr& distance, const Expr& step, double lipschitz) {
+  return {std::make_shared<const Tape>(std::array{distance, step}), lipschitz};
 }
 
 // What is wrong with ray i; "" where nothing is.
@@ -32,7 +37,11 @@ Result<MarchField> marchField(const Shape& shape) {
   if (!shape.ok()) return Error{ErrorKind::Scene, *shape.error};
   if (shape.dimension != 3) return Error{ErrorKind::Scene, "the shape is flat; extrude or revolve it"};
   const Marchable field = marchable(shape);
-  return MarchField{std::make_shared<const Tape>(field.distance), field.slope};
+  return fieldOf(field.distance, field.step, field.slope);
+}
+
+MarchField marchField(const Expr& distance, double lipschitz) {
+  return fieldOf(distance, lipschitz == 1.0 ? distance : distance / lipschitz, lipschitz);
 }
 
 Status checkSlope(const MarchField& field, const char* user) {

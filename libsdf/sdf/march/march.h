@@ -1,12 +1,12 @@
 // Sphere tracing and its relatives: where rays first meet a shape. This is the reference that a GPU's shaders
 // are tested against, and a bench on which the methods can be compared.
 //
-// All methods see g = f / L, the distance divided by its Lipschitz constant, so that the ball of radius g
-// around a point (its unbounding sphere) is free of the solid. Written for one ray, with
-// threshold(t) = epsilon + footprint * t, the first four are
+// All methods go by the field's step g, so that the ball of radius g around a point (its unbounding sphere)
+// is free of the solid, and hit by its distance f, so that a hit is where it is however loose the bound of
+// f's slope. Written for one ray, with threshold(t) = epsilon + footprint * t, the first four are
 //
 //   t = tMin; r = g(tMin);
-//   loop: if (r <= threshold(t)) Hit at t;
+//   loop: if (max(f(t), r) <= threshold(t)) Hit at t;
 //         if (t + r >= tMax) Miss;
 //         z = min(relaxed step, tMax - t);             // at least r
 //         R = g(t + z);
@@ -48,16 +48,16 @@ enum class MarchMethod { Plain, OverRelaxed, Accelerated, AutoRelaxed, Segment, 
 /// How a ray ended. Up to t (before refinements) no solid was passed, unless it is thinner than float
 /// rounding or, by Segment where g may jump, than epsilon.
 enum class RayStatus : std::uint8_t {
-  Hit,       ///< g(t) <= threshold(t); Bisection: the solid begins in [t, t + threshold(t)], or comes so near
-             ///< to it that intervals cannot tell
-  Miss,      ///< no solid up to t = tMax
+  Hit,   ///< max(f(t), g(t)) <= threshold(t); Bisection: the solid begins in [t, t + threshold(t)], or comes
+         ///< so near to it that intervals cannot tell
+  Miss,  ///< no solid up to t = tMax
   Budget,    ///< maxSteps were not enough; t is how far it came
   Undefined  ///< f is not a number at t
 };
 
 struct MarchOptions {
   MarchMethod method = MarchMethod::Plain;
-  double epsilon = 1e-4;   ///< a hit where g <= epsilon + footprint * t; scene units, > 0
+  double epsilon = 1e-4;   ///< a hit where f and g <= epsilon + footprint * t; scene units, > 0
   double footprint = 0.0;  ///< radius of a pixel's cone at t = 1, >= 0: tan(fov / 2) / rows of pixels
   int maxSteps = 512;  ///< readings of the field a ray may take, > 0; Segment and Bisection may take two more
   int refinements = 0;          ///< secant steps after a hit, >= 0; they move t on by at most 4 threshold(t)

@@ -52,9 +52,10 @@ class BallWalker {
     return {t, t, 0.0, 0.0, -1.0, true, 0, ray};
   }
 
-  bool advance(State& s, double g) {
+  bool advance(State& s, const Sample& sample) {
+    const double g = sample.step;
     ++s.steps;
-    if (std::isnan(g)) return finish(s, s.at, RayStatus::Undefined);
+    if (std::isnan(sample.distance)) return finish(s, s.at, RayStatus::Undefined);
     if (s.step > s.radius && s.step > s.radius + g) {
       s.step = s.radius;
       s.slope = -1.0;
@@ -64,7 +65,7 @@ class BallWalker {
       s.t = s.at;
       s.radius = g;
       const double left = rays_.tMax[s.ray] - s.t;
-      if (g <= threshold(options_, s.t)) return finish(s, s.t, RayStatus::Hit);
+      if (sample.toHit() <= threshold(options_, s.t)) return finish(s, s.t, RayStatus::Hit);
       if (g >= left) return finish(s, rays_.tMax[s.ray], RayStatus::Miss);
       s.step = std::min(relaxedStep(s), left);
     }
@@ -107,20 +108,21 @@ class BallWalker {
   Hits& hits_;
 };
 
-// Secant steps from the hit at `t` towards g = 0, by at most the threshold. They start with a plain step,
+// Secant steps from the hit at `t` towards f = 0, by at most the threshold. They start with a plain step,
 // which cannot pass the surface.
-double refined(AlongRay& g, const MarchOptions& options, double t) {
+double refined(AlongRay& f, const MarchOptions& options, double t) {
   const double limit = t + kRefinedThresholds * threshold(options, t);
-  double before = t, gBefore = g.value(before);
-  if (!(gBefore > 0.0)) return t;
-  double after = t + gBefore, gAfter = g.value(after);
-  for (int i = 0; i < options.refinements && gAfter != 0.0 && gAfter != gBefore; ++i) {
-    const double next = after - gAfter * (after - before) / (gAfter - gBefore);
+  const Sample hit = f.at(t);
+  if (!(hit.distance > 0.0)) return t;
+  double before = t, fBefore = hit.distance;
+  double after = t + hit.step, fAfter = f.at(after).distance;
+  for (int i = 0; i < options.refinements && fAfter != 0.0 && fAfter != fBefore; ++i) {
+    const double next = after - fAfter * (after - before) / (fAfter - fBefore);
     if (!(next >= t && next <= limit)) break;
-    before = after, gBefore = gAfter;
-    after = next, gAfter = g.value(next);
+    before = after, fBefore = fAfter;
+    after = next, fAfter = f.at(next).distance;
   }
-  return std::abs(gAfter) < std::abs(gBefore) ? after : before;
+  return std::abs(fAfter) < std::abs(fBefore) ? after : before;
 }
 
 }  // namespace

@@ -11,11 +11,12 @@ std::optional<RootBracket> marchDensely(const MarchField& field, const Rays& ray
                                         double epsilon) {
   AlongRay g(field, rays, ray);
   const double first = rays.tMin[ray], length = rays.tMax[ray] - first;
-  const double steps = std::ceil(length * std::max(1.0, field.divisor()) / epsilon);
+  const double steps =
+      std::ceil(length * (field.hasSlope() ? std::max(1.0, field.lipschitz) : 1.0) / epsilon);
   double before = first;
   for (double i = 0.0; i <= steps; ++i) {
     const double t = first + (steps > 0.0 ? length * (i / steps) : 0.0);
-    if (g.value(t) <= 0.0) return RootBracket{before, t};
+    if (g.at(t).distance <= 0.0) return RootBracket{before, t};
     before = t;
   }
   return std::nullopt;

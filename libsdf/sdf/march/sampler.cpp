@@ -13,22 +13,23 @@ constexpr double kDoubtful = 4.0;
 
 }  // namespace
 
-double Sampler::at(const glm::dvec3& p) {
+Sample Sampler::at(const glm::dvec3& p) {
   scalar_.run(*field_.distance, {p.x, p.y, p.z, 0.0, 0.0, 0.0});
-  return scalar_.output() / field_.divisor();
+  return {scalar_.output(0), scalar_.output(1)};
 }
 
-void Sampler::sample(const Vectors& points, std::vector<double>& value) {
-  value.resize(points.size());
+void Sampler::sample(const Vectors& points, std::vector<Sample>& samples) {
+  samples.resize(points.size());
   PointRows block;
-  float f[kBatchPoints];
+  float distance[kBatchPoints], step[kBatchPoints];
+  float* const outputs[] = {distance, step};
   for (std::size_t first = 0; first < points.size(); first += kBatchPoints) {
     const std::size_t count = std::min(kBatchPoints, points.size() - first);
     for (std::size_t i = 0; i < count; ++i) block.set(i, points[first + i]);
-    batch_.evaluate(*field_.distance, block.rows(), count, f);
+    batch_.evaluate(*field_.distance, block.rows(), count, outputs);
     for (std::size_t i = 0; i < count; ++i) {
-      const bool doubtful = std::abs(f[i]) <= kDoubtful * distanceRounding(block.at(i));
-      value[first + i] = doubtful ? at(points[first + i]) : f[i] / field_.divisor();
+      const bool doubtful = std::abs(distance[i]) <= kDoubtful * distanceRounding(block.at(i));
+      samples[first + i] = doubtful ? at(points[first + i]) : Sample{distance[i], step[i]};
     }
   }
 }

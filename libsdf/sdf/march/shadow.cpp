@@ -30,8 +30,8 @@ class ShadowWalker {
   struct State {
     double at;      // where g is read next
     double step;    // from the sample before, 0 at the first
-    double before;  // g at the sample before
-    double least;   // least k g / t so far
+    double before;  // f at the sample before
+    double least;   // least k f / t so far
     int steps;
     std::size_t ray;
   };
@@ -41,29 +41,29 @@ class ShadowWalker {
 
   State start(std::size_t ray) const { return {rays_.tMin[ray], 0.0, 0.0, 1.0, 0, ray}; }
 
-  bool advance(State& s, double g) {
+  bool advance(State& s, const Sample& sample) {
+    const double f = sample.distance;
     ++s.steps;
-    if (std::isnan(g)) return finish(s, 0.0, RayStatus::Undefined);
+    if (std::isnan(f)) return finish(s, 0.0, RayStatus::Undefined);
     const bool crosses = options_.method == ShadowMethod::Signed;
-    if (!crosses && g <= options_.epsilon) return finish(s, 0.0, RayStatus::Hit);
-    s.least = std::min(s.least, ratio(s, g));
+    if (!crosses && sample.toHit() <= options_.epsilon) return finish(s, 0.0, RayStatus::Hit);
+    s.least = std::min(s.least, ratio(s, f));
     if (s.least <= -1.0) return finish(s, 0.0, RayStatus::Hit);
-    s.step = std::max(std::abs(g), options_.epsilon);
-    s.before = g;
+    s.step = crosses ? std::max(std::abs(sample.step), options_.epsilon) : sample.step;
+    s.before = f;
     if (s.at + s.step >= rays_.tMax[s.ray]) return finish(s, lightOf(s), RayStatus::Miss);
     s.at += s.step;
-    return s.steps < options_.maxSteps || finish(s, lightOf(s), RayStatus::Budget);
+    return s.steps < options_.maxSteps || finish(s, 0.0, RayStatus::Budget);
   }
 
  private:
   // k times the tangent of the angle between the ray and what is nearest to it here.
-  double ratio(const State& s, double g) const {
+  double ratio(const State& s, double f) const {
     if (options_.method == ShadowMethod::Hard) return 1.0;
-    if (options_.method != ShadowMethod::Improved || s.step == 0.0) return options_.sharpness * g / s.at;
-    const double y = (s.step * s.step + g * g - s.before * s.before) / (2.0 * s.step);
-    const double d = std::sqrt(std::max(0.0, g * g - y * y));
-    const double along = s.at - y;
-    return along > 0.0 ? options_.sharpness * d / along : 1.0;
+    if (options_.method != ShadowMethod::Improved || s.step == 0.0) return options_.sharpness * f / s.at;
+    const double y = (s.step * s.step + f * f - s.before * s.before) / (2.0 * s.step);
+    if (!(y > 0.0 && y < s.step)) return options_.sharpness * f / s.at;
+    return options_.sharpness * std::sqrt(std::max(0.0, f * f - y * y)) / (s.at - y);
   }
 
   double lightOf(const State& s) const {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "sdf/expr/hoist.h"
+#include "sdf/model/model.h"
 
 namespace sdf {
 namespace {
@@ -127,18 +128,29 @@ Expr beyond(const std::vector<Box>& boxes, Rows& rows, Names& names) {
   return max(max(gaps[0], gaps[1]), gaps[2]);
 }
 
+// The step of a kind whose distance and gap are known.
+void addStep(OperandKind& kind, double slope) {
+  const Steep all{kind.distance, slope};
+  const Marchable divided = leastOf({&all, 1});
+  const bool goesToBounds = divided.slope > 1.0 && !kind.gap.isConstant(-kInfinity);
+  kind.step = goesToBounds ? max(divided.step, kind.gap) : divided.step;
+  kind.stepGrowth = goesToBounds ? 1.0 : kind.growth * divided.slope;
+}
+
 OperandKind kindOf(const Alike& alike, std::span<const NumberedOperand> operands, Names& names) {
   const auto groups = grouped(alike, operands);
   OperandKind kind;
   kind.groups.numbers.resize(groups.size());
   std::vector<Box> boxes;
   bool known = true;
+  double slope = 0.0;
   for (const auto& group : groups) {
     Box& box = boxes.emplace_back();
     for (const std::size_t row : group) {
       const NumberedOperand& operand = operands[alike.places[row]];
       box = unite(box, operand.bounds);
       kind.growth = std::max(kind.growth, operand.growth);
+      slope = std::max(slope, operand.slope);
     }
     known = known && box.finite();
   }
@@ -164,6 +176,7 @@ OperandKind kindOf(const Alike& alike, std::span<const NumberedOperand> operands
   kind.distance = distances.front();
   for (std::size_t k = 1; k < distances.size(); ++k) kind.distance = min(kind.distance, distances[k]);
   kind.nearest = numberOfLeast(distances, numbers);
+  addStep(kind, slope);
   return kind;
 }
 
@@ -189,7 +202,8 @@ Attributes chosen(std::span<const Attributes> all, const Expr& number) {
 bool isHardUnion(const Shape& shape) { return shape.outer && shape.outer->blend.kind == Blend::Kind::Hard; }
 
 NumberedOperand numbered(const Shape& shape, double number) {
-  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, growthOf(shape.claim), number};
+  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, growthOf(shape.claim), number,
+          slopeOf(shape)};
 }
 
 Attributes attributesFrom(const std::vector<Expr>& list) {

@@ -15,6 +15,7 @@ struct NumberedOperand {
   Box bounds;
   double growth;  ///< see Claim
   double number;
+  double slope = 1.0;  ///< of the distance; infinite where it is not known
 };
 
 /// The operands of a hard union, numbered from `first` on; any other shape is its own only one.
@@ -33,9 +34,11 @@ struct Rows {
 /// Groups of some of a union's operands, as many in each, that differ only in numbers.
 struct OperandKind {
   Expr distance;  ///< of a group: the least of its operands'
+  Expr step;      ///< how far it lets one go; see Marchable
   Expr nearest;   ///< the number of that one
   Expr gap;       ///< where positive, no more than the way to the group's bounds; -infinity if it has none
-  double growth = 0.0;  ///< outside of the bounds the distance is no less than gap / growth
+  double growth = 0.0;      ///< outside of the bounds the distance is no less than gap / growth
+  double stepGrowth = 0.0;  ///< the same of the step
   Rows groups;
   std::size_t gapNumbers = 0;  ///< how many parameters `gap` has, the first ones
   /// Each group is one operand, of many operations, within these bounds by group, which are finite; empty:
@@ -50,8 +53,8 @@ struct Kinds {
 };
 
 /// Sorts operands into kinds. Operands of many operations are groups by themselves, others are with their
-/// neighbours. A kind's formula is shared as soon as that saves some hundred operations. Cost: linear in the
-/// size of the graphs.
+/// neighbours. A kind's formula is shared as soon as that saves some hundred operations. Operands of a kind
+/// count as steep as the steepest; slopes must be known. Cost: linear in the size of the graphs.
 Kinds kindsOf(std::span<const NumberedOperand> operands);
 
 /// A union's attributes, those of like operands written once.

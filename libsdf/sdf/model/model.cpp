@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operand.h"
@@ -104,29 +105,89 @@ double slopeIn(const Shape& shape, const Box& box) {
 
 namespace {
 
+constexpr double kConstant = 0x1p-64;  // stands for 0: the slope of a distance that is the same everywhere
+
+// What distances are divided by. What is 1-Lipschitz up to rounding counts as such.
+double divisorOf(double slope) {
+  return slope >= 1.0 && isOneLipschitz(slope) ? 1.0 : std::max(slope, kConstant);
+}
+
+Expr stepOf(const Expr& distance, double divisor, const Box& bounds) {
+  if (divisor == 1.0) return distance;
+  const Expr step = distance * (1.0 / divisor);
+  const std::optional<Expr> outside = divisor > 1.0 && !bounds.empty() ? outsideBox(bounds) : std::nullopt;
+  return outside ? max(step, *outside) : step;
+}
+
+// As a balanced tree.
+Expr leastOf(std::span<const Expr> all) {
+  if (all.size() == 1) return all.front();
+  const std::size_t half = all.size() / 2;
+  return min(leastOf(all.first(half)), leastOf(all.subspan(half)));
+}
+
+// Of a shape whose slope is not known everywhere.
+Marchable nearItsBounds(const Shape& shape) {
+  Marchable result{shape.distance, shape.distance, kInfinity};
+  if (!shape.bounds.finite()) return result;
+  const Box near = shape.bounds.grown(0.5 * shape.bounds.longestSide());
+  const double slope = divisorOf(slopeIn(shape, near));
+  if (slope == kInfinity) return result;
+  const Expr isFar = less(0.0, *outsideBox(near)), way = *outsideBox(shape.bounds);
+  const Expr step = stepOf(shape.distance, slope, shape.bounds);
+  return {select(isFar, way, shape.distance), select(isFar, way, step), slope};
+}
+
+Marchable leastOf(const Marchable& a, const Marchable& b) {
+  return {min(a.distance, b.distance), min(a.step, b.step), std::max(a.slope, b.slope)};
+}
+
 Marchable leastOf(const std::vector<Shape>& operands) {
-  Marchable result = marchable(operands.front());
-  for (std::size_t i = 1; i < operands.size(); ++i) {
-    const Marchable one = marchable(operands[i]);
-    result = {min(result.distance, one.distance), std::max(result.slope, one.slope)};
+  std::vector<Steep> known;
+  std::optional<Marchable> others;
+  for (const Shape& operand : operands) {
+    if (slopeOf(operand) < kInfinity) {
+      known.push_back({operand.distance, slopeOf(operand), operand.bounds});
+      continue;
+    }
+    const Marchable one = marchable(operand);
+    others = others ? leastOf(*others, one) : one;
   }
-  return result;
+  if (known.empty()) return *others;
+  const Marchable least = leastOf(known);
+  return others ? leastOf(least, *others) : least;
 }
 
 }  // namespace
 
+Marchable leastOf(std::span<const Steep> all) {
+  struct Alike {
+    std::vector<Expr> distances;
+    Box bounds;
+  };
+  std::map<double, Alike> bySlope;
+  for (const Steep& one : all) {
+    const auto [alike, isFirst] = bySlope.try_emplace(divisorOf(one.slope), Alike{{}, one.bounds});
+    alike->second.distances.push_back(one.distance);
+    alike->second.bounds = unite(alike->second.bounds, one.bounds);
+  }
+  std::vector<Expr> distances, steps;
+  for (const auto& [slope, alike] : bySlope) {
+    distances.push_back(leastOf(alike.distances));
+    steps.push_back(stepOf(distances.back(), slope, alike.bounds));
+  }
+  return {leastOf(distances), leastOf(steps), bySlope.rbegin()->first};
+}
+
 Marchable marchable(const Shape& shape) {
-  constexpr double kConstant = 0x1p-64;  // stands for 0: a distance that is the same everywhere
-  Marchable result{shape.distance, std::max(slopeOf(shape), kConstant)};
-  if (result.slope < kInfinity) return result;
-  if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard) return leastOf(shape.outer->operands);
-  if (!shape.bounds.finite()) return result;
-  const Box near = shape.bounds.grown(0.5 * shape.bounds.longestSide());
-  result.slope = std::max(slopeIn(shape, near), kConstant);
-  if (result.slope < kInfinity)
-    result.distance =
-        select(less(0.0, *outsideBox(near)), *outsideBox(shape.bounds) * result.slope, shape.distance);
-  return result;
+  const double slope = divisorOf(slopeOf(shape));
+  if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard) {
+    const auto isAlike = [&](const Shape& operand) { return divisorOf(slopeOf(operand)) == slope; };
+    if (slope == kInfinity || !std::ranges::all_of(shape.outer->operands, isAlike))
+      return leastOf(shape.outer->operands);
+  }
+  if (slope == kInfinity) return nearItsBounds(shape);
+  return {shape.distance, stepOf(shape.distance, slope, shape.bounds), slope};
 }
 
 }  // namespace sdf

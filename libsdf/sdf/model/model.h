@@ -80,15 +80,32 @@ class Model {
 /// the formula has there by interval arithmetic; infinite where neither is known.
 double slopeIn(const Shape& shape, const Box& box);
 
-/// A distance that rays can be marched through: divided by its slope it never exceeds the way to the surface.
+/// A shape's distance for two ends: how far it is, which light reads, and how far one may go. The two are one
+/// node where the distance's slope is 1.
 struct Marchable {
-  Expr distance;
-  double slope;  ///< over all of space, positive; infinite where it is not known
+  Expr distance;  ///< how far it is: nothing of it depends on how tight the slope's bound is
+  /// How far one may go: the ball of this radius around a point is free of the surface. Of the distance's
+  /// sign and zero set. The distance itself where the slope is not known.
+  Expr step;
+  double slope;  ///< of the distance, over all of space, positive; infinite where it is not known
 };
 
-/// The shape's distance, if its slope is known everywhere. Else that of a hard union is the least of its
-/// operands', each made marchable by itself; that of any other shape, if its slope is known near its finite
-/// bounds, the distance there and the way to the bounds, times the slope, beyond.
+/// A distance whose slope is known, and what contains its solid.
+struct Steep {
+  Expr distance;
+  double slope;
+  Box bounds = Box::everything();
+};
+
+/// The least of these, at least one, each divided by its own slope: that of one slope are joined first, so
+/// that they are divided once. Cost: linear in their number but for sorting their slopes.
+Marchable leastOf(std::span<const Steep> all);
+
+/// What the shape is marched by. The step of one shape is its distance divided by its slope or, where that is
+/// above 1, the way to its bounds if this is more; of a hard union it is the least of its operands', so that
+/// none is slowed down by another's slope. Where the slope is not known everywhere but near the finite
+/// bounds, the distance and the step are so there, and both the way to the bounds beyond. Cost: linear in the
+/// number of operands.
 Marchable marchable(const Shape& shape);
 
 }  // namespace sdf

@@ -34,6 +34,8 @@ std::vector<Light> standardLights() {
   return {key, fill};
 }
 
+Shadow standardShadow() { return {.kind = Shadow::Kind::Soft}; }
+
 Vec3E standardBackground() { return verticalGradient({0.16, 0.17, 0.19}, {0.01, 0.012, 0.018}); }
 
 Result<Scene> checked(Scene scene) {

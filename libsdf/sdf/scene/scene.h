@@ -42,7 +42,7 @@ struct Shadow {
   Expr sharpness = 8.0;           ///< k of k d / t; larger is harder
   std::optional<double> start{};  ///< where the shadow ray leaves the surface; none: see viewLengths
   std::optional<double> reach{};  ///< how far it goes; none: see viewLengths
-  int steps = 50;                 ///< at most
+  int steps = 500;  ///< readings that a ray may take; one that runs out of them is taken for dark
 };
 
 struct AmbientOcclusion {
@@ -91,10 +91,12 @@ struct Scene {
   Shape whole() const;
 };
 
-/// The lights of a scene that names none: a key light from above, to the right of the camera's usual place,
-/// and a weak one from the left that casts no shadow. They light each side of a box along the axes
+/// The lights of a scene that names none: a key light from above, to the left of the camera's usual place,
+/// and a weak one from the right that casts no shadow. They light each side of a box along the axes
 /// differently.
 std::vector<Light> standardLights();
+/// The shadow that they cast where the scene says nothing of shadows: a soft one.
+Shadow standardShadow();
 /// What stands behind a scene that names no lights: grey, darker upwards.
 Vec3E standardBackground();
 

@@ -188,7 +188,7 @@ const std::vector<Setting<Scene>>& sceneSettings() {
         field<&Scene::shadow, &Shadow::sharpness>("sharpness", Kind::Number, "of soft edges; larger is harder", Rule::Positive),
         field<&Scene::shadow, &Shadow::start>("start", Kind::PlainNumber, "distance from the surface at which the shadow ray starts", Rule::Positive, "0.02; without a camera 0.01 radii of the scene"),
         field<&Scene::shadow, &Shadow::reach>("reach", Kind::PlainNumber, "how far it goes", Rule::Positive, "20; without a camera 10 radii of the scene"),
-        field<&Scene::shadow, &Shadow::steps>("steps", Kind::Integer, "at most", Rule::Positive)},
+        field<&Scene::shadow, &Shadow::steps>("steps", Kind::Integer, "readings that a shadow ray may take; what runs out of them is dark, and sdfview says so", Rule::Positive)},
        false, [](Scene& s) { s.shadow.kind = Shadow::Kind::Soft; }},
       {"ambient_occlusion", "ambient_occlusion{kind = \"taps\"}", "darkens crevices",
        {field<&Scene::ambientOcclusion, &AmbientOcclusion::kind>("kind", Kind::Choice, "samples along the normal, or the count of steps", Rule::Any, "", {"none", "taps", "steps"}),
@@ -220,7 +220,7 @@ const std::vector<Setting<Light>>& lightSettings() {
   };
   static const std::vector<Setting<Light>> settings{
       {"directional_light", "directional_light{direction = {1, 1, 1}}",
-       "adds a light from far away; a scene that has no light and does not call `ambient` gets a warm one from above, a weak one from the right, and a grey background if it names none",
+       "adds a light from far away; a scene that has no light and does not call `ambient` gets a warm one from above that casts a soft shadow, unless `shadows` says which, a weak one from the right, and a grey background if it names none",
        fields("direction", "towards the light", Rule::NotZero), false,
        [](Light& light) { light.kind = Light::Kind::Directional; }},
       {"point_light", "point_light{position = {1, 1, 1}}", "adds a light at a point",

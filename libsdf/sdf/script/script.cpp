@@ -54,6 +54,7 @@ Result<Scene> runScene(const std::string& text, const std::string& name, const S
     return sceneError(name, "the scene is empty; add a shape with part(name, shape) or return one");
   if (context.scene.lights.empty() && !context.settingLines.contains("ambient")) {
     context.scene.lights = standardLights();  // else shapes are flat spots of their colour
+    if (!context.settingLines.contains("shadows")) context.scene.shadow = standardShadow();
     if (!context.settingLines.contains("background")) context.scene.background = standardBackground();
   }
   Result<Scene> scene = checked(std::move(context.scene));

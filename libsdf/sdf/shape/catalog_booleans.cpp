@@ -29,14 +29,13 @@ CatalogEntry blending(const std::string& name, std::string doc, std::string clai
 }  // namespace
 
 std::vector<CatalogEntry> booleanEntries() {
-  const std::string bound = "bound, L of the steepest operand";
+  const std::string bound = "a bound if all operands are; L of the steepest";
   return {
-      blending(
-          "union",
-          "What is in any of the shapes. The nearer shape's material is seen, a later one's on a tie; a "
-          "smooth union mixes materials.",
-          "hard: exact outside if all operands are, else bound; smooth: bound; L of the steepest operand",
-          unite),
+      blending("union",
+               "What is in any of the shapes. The nearer shape's material is seen, a later one's on a tie; a "
+               "smooth union mixes materials.",
+               "hard: exact outside if all operands are; else a bound if all are; L of the steepest operand",
+               unite),
       blending("intersection", "What is in all of the shapes. The first shape's material is seen.", bound,
                intersect),
       blending("difference", "The first shape without the others. Its material is seen on the cuts, too.",

@@ -23,7 +23,8 @@ std::vector<CatalogEntry> placeEntries() {
             }),
       entry("scale",
             "Scaled about the origin; negative factors reflect. One number scales alike along all axes.",
-            "as the shape; with unequal factors bound",
+            "as the shape; with unequal factors calibrated, where a surface turns off by up to the root of "
+            "their ratio",
             {operand, vector3("factor", "factors along x, y and z", Rule::NotZero)},
             [](const Shape& s, const Vec3E& factors) { return scale(s, factors); }),
       entry("mirror", "The shape and its mirror image in a plane through the origin, united.",

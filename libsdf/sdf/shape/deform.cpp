@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdf/shape/formula.h"
 #include "sdf/shape/operand.h"
 
 namespace sdf {
@@ -20,21 +21,13 @@ bool dependsOnZ(const Expr& e) {
   });
 }
 
-// f + offset over the sum of their constants; `slope` is that of the offset. The solid keeps within f <= -lo,
-// lo being the least offset, so that (f + lo) / L is a bound, too, and a much larger one away from the
-// surface.
-Shape displaced(const Shape& shape, const Expr& offset, const Expr& slope) {
-  const double growth = growthOf(shape.claim), steepest = slopeOf(shape);
-  const Expr sum = max(slope + steepest, 1.0);
-  const bool known = std::isfinite(steepest) && std::isfinite(uniformValue(slope));
+// f + offset. The solid keeps within f <= -lo, lo being the least offset.
+Shape displaced(const Shape& shape, const Expr& offset) {
+  const double growth = growthOf(shape.claim), raised = -offset.range().lo;
   Shape result = shape;
   result.distance = shape.distance + offset;
-  const double raised = -offset.range().lo;
-  if (known) result.distance = result.distance * (1.0 / sum);
-  if (known && std::isfinite(raised))
-    result.distance = max(result.distance, (shape.distance - raised) * (1.0 / std::max(steepest, 1.0)));
   if (raised > 0.0) result.bounds = grow(shape.bounds, growth * raised);
-  result.claim = {ClaimKind::Field, known ? 1.0 : kInfinity, known ? growth * sum.range().hi : growth};
+  result.claim = {ClaimKind::Field, slopeOf(shape) + offset.lipschitz(), growth};
   return settled(std::move(result));
 }
 
@@ -119,7 +112,7 @@ Shape displace(const Shape& shape, const Expr& offset) {
   Check check("displace", shape);
   check.that(shape.dimension == 3 || !dependsOnZ(offset), "the offset of a flat shape must not depend on z");
   if (!check.ok()) return check.failure();
-  return displaced(shape, offset, offset.lipschitz());
+  return displaced(shape, offset);
 }
 
 Shape displace(const Shape& shape, const Expr& amplitude, const Expr& frequency) {
@@ -131,8 +124,7 @@ Shape displace(const Shape& shape, const Expr& amplitude, const Expr& frequency)
   // in each u and so greatest at a corner of [0, 1]^3, where it is 0 or 1.
   const double w = frequency.range().magnitude();
   const Expr wave = (sin(p.x * frequency) * sin(p.y * frequency) * sin(p.z * frequency)).claimLipschitz(w);
-  const Expr offset = (wave * amplitude).claimLipschitz(w * amplitude.range().magnitude());
-  return displaced(shape, offset, abs(amplitude * frequency));
+  return displaced(shape, (wave * amplitude).claimLipschitz(w * amplitude.range().magnitude()));
 }
 
 Shape extrude(const Shape& flat, const Expr& halfHeight) {
@@ -145,9 +137,7 @@ Shape extrude(const Shape& flat, const Expr& halfHeight) {
   result.dimension = 3;
   result.claim.lipschitz = std::max(1.0, slopeOf(flat));
   // side depends on x and y, lid on z: the length of the pair is no steeper than the steeper of the two.
-  const Expr corner =
-      sqrt(square(max(side, 0.0)) + square(max(lid, 0.0))).claimLipschitz(std::max(1.0, side.lipschitz()));
-  result.distance = corner + min(max(side, lid), 0.0);
+  result.distance = boxDistance({side, lid}, std::max(1.0, side.lipschitz()));
   result.bounds.min.z = -h.range().hi;
   result.bounds.max.z = h.range().hi;
   result.claim.growth = std::max(1.0, growthOf(flat.claim));

@@ -1,32 +1,34 @@
 // Operators that change a shape's form: offsets, mixtures, sweeps of flat shapes, and warps of space.
 //
-// Operators that stretch the distance divide by the proven Lipschitz constant, so that their result is again
-// a bound with L = 1. Attributes follow the warped position; normals stay those of the world. Angles in
-// radians. A failed operand is passed on; numbers must be finite and must not depend on the position, unless
-// said otherwise.
+// The distance of a warped shape (twist, taper, bend, and scale with unlike factors) is calibrated: divided
+// by its slope where it is asked for, so that it can be rounded, shelled, blended and lit like any other.
+// Near flat faces it is the distance but for the bend of the warp, some hundredths of what it measures; where
+// a surface turns it may be off by as much as the warp's shear; beside edges it may fall short. Its proven
+// constant is a bound over the shape and half its radius around, and may be well above 1. Attributes follow
+// the warped position; normals stay those of the world. Angles in radians. A failed operand is passed on;
+// numbers must be finite and must not depend on the position, unless said otherwise.
 #pragma once
 #include "sdf/shape/shape.h"
 
 namespace sdf {
 
-/// (1 - t) a + t b, t in [0, 1]: a at 0, b at 1. A bound. Attributes are mixed alike. Fails outside [0, 1]; a
-/// parameter's range is clamped to it.
+/// (1 - t) a + t b, t in [0, 1]: a at 0, b at 1. A bound if both are. Attributes are mixed alike. Fails
+/// outside [0, 1]; a parameter's range is clamped to it.
 Shape morph(const Shape& a, const Shape& b, const Expr& t);
 
 /// Everything within `radius` >= 0 of the shape: f - radius. Exact outside stays so.
 Shape round(const Shape& shape, const Expr& radius);
 
 /// The skin of the shape, `thickness` > 0, half of it on either side of the surface: |f| - thickness / 2.
-/// Exact outside for an exact shape, else a bound.
+/// Exact outside for an exact shape, else a bound if the shape is.
 Shape shell(const Shape& shape, const Expr& thickness);
 
 /// Cut at the coordinate planes and pulled apart by `half` >= 0 either way along each axis, the gaps filled
-/// with the cross sections: f(p - clamp(p, -half, half)). A bound.
+/// with the cross sections: f(p - clamp(p, -half, half)). A bound if the shape is.
 Shape elongate(const Shape& shape, const Vec3E& half);
 
-/// f + offset, divided by the sum of their Lipschitz constants where that exceeds 1: positive offsets carve,
-/// negative ones raise. `offset` may depend on the position. A bound where both constants are known, else a
-/// field.
+/// f + offset: positive offsets carve, negative ones raise. `offset` may depend on the position. A field
+/// whose constant is the sum of both.
 Shape displace(const Shape& shape, const Expr& offset);
 /// The same with amplitude sin(wx) sin(wy) sin(wz), w = frequency in radians a scene unit. Its steepest slope
 /// is |amplitude| w. Solids only.
@@ -41,21 +43,21 @@ Shape extrude(const Shape& flat, const Expr& halfHeight);
 /// at x < 0.
 Shape revolve(const Shape& flat, const Expr& offset = 0.0);
 
-/// Turned about the y axis by `rate` radians for each unit of y. The constant is (a + sqrt(a^2 + 4)) / 2 for
-/// a = |rate| r, the largest singular value of a shear by a, at the radius r of the bounds. Beyond r the
-/// shape is looked up on the cylinder, so that the bound holds everywhere. A shape unbounded in x or z
-/// becomes a field.
+/// Turned about the y axis by `rate` radians for each unit of y. The shear is (a + sqrt(a^2 + 4)) / 2 for a =
+/// |rate| r at the radius r. Beyond one and a half times the radius of the bounds the shape is looked up on
+/// that cylinder. A shape unbounded in x or z becomes a field without a constant.
 Shape twist(const Shape& shape, const Expr& rate);
 
 /// The x axis bent into a circle of this curvature (1 / radius) towards +y; lengths along the x axis stay.
 /// Material at height y is stretched by 1 / (1 - curvature y). Fails where the shape would fold (curvature y
 /// >= 1 within its bounds) or its ends would pass each other (curvature |x| >= pi), and if it is unbounded
-/// there. Away from the shape, between its ends, the distance is capped, which keeps it continuous. A
-/// constant curvature below 1e-30 bends nothing.
+/// there. Towards the circle's centre and half a turn away the distance is capped, which keeps it continuous.
+/// A constant curvature below 1e-30 bends nothing.
 Shape bend(const Shape& shape, const Expr& curvature);
 
 /// The cross section at height y scaled by 1 + rate y in x and z. Fails where that factor is not positive
-/// within the bounds, and if the shape is unbounded in y. A shape unbounded in x or z becomes a field.
+/// within the bounds, and if the shape is unbounded in y. A shape unbounded in x or z becomes a field without
+/// a constant.
 Shape taper(const Shape& shape, const Expr& rate);
 
 }  // namespace sdf

@@ -30,12 +30,15 @@ Expr beyond(const Expr& a, const Expr& limit) {
   return (a - clamp(a, 0.0, limit)).claimLipschitz(a.lipschitz());
 }
 
-Expr boxDistance(const Expr& x, const Expr& y) {
-  return (norm(max(x, 0.0), max(y, 0.0)) + min(max(x, y), 0.0)).claimLipschitz(1.0);
-}
+Expr boxDistance(const Expr& x, const Expr& y) { return boxDistance({x, y}, 1.0); }
+Expr boxDistance(const Expr& x, const Expr& y, const Expr& z) { return boxDistance({x, y, z}, 1.0); }
 
-Expr boxDistance(const Expr& x, const Expr& y, const Expr& z) {
-  return (norm(max(x, 0.0), max(y, 0.0), max(z, 0.0)) + min(largest(x, y, z), 0.0)).claimLipschitz(1.0);
+Expr boxDistance(const std::vector<Expr>& sides, double slope) {
+  const auto off = [&](int i) { return max(sides[i], 0.0); };
+  const bool plane = sides.size() == 2;
+  const Expr corner = plane ? length(off(0), off(1)) : length(off(0), off(1), off(2));
+  const Expr most = plane ? max(sides[0], sides[1]) : largest(sides[0], sides[1], sides[2]);
+  return (corner.claimLipschitz(slope) + min(most, 0.0)).claimLipschitz(slope);
 }
 
 Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom, const Expr& top,

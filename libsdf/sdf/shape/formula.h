@@ -35,6 +35,8 @@ Expr beyond(const Expr& a, const Expr& limit);
 /// Exact distance to a box, given how far the point lies beyond its faces along each axis.
 Expr boxDistance(const Expr& x, const Expr& y);
 Expr boxDistance(const Expr& x, const Expr& y, const Expr& z);
+/// The same of two or three functions instead, with a slope of at most `slope`.
+Expr boxDistance(const std::vector<Expr>& sides, double slope);
 
 /// Exact distance to the ellipsoid (ellipse: two axes) with these radii, from coordinates along its axes.
 Expr ellipsoidDistance(std::vector<Expr> radii, std::vector<Expr> coordinates);

@@ -51,6 +51,13 @@ double radiusAbout(const Box& b, int axis) {
   return std::hypot(std::hypot(far.x, far.y), far.z);
 }
 
+double sizeOf(const Box& b) {
+  double size = 0.0;
+  for (int i = 0; i < 3; ++i)
+    if (b.max[i] - b.min[i] < kInfinity) size = std::max(size, b.max[i] - b.min[i]);
+  return size > 0.0 ? size : 1.0;
+}
+
 Expr outsideSlab(const Expr& x, double lo, double hi) {
   if (lo > -kInfinity && hi < kInfinity) return abs(x - 0.5 * (lo + hi)) - 0.5 * (hi - lo);
   return hi < kInfinity ? x - hi : lo - x;

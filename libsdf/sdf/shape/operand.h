@@ -36,6 +36,9 @@ Interval timesRange(const Interval& a, double lo, double hi);
 double radiusOf(const Box& b);
 double radiusAbout(const Box& b, int axis);
 
+/// The box's longest side that ends; 1 where none does.
+double sizeOf(const Box& b);
+
 /// How far a coordinate lies outside [lo, hi], negative inside; one of the ends must be finite.
 Expr outsideSlab(const Expr& x, double lo, double hi);
 /// The greatest outsideSlab over the box's axes that have a finite end, which never exceeds the distance to

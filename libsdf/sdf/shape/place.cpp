@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sdf/shape/booleans.h"
+#include "sdf/shape/calibrate.h"
 #include "sdf/shape/formula.h"
 #include "sdf/shape/operand.h"
 
@@ -191,16 +192,24 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
   const Vec3E p = position();
   // A flat shape's z stays as it is, in its colours too.
   const double stretch = 1.0 / (axes == 3 ? least.range().lo : std::min(least.range().lo, 1.0));
-  Shape result = movedTo(shape, {p.x * (1.0 / by.x), p.y * (1.0 / by.y), p.z * (1.0 / by.z)}, stretch);
-  result.distance = result.distance * least;
+  const Vec3E back{p.x * (1.0 / by.x), p.y * (1.0 / by.y), p.z * (1.0 / by.z)};
+  Shape result = movedTo(shape, back, stretch);
   for (int i = 0; i < 3; ++i) {
     const Interval side = timesRange(component(by, i).range(), shape.bounds.min[i], shape.bounds.max[i]);
     result.bounds.min[i] = side.lo;
     result.bounds.max[i] = side.hi;
   }
-  if (!uniform) {
-    result.claim = weakened(shape.claim, ClaimKind::Bound);
-    result.claim.growth = result.claim.growth * most.range().hi / least.range().lo;
+  if (uniform) {
+    result.distance = result.distance * least;
+  } else {
+    const auto pulled = [=](const Vec3E& n) -> Vec3E {
+      return {scaled(n.x, 1.0 / by.x), scaled(n.y, 1.0 / by.y), scaled(n.z, 1.0 / by.z)};
+    };
+    const Expr uneven = sqrt(most / least);
+    result.distance = calibrated(
+        shape.distance, {back, pulled, uneven / most, uneven, Box::everything(), -1.0, sizeOf(shape.bounds)});
+    result.claim = {ClaimKind::Field, result.distance.lipschitz(),
+                    growthOf(shape.claim) * most.range().hi / least.range().lo};
   }
   result = settled(std::move(result));
   if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard)

@@ -1,21 +1,22 @@
 // Twist, taper and bend.
 //
-// With f the operand, La its constant, T the map from the result's space back to the operand's and L the
-// largest singular value of T's Jacobian, f(T(p)) / (La L) is a bound wherever all of that holds. Two ways
-// make it hold everywhere.
+// With f the operand and T the map from the result's space back to the operand's, f(T(p)) has the right sign
+// and zeros; calibrated() makes a distance of it wherever T is tame. Two ways keep it so everywhere.
 //
-// Clamp (twist, taper): p is first projected to a convex region that contains the solid, and the result is
-// max(f(T(proj p)) / (La L), d) with d 1-Lipschitz, negative inside the region and positive outside. A
-// projection to a convex set moves no two points apart, so this is 1-Lipschitz; its zero set is the solid's.
+// Project (twist, taper): p is first moved to a convex region around the solid, and the way there is the side
+// of a box whose other side is the distance from there. A projection to a convex set and the way to it move
+// no two points apart, so this is no steeper; its zero set is the solid's.
 //
 // Cap (bend): where T tears or stretches without limit, T(p) is farther than some g from the operand's
-// bounds, so that f(T(p)) > c = g / growth there. min(f(T(p)), c) is then the constant c, which hides the
-// tear.
+// bounds, so that f(T(p)) > g / growth there. The least of the distance and a constant that it exceeds
+// wherever that holds hides the tear.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "sdf/shape/calibrate.h"
 #include "sdf/shape/deform.h"
+#include "sdf/shape/formula.h"
 #include "sdf/shape/operand.h"
 
 namespace sdf {
@@ -23,20 +24,30 @@ namespace sdf {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// How far beyond the bounds the clamp begins, as a share of their size: near the surface the distance is f(T)
-// / L alone.
-constexpr double kMargin = 1.0 / 16.0;
+// How far beyond the bounds the projection begins, as a share of their size.
+constexpr double kMargin = 0.5;
 
-// Largest singular value of [[a, b], [0, 1]], from the eigenvalues of its square. Like all constants here it
-// is an expression: a slider that stands at a slight twist pays for a slight one.
-Expr stretchOf(const Expr& a, const Expr& b) {
-  const Expr sum = square(a) + square(b) + 1.0;
-  return sqrt((sum + sqrt(max(square(sum) - 4.0 * square(a), 0.0))) * 0.5);
+// Largest singular value of [[a, b], [0, c]], from the eigenvalues of its square.
+Expr largestSingular(const Expr& a, const Expr& b, const Expr& c) {
+  const Expr sum = square(a) + square(b) + square(c);
+  return sqrt((sum + sqrt(max(square(sum) - 4.0 * square(a * c), 0.0))) * 0.5);
 }
+Expr stretchOf(const Expr& a, const Expr& b) { return largestSingular(a, b, 1.0); }
 
 bool finiteAlong(const Box& b, int axis) { return b.min[axis] > -kInfinity && b.max[axis] < kInfinity; }
 double farthestAlong(const Box& b, int axis) {
   return std::max(std::abs(b.min[axis]), std::abs(b.max[axis]));
+}
+
+// The heights of the bounds and `margin` beyond, where they end.
+Interval heightsAround(const Box& b, double margin) { return {b.min.y - margin, b.max.y + margin}; }
+Expr clampedTo(const Expr& x, const Interval& ends) {
+  const Expr above = ends.lo > -kInfinity ? max(x, ends.lo) : x;
+  return ends.hi < kInfinity ? min(above, ends.hi) : above;
+}
+Expr outsideOf(const Expr& x, const Interval& ends) {
+  const bool ended = ends.lo > -kInfinity || ends.hi < kInfinity;
+  return ended ? outsideSlab(x, ends.lo, ends.hi) : Expr(-kInfinity);
 }
 
 // The warped shape where nothing is proven of it.
@@ -45,10 +56,27 @@ Shape asField(Shape warped) {
   return settled(std::move(warped));
 }
 
-// The warped shape with a distance that is proven to be 1-Lipschitz everywhere.
-Shape withProvenBound(Shape warped, const Expr& distance, double growth) {
+// The warped shape from its distance at the nearest point of a convex region, the last of `sides`, and how
+// far a point is beyond that, the others. The nearest point of a convex set and the way to it are 1-Lipschitz
+// together, so that the length of both is no steeper than the one; `shear` says how much steeper where points
+// are moved otherwise. Far outside the solid is no nearer than `outside` and its bounds say.
+Shape within(Shape warped, const std::vector<Expr>& sides, double shear, const std::optional<Expr>& outside) {
+  std::vector<Expr> all;
+  for (const Expr& side : sides)
+    if (!side.isConstant(-kInfinity)) all.push_back(side);
+  const double slope = std::max(1.0, all.back().lipschitz()) * shear;
+  Expr distance = all.size() == 1 ? all[0] : boxDistance(all, slope);
+  // Calibrated distances fall short beside edges: a bound of full slope would cut what is rounded there.
+  constexpr double kShare = 0.75;
+  const auto keepBeyond = [&](const Expr& out) { distance = max(distance, min(out, out * kShare)); };
+  if (outside) keepBeyond(*outside);
+  const Vec3E p = position();
+  const Box& b = warped.bounds;
+  for (int i = 0; i < 3; ++i)
+    if ((!outside || i == 1) && (b.min[i] > -kInfinity || b.max[i] < kInfinity))
+      keepBeyond(outsideSlab(component(p, i), b.min[i], b.max[i]));
   warped.distance = distance;
-  warped.claim = {ClaimKind::Bound, 1.0, growth};
+  warped.claim = {ClaimKind::Field, slope, 1.0 / kShare};
   return settled(std::move(warped));
 }
 
@@ -81,6 +109,31 @@ Box bentBoxForAny(const Box& b) {
   return {{-reach, -reach, b.min.z}, {reach, reach, b.max.z}};
 }
 
+// A lower bound of what the expression is where the coordinates keep within the box.
+double leastOver(const Expr& e, const Box& box) {
+  Vec3E p = position();
+  for (int i = 0; i < 3; ++i) component(p, i) = clampedTo(component(p, i), {box.min[i], box.max[i]});
+  const Interval& range = remap(e, {p.x, p.y, p.z}, kInfinity).range();
+  return range.nan ? 0.0 : range.lo;
+}
+
+// A lower bound of a distance to what is to be bent, told where it is straight, over all that lies half a
+// turn away or as close to the centre as `fold`. Far on the other side the map shrinks to nothing, so that
+// side is taken apart.
+double leastWhereTorn(const Expr& straight, const Box& b, double k, double fold) {
+  const double end = kPi / std::abs(k), away = k > 0.0 ? b.min.y - sizeOf(b) : b.max.y + sizeOf(b);
+  Box centre = Box::everything(), outer = centre;
+  (k > 0.0 ? centre.min : centre.max).y = fold / k;
+  (k > 0.0 ? outer.max : outer.min).y = away;
+  Box left{glm::dvec3(-kInfinity), glm::dvec3(-end, kInfinity, kInfinity)};
+  (k > 0.0 ? left.min : left.max).y = away;
+  Box right = left;
+  right.min.x = end, right.max.x = kInfinity;
+  double least = kInfinity;
+  for (const Box& torn : {centre, outer, left, right}) least = std::min(least, leastOver(straight, torn));
+  return least;
+}
+
 // What makes the bend impossible over the curvature's range. `folding` is the largest curvature y within the
 // bounds.
 Check& checkBend(Check& check, const Box& b, double most, double folding) {
@@ -101,22 +154,27 @@ Shape twist(const Shape& shape, const Expr& rate) {
   Check check("twist", shape);
   if (!wantsSolid(check, shape).any("rate", rate).ok()) return check.failure();
   if (rate.isConstant(0.0)) return shape;
-  const Vec3E p = position();
-  const double radius = radiusAbout(shape.bounds, 1) * (1.0 + kMargin);
-  const double steepest = slopeOf(shape);
-  const bool known = radius > 0.0 && std::isfinite(radius) && std::isfinite(steepest);
-  const Expr r = length(p.x, p.z).claimLipschitz(1.0);
-  const Expr inward = known ? Expr(radius) / max(r, radius) : Expr(1.0);
-  const Expr angle = p.y * rate, c = cos(angle), s = sin(angle);
-  const Expr x = p.x * inward, z = p.z * inward;
-  const Expr stretch = known ? stretchOf(1.0, rate * radius) : Expr(kInfinity);
-  Shape warped = movedTo(shape, {x * c - z * s, p.y, x * s + z * c}, stretch.range().hi);
   const Box& b = shape.bounds;
+  const double radius = radiusAbout(b, 1), reach = radius * (1.0 + kMargin);
+  const bool known = radius > 0.0 && std::isfinite(radius) && std::isfinite(slopeOf(shape));
+  const Interval ends = heightsAround(b, radius);
+  const Vec3E p = position();
+  const Expr y = known ? clampedTo(p.y, ends) : p.y;
+  const Expr r = length(p.x, p.z).claimLipschitz(1.0);
+  const Expr inward = known ? Expr(reach) / max(r, reach) : Expr(1.0);
+  const Expr angle = y * rate, c = cos(angle), s = sin(angle);
+  const Expr x = p.x * inward, z = p.z * inward;
+  const Vec3E back{x * c - z * s, y, x * s + z * c};
+  Shape warped = movedTo(shape, back, kInfinity);
   warped.bounds = {{-radius, b.min.y, -radius}, {radius, b.max.y, radius}};
   if (!known) return asField(std::move(warped));
-  const Expr slope = max(stretch * steepest, 1.0);
-  return withProvenBound(warped, max(warped.distance * (1.0 / slope), r - radius),
-                         std::max(1.0, growthOf(shape.claim) * slope.range().hi));
+  const auto pulled = [=](const Vec3E& n) -> Vec3E {
+    return {n.x, n.y + rate * (scaled(p.x, n.z) - scaled(p.z, n.x)), n.z};
+  };
+  const Box region{{-reach, ends.lo, -reach}, {reach, ends.hi, reach}};
+  const Expr d = calibrated(shape.distance, {back, pulled, 1.0, stretchOf(1.0, rate * min(r, reach)), region,
+                                             r - reach, sizeOf(b)});
+  return within(std::move(warped), {r - reach, outsideOf(p.y, ends), d}, 1.0, r - radius);
 }
 
 Shape taper(const Shape& shape, const Expr& rate) {
@@ -136,25 +194,31 @@ Shape taper(const Shape& shape, const Expr& rate) {
   check.that(least > 0.0, "the cross section shrinks to nothing before y = " + shown(end) +
                               ", within the shape; use a rate nearer to 0");
   if (!check.ok()) return check.failure();
-  const double margin = kMargin * std::min(b.max.y - b.min.y, least / steepness);
-  const double bottom = b.min.y - margin, top = b.max.y + margin;
-  const Expr atBottom = rate * bottom + 1.0, atTop = rate * top + 1.0;
-  const Expr narrowest = min(atBottom, atTop);
-  const Expr radius = max(atBottom, atTop) * (radiusAbout(b, 1) * (1.0 + kMargin));
-  const double steepest = slopeOf(shape), widest = radius.range().hi;
-  const bool known = radius.range().lo > 0.0 && std::isfinite(widest) && std::isfinite(steepest);
-  const Expr stretch =
-      known ? stretchOf(1.0 / narrowest, radius * rate / square(narrowest)) : Expr(kInfinity);
+  const double radius = radiusAbout(b, 1), reach = radius * (1.0 + kMargin);
+  const Interval ends = heightsAround(b, std::min(radius, 0.5 * least / steepness));
+  const bool known = radius > 0.0 && std::isfinite(radius) && std::isfinite(slopeOf(shape));
+  const auto factorAt = [&](const Expr& y) { return rate * y + 1.0; };
   const Vec3E p = position();
-  const Expr y = clamp(p.y, bottom, top), factor = rate * y + 1.0;
-  const Expr r = length(p.x, p.z).claimLipschitz(1.0);
-  const Expr inward = known ? radius / (max(r, radius) * factor) : 1.0 / factor;
-  Shape warped = movedTo(shape, {p.x * inward, y, p.z * inward}, stretch.range().hi);
-  warped.bounds = {{-widest, bottom, -widest}, {widest, top, widest}};
+  const Expr y = clampedTo(p.y, ends), factor = factorAt(y);
+  const Expr r = length(p.x, p.z).claimLipschitz(1.0), side = factor * reach;
+  const Expr inward = known ? reach / max(r, side) : 1.0 / factor;
+  const Vec3E back{p.x * inward, y, p.z * inward};
+  Shape warped = movedTo(shape, back, kInfinity);
+  const Expr widest = max(factorAt(b.min.y), factorAt(b.max.y)) * radius;
+  const double most = widest.range().hi;
+  warped.bounds = {{-most, b.min.y, -most}, {most, b.max.y, most}};
   if (!known) return asField(std::move(warped));
-  const Expr slope = max(stretch * steepest, 1.0);
-  const Expr outside = max(r - radius, outsideSlab(p.y, bottom, top));
-  return withProvenBound(warped, max(warped.distance * (1.0 / slope), outside), 1.0);
+  const Expr once = 1.0 / factorAt(p.y);
+  const auto pulled = [=](const Vec3E& n) -> Vec3E {
+    return {scaled(once, n.x), n.y - rate * once * (scaled(p.x, n.x) + scaled(p.z, n.z)), scaled(once, n.z)};
+  };
+  const Box region{{-reach, ends.lo, -reach}, {reach, ends.hi, reach}};
+  const Expr sheared = largestSingular(1.0, rate * min(r, reach), factorAt(p.y));
+  const Expr d = calibrated(shape.distance, {back, pulled, once, sheared, region, r - reach, sizeOf(b)});
+  // Across the cone of this slope points are moved to it along the radius, not along its normal: a shear.
+  const Expr slope = rate * reach, aside = 1.0 / sqrt(square(slope) + 1.0);
+  const double shear = stretchOf(1.0, slope).range().hi;
+  return within(std::move(warped), {(r - side) * aside, outsideOf(p.y, ends), d}, shear, r - widest);
 }
 
 Shape bend(const Shape& shape, const Expr& curvature) {
@@ -168,34 +232,40 @@ Shape bend(const Shape& shape, const Expr& curvature) {
 
   const Expr k = keptFromZero(curvature);
   const Vec3E p = position();
-  const Expr across = p.x * k, up = 1.0 - p.y * k;
-  const Expr ratio = sqrt(square(across) + square(up));  // distance from the bend's centre, in radii
-  const Expr x = atan2(across, up) * (1.0 / k);
+  const Expr sideways = p.x * k, up = 1.0 - p.y * k;
+  const Expr ratio = sqrt(square(sideways) + square(up));  // distance from the bend's centre, in radii
+  const Expr x = atan2(sideways, up) * (1.0 / k);
   // (1 - ratio) / k without the cancellation that a slight bend would suffer.
   const Expr y = ((p.y * 2.0 - (square(p.x) + square(p.y)) * k) / (ratio + 1.0)).claimLipschitz(1.0);
-  Shape warped = movedTo(shape, {x, y, p.z}, kInfinity);
+  const Vec3E back{x, y, p.z};
+  Shape warped = movedTo(shape, back, kInfinity);
   warped.bounds = curvature.isConstant() ? bentBox(b, curvature.constantValue()) : bentBoxForAny(b);
 
-  const double growth = growthOf(shape.claim), steepest = slopeOf(shape);
-  if (!std::isfinite(growth * steepest)) return asField(std::move(warped));
-  const double gap = std::min(kPi / most - farthestAlong(b, 0), 0.25 * (1.0 - folding) / most);
+  const double growth = growthOf(shape.claim);
+  if (!std::isfinite(growth * slopeOf(shape))) return asField(std::move(warped));
+  const double gap = std::min(kPi / most - farthestAlong(b, 0), 0.5 * (1.0 - folding) / most);
   Expr fold = abs(k) * gap;
   for (const double end : {b.min.y, b.max.y})
     if (std::isfinite(end)) fold = max(fold, abs(k) * gap + k * end);
-  const Expr slope = max(steepest / (1.0 - fold), 1.0);
-  const double steep = slope.range().hi;
-  const double cap = gap / growth;
-  Expr distance = min(warped.distance, cap) * (1.0 / slope);
-  for (const auto& [e, axis] : {std::pair(y, 1), std::pair(p.z, 2)})
-    if (b.min[axis] > -kInfinity || b.max[axis] < kInfinity)
-      distance = max(distance, outsideSlab(e, b.min[axis], b.max[axis]));
-  // Below the cap the operand lies within growth * slope * c of its bounds, at a radius of at most `outer`;
-  // above it anywhere in the ring.
-  const double outer = 1.0 / most + farthestAlong(b, 1) + cap;
-  const double turned = (1.0 + most * outer) * growth * steep;
-  const double swelling =
-      curvature.isConstant() ? std::max(turned + 1.0, 2.0 * outer * steep / cap + 1.0) : kInfinity;
-  return withProvenBound(warped, distance, swelling);
+  const Expr steepest = 1.0 / (1.0 - fold);
+  const Expr across = 1.0 / max(1.0 - p.y * k, 1.0 - fold);
+  const auto pulled = [=](const Vec3E& n) -> Vec3E { return {scaled(across, n.x), n.y, n.z}; };
+  const auto bent = [&](const Vec3E& from, double reach, double cap) {
+    Box region = grow(b, reach);
+    if (k.isConstant()) {
+      const double centre = fold.constantValue() / k.constantValue();
+      (centre > 0.0 ? region.max : region.min).y = centre;
+    }
+    return calibrated(shape.distance, {from, pulled, 1.0, max(across, 1.0), region, -1.0, sizeOf(b), cap});
+  };
+  // The operand's distance is at least gap / growth where T tears or stretches without limit, so that the
+  // result's is at least that much less stretched; or what it is over all that lies there.
+  const double stretch = steepest.range().hi;
+  double cap = gap / growth / stretch;
+  if (k.isConstant() && std::isfinite(farthestAlong(b, 1)))
+    cap = std::max(cap, leastWhereTorn(bent(p, gap, kInfinity), b, k.constantValue(), fold.constantValue()));
+  const Expr d = bent(back, cap * growth * stretch, cap);
+  return within(std::move(warped), {min(d, cap)}, 1.0, {});
 }
 
 }  // namespace sdf

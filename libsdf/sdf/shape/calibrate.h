@@ -1,0 +1,32 @@
+// A warped shape's distance, calibrated: divided by its slope where it is asked for, not by its largest
+// anywhere. Private to sdf/shape.
+#pragma once
+#include <functional>
+
+#include "sdf/shape/shape.h"
+
+namespace sdf {
+
+/// A smooth map that carries a shape's points elsewhere, told by its inverse T, with T's Jacobian J. What is
+/// said of J is told at position(), a point of the shape's own space.
+struct Warp {
+  Vec3E back;  ///< T(p): where the result's point p is looked up
+  /// What has the gradient n there has a slope of |J^T n| in the result: J^T n, turned at will, linear in n.
+  std::function<Vec3E(const Vec3E& n)> pulled;
+  Expr usual;              ///< what |J^T n| is like there for unit n
+  Expr shear;              ///< bound of |J^T n| / usual
+  Box region;              ///< where this holds and the result's slope matters,
+  Expr beyond;             ///< but not where this is positive
+  double size;             ///< of the shape
+  double cap = kInfinity;  ///< a result that is no less than this may be steeper
+};
+
+/// The shape's distance f after the warp: it has the sign of f(T(p)), a slope of about 1 near its zeros, and
+/// a proven constant. Near a smooth zero the distance is f(T) / |J^T grad f| (Taubin 1994). To keep it
+/// continuous, f is taken apart where it is the least or greatest of functions, the distance to a box in
+/// them, or their length, and each is calibrated by itself: a linear one, such as a face's, by its own slope,
+/// one whose gradient turns by the usual slope, for which it may be off by the shear. The constant is bounded
+/// by intervals over cells of the region; it is infinite where the shape's own is.
+Expr calibrated(const Expr& distance, const Warp& warp);
+
+}  // namespace sdf

@@ -1,0 +1,33 @@
+// Forms that distances are written in, found again in the graph. Private to sdf/shape.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "sdf/expr/vec.h"
+
+namespace sdf {
+
+/// Is it the same at every position?
+inline bool isUniform(const Expr& e) { return e.lipschitz() == 0.0; }
+inline bool isZero(const Expr& e) { return e.isConstant(0.0); }
+/// max(u, 0)?
+inline bool isMaxWithZero(const Expr& e) { return e.op() == Op::Max && isZero(e.arg(1)); }
+/// u - clamp(u, lo, hi)?
+bool isBeyond(const Expr& e);
+
+/// Sums and products without terms of 0 and factors of 1.
+Expr sum(const Expr& a, const Expr& b);
+Vec3E sum(const Vec3E& a, const Vec3E& b);
+Expr times(const Expr& a, const Expr& b);
+Vec3E times(const Expr& a, const Vec3E& v);
+Expr product(const Vec3E& a, const Vec3E& b);
+Expr magnitude(const Vec3E& v);
+
+/// The two or three x of sqrt(x^2 + y^2 + ...), else none.
+std::vector<Expr> partsOfLength(const Expr& e);
+/// The x of boxDistance(x, y, ...), else none.
+std::vector<Expr> partsOfBox(const Expr& e);
+
+/// The gradient of a linear function, which is uniform, or nothing.
+std::optional<Vec3E> linearGradient(const Expr& e);
+}  // namespace sdf
