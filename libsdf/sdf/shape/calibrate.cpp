@@ -43,6 +43,7 @@ class IntervalReading {
       }
     }
   }
+  std::size_t size() const { return order_.size(); }
   const Interval& operator[](std::size_t output) const { return values_[outputs_[output]]; }
   double most(std::size_t output) const {
     const Interval& i = (*this)[output];
@@ -69,15 +70,15 @@ struct Cell {
 // Cells that cover the region, halved where the slope is worst until that is good or there are too many.
 // `slopesOf` reads one.
 template <class SlopesOf>
-std::vector<Cell> refined(const Box& region, double size, double good, SlopesOf slopesOf) {
-  constexpr std::size_t kMostCells = 500;
+std::vector<Cell> refined(const Box& region, double size, std::size_t mostCells, SlopesOf slopesOf) {
+  constexpr double kGood = 1.25;  // less is not looked for
   std::vector<Cell> cells;
   const auto add = [&](const Box& box) {
     cells.push_back({box, slopesOf(box)});
     std::ranges::push_heap(cells, {}, &Cell::worst);
   };
   add(region);
-  while (cells.size() < kMostCells && cells.front().worst() > good) {
+  while (cells.size() < mostCells && cells.front().worst() > kGood) {
     std::ranges::pop_heap(cells, {}, &Cell::worst);
     const Box box = cells.back().box;
     cells.pop_back();
@@ -146,7 +147,8 @@ class Calibration {
     if (op == Op::Sub && isUniform(arg(0))) return negative(of(arg(1), -sum(arg(0), offset)));
     if (op == Op::Sub && isUniform(arg(1))) return of(arg(0), sum(-arg(1), offset));
     for (const int i : {0, 1})
-      if (op == Op::Mul && isUniform(arg(i)) && arg(i).range().lo > 0.0)
+      if (op == Op::Mul && isUniform(arg(i)) && arg(i).range().lo > 0.0 &&
+          knowsMore(arg(1 - i), arg(i), claimed))
         return of(arg(1 - i), offset / arg(i));
     if (const auto n = linearGradient(isBeyond(e) ? arg(0) : op == Op::Abs ? arg(0) : e))
       return linear(sum(claimed, offset), *n);
@@ -162,6 +164,12 @@ class Calibration {
       if (const auto parts = partsOfLength(e); !parts.empty()) return together(Kind::Length, parts);
     }
     return turning(claimed, offset);
+  }
+
+  // A claim about a product is not known of its factor.
+  static bool knowsMore(const Expr& factor, const Expr& scale, const Expr& claimed) {
+    constexpr double kRounding = 1e-9;
+    return factor.lipschitz() * scale.range().hi <= claimed.lipschitz() * (1.0 + kRounding);
   }
 
   int add(Part part) {
@@ -236,8 +244,10 @@ class Calibration {
       if (values.back().lo >= warp_.cap && !values.back().nan) slopes.back() = 0.0;
       return slopes;
     };
+    // Some milliseconds' worth, whatever the size of the graph.
+    const std::size_t mostCells = std::clamp<std::size_t>(300000 / reading.size(), 60, 500);
     std::vector<double> most(parts_.size(), 0.0);
-    for (const Cell& cell : refined(warp_.region, warp_.size, kGood, slopesOf))
+    for (const Cell& cell : refined(warp_.region, warp_.size, mostCells, slopesOf))
       std::ranges::transform(most, cell.slopes, most.begin(),
                              [](double a, double b) { return std::max(a, b); });
     return most;
@@ -341,8 +351,6 @@ class Calibration {
     }
     return placed(part.value).claimLipschitz(slope);
   }
-
-  static constexpr double kGood = 1.25;  // less is not looked for
 
   const Warp& warp_;
   std::vector<Part> parts_;
