@@ -57,6 +57,8 @@ class IntervalReading {
   std::vector<Interval> values_;
 };
 
+Expr magnitude(const Vec3E& v) { return sqrt(weighted(v, v)); }
+
 // A product of bounds, of which one may be of nothing.
 double scaledBy(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
 
@@ -140,18 +142,18 @@ class Calibration {
     const Op op = e.op();
     const auto arg = [&](int i) -> const Expr& { return e.arg(i); };
     const auto both = [&](const Expr& a, const Expr& b) { return std::vector{of(a, offset), of(b, offset)}; };
-    if (isUniform(e)) return add({Kind::Uniform, {}, sum(e, offset)});
+    if (isUniform(e)) return add({Kind::Uniform, {}, e + offset});
     if (op == Op::Neg) return negative(of(arg(0), -offset));
-    if (op == Op::Add && isUniform(arg(0))) return of(arg(1), sum(arg(0), offset));
-    if (op == Op::Add && isUniform(arg(1))) return of(arg(0), sum(arg(1), offset));
-    if (op == Op::Sub && isUniform(arg(0))) return negative(of(arg(1), -sum(arg(0), offset)));
-    if (op == Op::Sub && isUniform(arg(1))) return of(arg(0), sum(-arg(1), offset));
+    if (op == Op::Add && isUniform(arg(0))) return of(arg(1), arg(0) + offset);
+    if (op == Op::Add && isUniform(arg(1))) return of(arg(0), arg(1) + offset);
+    if (op == Op::Sub && isUniform(arg(0))) return negative(of(arg(1), -(arg(0) + offset)));
+    if (op == Op::Sub && isUniform(arg(1))) return of(arg(0), -arg(1) + offset);
     for (const int i : {0, 1})
       if (op == Op::Mul && isUniform(arg(i)) && arg(i).range().lo > 0.0 &&
           knowsMore(arg(1 - i), arg(i), claimed))
         return of(arg(1 - i), offset / arg(i));
     if (const auto n = linearGradient(isBeyond(e) ? arg(0) : op == Op::Abs ? arg(0) : e))
-      return linear(sum(claimed, offset), *n);
+      return linear(claimed + offset, *n);
     if (op == Op::Abs) return add({Kind::Greatest, {of(arg(0), offset), negative(of(arg(0), -offset))}});
     if (op == Op::Min) return add({Kind::Least, both(arg(0), arg(1))});
     if (op == Op::Max) return add({Kind::Greatest, both(arg(0), arg(1))});
@@ -208,24 +210,24 @@ class Calibration {
   }
 
   static Expr cosine(const Part& a, const Part& b) {
-    return &a != &b && a.direction && b.direction ? abs(product(*a.direction, *b.direction)) : Expr(1.0);
+    return &a != &b && a.direction && b.direction ? abs(weighted(*a.direction, *b.direction)) : Expr(1.0);
   }
 
   // |J^T grad log s|.
-  Expr climb(const Expr& s) const { return times(1.0 / s, magnitude(warp_.pulled(gradientOf(s)))); }
+  Expr climb(const Expr& s) const { return scaled(magnitude(warp_.pulled(gradientOf(s))), 1.0 / s); }
 
   int linear(const Expr& g, const Vec3E& n) {
     const Vec3E v = warp_.pulled(n);
-    const Expr s = magnitude(v), value = s.isConstant(1.0) ? g : g / s;
+    const Expr s = magnitude(v), value = g / s;
     return add({.kind = Kind::Linear,
                 .value = value,
                 .roots = addRoots({value, climb(s)}),
-                .direction = times(1.0 / s, v)});
+                .direction = scaled(v, 1.0 / s)});
   }
 
   int turning(const Expr& claimed, const Expr& offset) {
-    const Expr g = sum(claimed, offset), value = warp_.usual.isConstant(1.0) ? g : g / warp_.usual;
-    const Expr steepest = times(claimed.lipschitz(), warp_.shear);
+    const Expr value = (claimed + offset) / warp_.usual;
+    const Expr steepest = claimed.lipschitz() * warp_.shear;
     return add(
         {.kind = Kind::Turning, .value = value, .roots = addRoots({value, climb(warp_.usual), steepest})});
   }
