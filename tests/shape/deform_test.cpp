@@ -231,6 +231,12 @@ TEST(Twist, HasTheTightConstant) {
       0.9);
 }
 
+TEST(Twist, KeepsToTheConstantsThatAreClaimedWithin) {
+  const Shape lattice = intersect(box(Vec3E(0.8)), gyroid(0.5, 0.05));
+  EXPECT_LT(twist(lattice, 0.6).claim.lipschitz, 2.0) << "the formula's own is a hundred times as much";
+  expectClaim(twist(lattice, 0.6), cube(1.5), 49);
+}
+
 TEST(Twist, OfAnUnboundedShapeIsAField) {
   const Shape s = twist(plane(Vec3E(1.0, 0.0, 0.0), 0.0), 1.0);
   EXPECT_EQ(s.claim.kind, ClaimKind::Field);

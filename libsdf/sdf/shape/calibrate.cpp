@@ -43,6 +43,7 @@ class IntervalReading {
       }
     }
   }
+  std::size_t size() const { return order_.size(); }
   const Interval& operator[](std::size_t output) const { return values_[outputs_[output]]; }
   double most(std::size_t output) const {
     const Interval& i = (*this)[output];
@@ -55,6 +56,8 @@ class IntervalReading {
   std::vector<std::size_t> outputs_;
   std::vector<Interval> values_;
 };
+
+Expr magnitude(const Vec3E& v) { return sqrt(weighted(v, v)); }
 
 // A product of bounds, of which one may be of nothing.
 double scaledBy(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
@@ -69,15 +72,15 @@ struct Cell {
 // Cells that cover the region, halved where the slope is worst until that is good or there are too many.
 // `slopesOf` reads one.
 template <class SlopesOf>
-std::vector<Cell> refined(const Box& region, double size, double good, SlopesOf slopesOf) {
-  constexpr std::size_t kMostCells = 500;
+std::vector<Cell> refined(const Box& region, double size, std::size_t mostCells, SlopesOf slopesOf) {
+  constexpr double kGood = 1.25;  // less is not looked for
   std::vector<Cell> cells;
   const auto add = [&](const Box& box) {
     cells.push_back({box, slopesOf(box)});
     std::ranges::push_heap(cells, {}, &Cell::worst);
   };
   add(region);
-  while (cells.size() < kMostCells && cells.front().worst() > good) {
+  while (cells.size() < mostCells && cells.front().worst() > kGood) {
     std::ranges::pop_heap(cells, {}, &Cell::worst);
     const Box box = cells.back().box;
     cells.pop_back();
@@ -139,17 +142,18 @@ class Calibration {
     const Op op = e.op();
     const auto arg = [&](int i) -> const Expr& { return e.arg(i); };
     const auto both = [&](const Expr& a, const Expr& b) { return std::vector{of(a, offset), of(b, offset)}; };
-    if (isUniform(e)) return add({Kind::Uniform, {}, sum(e, offset)});
+    if (isUniform(e)) return add({Kind::Uniform, {}, e + offset});
     if (op == Op::Neg) return negative(of(arg(0), -offset));
-    if (op == Op::Add && isUniform(arg(0))) return of(arg(1), sum(arg(0), offset));
-    if (op == Op::Add && isUniform(arg(1))) return of(arg(0), sum(arg(1), offset));
-    if (op == Op::Sub && isUniform(arg(0))) return negative(of(arg(1), -sum(arg(0), offset)));
-    if (op == Op::Sub && isUniform(arg(1))) return of(arg(0), sum(-arg(1), offset));
+    if (op == Op::Add && isUniform(arg(0))) return of(arg(1), arg(0) + offset);
+    if (op == Op::Add && isUniform(arg(1))) return of(arg(0), arg(1) + offset);
+    if (op == Op::Sub && isUniform(arg(0))) return negative(of(arg(1), -(arg(0) + offset)));
+    if (op == Op::Sub && isUniform(arg(1))) return of(arg(0), -arg(1) + offset);
     for (const int i : {0, 1})
-      if (op == Op::Mul && isUniform(arg(i)) && arg(i).range().lo > 0.0)
+      if (op == Op::Mul && isUniform(arg(i)) && arg(i).range().lo > 0.0 &&
+          knowsMore(arg(1 - i), arg(i), claimed))
         return of(arg(1 - i), offset / arg(i));
     if (const auto n = linearGradient(isBeyond(e) ? arg(0) : op == Op::Abs ? arg(0) : e))
-      return linear(sum(claimed, offset), *n);
+      return linear(claimed + offset, *n);
     if (op == Op::Abs) return add({Kind::Greatest, {of(arg(0), offset), negative(of(arg(0), -offset))}});
     if (op == Op::Min) return add({Kind::Least, both(arg(0), arg(1))});
     if (op == Op::Max) return add({Kind::Greatest, both(arg(0), arg(1))});
@@ -162,6 +166,12 @@ class Calibration {
       if (const auto parts = partsOfLength(e); !parts.empty()) return together(Kind::Length, parts);
     }
     return turning(claimed, offset);
+  }
+
+  // A claim about a product is not known of its factor.
+  static bool knowsMore(const Expr& factor, const Expr& scale, const Expr& claimed) {
+    constexpr double kRounding = 1e-9;
+    return factor.lipschitz() * scale.range().hi <= claimed.lipschitz() * (1.0 + kRounding);
   }
 
   int add(Part part) {
@@ -200,24 +210,24 @@ class Calibration {
   }
 
   static Expr cosine(const Part& a, const Part& b) {
-    return &a != &b && a.direction && b.direction ? abs(product(*a.direction, *b.direction)) : Expr(1.0);
+    return &a != &b && a.direction && b.direction ? abs(weighted(*a.direction, *b.direction)) : Expr(1.0);
   }
 
   // |J^T grad log s|.
-  Expr climb(const Expr& s) const { return times(1.0 / s, magnitude(warp_.pulled(gradientOf(s)))); }
+  Expr climb(const Expr& s) const { return scaled(magnitude(warp_.pulled(gradientOf(s))), 1.0 / s); }
 
   int linear(const Expr& g, const Vec3E& n) {
     const Vec3E v = warp_.pulled(n);
-    const Expr s = magnitude(v), value = s.isConstant(1.0) ? g : g / s;
+    const Expr s = magnitude(v), value = g / s;
     return add({.kind = Kind::Linear,
                 .value = value,
                 .roots = addRoots({value, climb(s)}),
-                .direction = times(1.0 / s, v)});
+                .direction = scaled(v, 1.0 / s)});
   }
 
   int turning(const Expr& claimed, const Expr& offset) {
-    const Expr g = sum(claimed, offset), value = warp_.usual.isConstant(1.0) ? g : g / warp_.usual;
-    const Expr steepest = times(claimed.lipschitz(), warp_.shear);
+    const Expr value = (claimed + offset) / warp_.usual;
+    const Expr steepest = claimed.lipschitz() * warp_.shear;
     return add(
         {.kind = Kind::Turning, .value = value, .roots = addRoots({value, climb(warp_.usual), steepest})});
   }
@@ -236,8 +246,10 @@ class Calibration {
       if (values.back().lo >= warp_.cap && !values.back().nan) slopes.back() = 0.0;
       return slopes;
     };
+    // Some milliseconds' worth, whatever the size of the graph.
+    const std::size_t mostCells = std::clamp<std::size_t>(300000 / reading.size(), 60, 500);
     std::vector<double> most(parts_.size(), 0.0);
-    for (const Cell& cell : refined(warp_.region, warp_.size, kGood, slopesOf))
+    for (const Cell& cell : refined(warp_.region, warp_.size, mostCells, slopesOf))
       std::ranges::transform(most, cell.slopes, most.begin(),
                              [](double a, double b) { return std::max(a, b); });
     return most;
@@ -341,8 +353,6 @@ class Calibration {
     }
     return placed(part.value).claimLipschitz(slope);
   }
-
-  static constexpr double kGood = 1.25;  // less is not looked for
 
   const Warp& warp_;
   std::vector<Part> parts_;

@@ -25,18 +25,6 @@ bool isBeyond(const Expr& e) {
   return clamped.arg(0).unclaimed().arg(0).unclaimed() == e.arg(0).unclaimed();
 }
 
-Expr sum(const Expr& a, const Expr& b) { return isZero(a) ? b : isZero(b) ? a : a + b; }
-Vec3E sum(const Vec3E& a, const Vec3E& b) { return {sum(a.x, b.x), sum(a.y, b.y), sum(a.z, b.z)}; }
-Expr times(const Expr& a, const Expr& b) { return a.isConstant(1.0) ? b : scaled(b, a); }
-Vec3E times(const Expr& a, const Vec3E& v) { return {times(a, v.x), times(a, v.y), times(a, v.z)}; }
-Expr product(const Vec3E& a, const Vec3E& b) {
-  return sum(sum(times(a.x, b.x), times(a.y, b.y)), times(a.z, b.z));
-}
-Expr magnitude(const Vec3E& v) {
-  const Expr squares = product(v, v);
-  return isZero(squares) ? squares : sqrt(squares);
-}
-
 std::vector<Expr> partsOfLength(const Expr& e) {
   std::vector<Expr> parts;
   if (e.op() != Op::Sqrt) return parts;
@@ -67,13 +55,13 @@ std::optional<Vec3E> linearGradient(const Expr& claimed) {
   if (e.op() != Op::Neg && e.op() != Op::Add && e.op() != Op::Sub && e.op() != Op::Mul) return {};
   const auto a = linearGradient(e.arg(0));
   if (!a) return {};
-  if (e.op() == Op::Neg) return times(-1.0, *a);
+  if (e.op() == Op::Neg) return scaled(*a, -1.0);
   const auto b = linearGradient(e.arg(1));
   if (!b) return {};
-  if (e.op() == Op::Add) return sum(*a, *b);
-  if (e.op() == Op::Sub) return sum(*a, times(-1.0, *b));
-  if (isUniform(e.arg(0))) return times(e.arg(0), *b);
-  return isUniform(e.arg(1)) ? std::optional(times(e.arg(1), *a)) : std::nullopt;
+  if (e.op() == Op::Add) return *a + *b;
+  if (e.op() == Op::Sub) return *a - *b;
+  if (isUniform(e.arg(0))) return scaled(*b, e.arg(0));
+  return isUniform(e.arg(1)) ? std::optional(scaled(*a, e.arg(1))) : std::nullopt;
 }
 
 }  // namespace sdf

@@ -15,14 +15,6 @@ inline bool isMaxWithZero(const Expr& e) { return e.op() == Op::Max && isZero(e.
 /// u - clamp(u, lo, hi)?
 bool isBeyond(const Expr& e);
 
-/// Sums and products without terms of 0 and factors of 1.
-Expr sum(const Expr& a, const Expr& b);
-Vec3E sum(const Vec3E& a, const Vec3E& b);
-Expr times(const Expr& a, const Expr& b);
-Vec3E times(const Expr& a, const Vec3E& v);
-Expr product(const Vec3E& a, const Vec3E& b);
-Expr magnitude(const Vec3E& v);
-
 /// The two or three x of sqrt(x^2 + y^2 + ...), else none.
 std::vector<Expr> partsOfLength(const Expr& e);
 /// The x of boxDistance(x, y, ...), else none.
@@ -30,4 +22,5 @@ std::vector<Expr> partsOfBox(const Expr& e);
 
 /// The gradient of a linear function, which is uniform, or nothing.
 std::optional<Vec3E> linearGradient(const Expr& e);
+
 }  // namespace sdf

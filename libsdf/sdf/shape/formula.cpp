@@ -16,6 +16,10 @@ Expr scaled(const Expr& a, const Expr& factor) {
   return factor.isConstant(-1.0) ? -a : a * factor;
 }
 
+Vec3E scaled(const Vec3E& v, const Expr& factor) {
+  return {scaled(v.x, factor), scaled(v.y, factor), scaled(v.z, factor)};
+}
+
 Expr weighted(const Vec3E& v, const Vec3E& weights) {
   return scaled(v.x, weights.x) + scaled(v.y, weights.y) + scaled(v.z, weights.z);
 }

@@ -19,6 +19,7 @@ Expr positiveSize(const Expr& size);
 /// a * factor without the product where either is 0, or the factor 1 or -1, for good. Only for finite ones:
 /// the graph itself keeps 0 * x, for x may be infinite.
 Expr scaled(const Expr& a, const Expr& factor);
+Vec3E scaled(const Vec3E& v, const Expr& factor);
 /// dot(v, weights) without the terms of weight 0.
 Expr weighted(const Vec3E& v, const Vec3E& weights);
 

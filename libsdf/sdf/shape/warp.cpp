@@ -113,7 +113,7 @@ Box bentBoxForAny(const Box& b) {
 double leastOver(const Expr& e, const Box& box) {
   Vec3E p = position();
   for (int i = 0; i < 3; ++i) component(p, i) = clampedTo(component(p, i), {box.min[i], box.max[i]});
-  const Interval& range = remap(e, {p.x, p.y, p.z}, kInfinity).range();
+  const Interval range = remap(e, {p.x, p.y, p.z}, kInfinity).range();
   return range.nan ? 0.0 : range.lo;
 }
 
