@@ -9,6 +9,7 @@
 
 #include "expr/evaluate.h"
 #include "number/adversary.h"
+#include "sdf/expr/vec.h"
 
 namespace sdf {
 namespace {
@@ -198,6 +199,64 @@ TEST(Facts, SlopesSurviveAMapOfKnownStretch) {
       if (auto wrong = steeper(e, somePoint(adversary), somePoint(adversary), e.lipschitz())) return wrong;
     return std::nullopt;
   });
+}
+
+TEST(Facts, PartialDerivativesEncloseTheChangeAlongEachAxis) {
+  int bounded = 0;
+  expectForRandomTrees(kTrials, [&](const Tree& tree, Adversary adversary) -> std::optional<std::string> {
+    const Expr e = tree.build();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slope = e.partials()[axis].magnitude();
+      if (slope == kInf) continue;
+      ++bounded;
+      for (int i = 0; i < kPoints; ++i) {
+        const auto p = somePoint(adversary);
+        auto q = p;
+        q[axis] = somePoint(adversary)[axis];
+        if (auto wrong = steeper(e, p, q, slope)) return wrong;
+      }
+    }
+    return std::nullopt;
+  });
+  EXPECT_GT(bounded, kTrials) << "too few expressions have a bound for the test to mean much";
+}
+
+const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
+           kZ = Expr::variable(Variable::Z);
+constexpr double kFewRoundings = 1e-14;
+
+TEST(Facts, SlopesAlongDifferentAxesAddAsSidesOfABox) {
+  EXPECT_NEAR((sin(kX) + sin(kY) + sin(kZ)).lipschitz(), std::sqrt(3.0), kFewRoundings);
+  EXPECT_NEAR((3.0 * kX - 4.0 * kY).lipschitz(), 5.0, 5.0 * kFewRoundings);
+  EXPECT_NEAR((kX + kY - kX).lipschitz(), 1.0, kFewRoundings);
+}
+
+TEST(Facts, AClaimBoundsThePartialDerivatives) {
+  const Expr e = (3.0 * kX - 4.0 * kY).claimLipschitz(2.0);
+  EXPECT_EQ(e.lipschitz(), 2.0);
+  EXPECT_EQ(e.partials()[0].lo, 2.0);
+  EXPECT_EQ(e.partials()[1].hi, -2.0);
+  EXPECT_EQ(e.partials()[2].magnitude(), 0.0);
+}
+
+TEST(Stretch, IsTheLargestOfScalingsAlongTheAxes) {
+  EXPECT_EQ(stretchOf({kX, kY, kZ}), 1.0);
+  EXPECT_NEAR(stretchOf({2.0 * kX, kY * -3.0, kZ}), 3.0, 3.0 * kFewRoundings);
+  EXPECT_EQ(stretchOf({Expr(1.0), Expr(2.0), Expr(3.0)}), 0.0);
+}
+
+TEST(Stretch, OfATurnIsOneAndOfAShearItsSingularValue) {
+  const Expr x = kX * 0.6 - kY * 0.8, y = kX * 0.8 + kY * 0.6;
+  EXPECT_NEAR(stretchOf({x, y, kZ}), 1.0, kFewRoundings);
+  EXPECT_NEAR(length(x, y, kZ).lipschitz(), 1.0, kFewRoundings);
+  EXPECT_NEAR(stretchOf({kX + kY, kY, kZ}), 0.5 * (1.0 + std::sqrt(5.0)), 2.0 * kFewRoundings);
+}
+
+TEST(Stretch, BoundsWhatMapsWithoutOneDerivativeDo) {
+  // By the slopes of each; by what the midpoints of the derivatives do and the most that they are off by.
+  EXPECT_NEAR(stretchOf({2.0 * kX + sin(kY), 0.0, 0.0}), std::sqrt(5.0), 1e-12);
+  EXPECT_NEAR(stretchOf({100.0 * kX + sin(kY), 100.0 * kY, 100.0 * kZ}), 101.0, 1e-10);
+  EXPECT_EQ(stretchOf({square(kX), kY, kZ}), kInf);
 }
 
 }  // namespace

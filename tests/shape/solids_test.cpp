@@ -373,7 +373,7 @@ TEST(Field, TakesTheFormulaAsItIsAndClaimsOnlyItsSign) {
   EXPECT_EQ(s.distance, formula);
   EXPECT_EQ(s.claim.kind, ClaimKind::Field);
   EXPECT_EQ(s.claim.lipschitz, formula.lipschitz());
-  EXPECT_NEAR(s.claim.lipschitz, 4.0, 1e-12);
+  EXPECT_NEAR(s.claim.lipschitz, std::sqrt(3.0 * 3.0 + 1.0), 1e-12);
 }
 
 TEST(Field, TrustsABoundThatIsGivenWhereTheGraphProvesNone) {

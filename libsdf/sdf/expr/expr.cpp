@@ -12,6 +12,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "sdf/base/box.h"
 #include "sdf/base/flat_map.h"
 #include "sdf/expr/apply-inl.h"
 
@@ -30,6 +31,7 @@ class Node {
   std::size_t hash = 0;
   Interval range;
   double lipschitz = 0.0;
+  std::array<Interval, 3> partials{};
   mutable std::atomic<int> references{1};
 };
 
@@ -61,9 +63,20 @@ struct Same {
   }
 };
 
-using Fact = Dual<Interval, 1>;  // range and slope, over all of space
+// Range, slope in any direction, and partial derivatives, over all of space. Neither kind of slope is the
+// tighter one always: sums along different axes want partial derivatives, what has been turned a slope.
+using Fact = Dual<Interval, 4>;
 
-Fact factOf(const Node& n) { return {n.range, {Interval(-n.lipschitz, n.lipschitz)}}; }
+Fact factOf(const Node& n) {
+  return {n.range, {Interval(-n.lipschitz, n.lipschitz), n.partials[0], n.partials[1], n.partials[2]}};
+}
+
+void setSlopes(Node& n, double bound, const Interval* partials) {
+  const double along = std::hypot(partials[0].magnitude(), partials[1].magnitude(), partials[2].magnitude());
+  n.lipschitz = std::min(bound, along);
+  const auto kept = [&](double slope) { return std::clamp(slope, -n.lipschitz, n.lipschitz); };
+  for (int i = 0; i < 3; ++i) n.partials[i] = {kept(partials[i].lo), kept(partials[i].hi)};
+}
 
 void setFacts(Node& n) {
   switch (n.op) {
@@ -77,21 +90,24 @@ void setFacts(Node& n) {
       return;
     case Op::Variable: {
       const bool coordinate = n.variable <= Variable::Z;
-      const double inf = Interval::everything().hi;
-      n.range = coordinate ? Interval(-inf, inf) : Interval(-1.0, 1.0);
-      n.lipschitz = coordinate ? 1.0 : inf;
+      n.range = coordinate ? Interval(-kInfinity, kInfinity) : Interval(-1.0, 1.0);
+      n.lipschitz = coordinate ? 1.0 : kInfinity;
+      if (coordinate)
+        n.partials[static_cast<int>(n.variable)] = 1.0;
+      else
+        n.partials.fill(Interval::everything());
       return;
     }
     case Op::Claim:
       n.range = n.args[0].range();
-      n.lipschitz = n.value;
+      setSlopes(n, n.value, n.args[0].partials().data());
       return;
     default:
       break;
   }
   const Fact fact = evaluateOp<Fact>(n.op, n.payload.get(), [&](int i) { return factOf(*n.args[i].node()); });
   n.range = fact.v;
-  n.lipschitz = fact.d[0].magnitude();
+  setSlopes(n, fact.d[0].magnitude(), fact.d + 1);
 }
 
 // Nodes made less nodes deleted by this thread, and how many there may be (see NodeLimit).
@@ -266,6 +282,7 @@ const ParameterInfo& Expr::parameterInfo() const { return *node_->parameter; }
 const PayloadPart* Expr::payloadPart() const { return node_->payload.get(); }
 const Interval& Expr::range() const { return node_->range; }
 double Expr::lipschitz() const { return node_->lipschitz; }
+const std::array<Interval, 3>& Expr::partials() const { return node_->partials; }
 Expr Expr::claimLipschitz(double bound) const {
   if (!(bound < lipschitz())) return *this;
   auto n = std::make_unique<Node>();

@@ -69,6 +69,8 @@ class Expr {
   /// Proven L with |f(p) - f(q)| <= L |p - q| for all p, q and every value of the parameters in their ranges;
   /// infinite where none is known. Derived from the arguments' as the node is built; a claim has its own.
   double lipschitz() const;
+  /// Enclose the difference quotients along x, y and z, wherever and over whatever distance they are taken.
+  const std::array<Interval, 3>& partials() const;
   /// The same function with a proven global Lipschitz bound: a node of its own, so that only what is built on
   /// it relies on the claim. The expression itself where that is known to be no steeper already.
   [[nodiscard]] Expr claimLipschitz(double bound) const;

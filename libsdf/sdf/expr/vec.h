@@ -1,6 +1,5 @@
 // Three expressions that belong together: positions, directions and colours written as formulas.
 #pragma once
-#include <cmath>
 #include <glm/vec3.hpp>
 
 #include "sdf/expr/expr.h"
@@ -36,16 +35,20 @@ inline Vec3E mix(const Vec3E& a, const Vec3E& b, const Expr& t) {
   return {mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t)};
 }
 
-/// Euclidean lengths. The gradient at 0 is defined as 0. Lipschitz facts follow from the arguments' own
-/// (|length(u) - length(v)| <= |u - v|), so a length of coordinates that form a basis should be claimed
-/// tighter.
+/// Bound of |a(p) - a(q)| / |p - q| over all p and q: the spectral norm of the partial derivatives'
+/// enclosures (its midpoints' norm plus a bound of what they are off by), or the root of the sum of the
+/// components' squared slopes if that is less; infinite where a component has no slope. Exact for scalings
+/// along the axes, to rounding for other linear maps.
+double stretchOf(const Vec3E& a);
+
+/// Euclidean lengths. The gradient at 0 is defined as 0. No steeper than what they are the length of
+/// (|length(u) - length(v)| <= |u - v|).
+inline Expr length(const Vec3E& a) {
+  return sqrt(square(a.x) + square(a.y) + square(a.z)).claimLipschitz(stretchOf(a));
+}
 inline Expr length(const Expr& a, const Expr& b) {
-  return sqrt(square(a) + square(b)).claimLipschitz(std::hypot(a.lipschitz(), b.lipschitz()));
+  return sqrt(square(a) + square(b)).claimLipschitz(stretchOf({a, b, 0.0}));
 }
-inline Expr length(const Expr& a, const Expr& b, const Expr& c) {
-  return sqrt(square(a) + square(b) + square(c))
-      .claimLipschitz(std::hypot(std::hypot(a.lipschitz(), b.lipschitz()), c.lipschitz()));
-}
-inline Expr length(const Vec3E& a) { return length(a.x, a.y, a.z); }
+inline Expr length(const Expr& a, const Expr& b, const Expr& c) { return length({a, b, c}); }
 
 }  // namespace sdf
