@@ -114,7 +114,9 @@ TEST(Scale, AlikeKeepsExactness) {
 
 TEST(Scale, UnevenlyIsAsSteepAsItIsUneven) {
   const Shape s = scale(sphere(1.0), Vec3E(0.5, 1.0, 2.0));
-  EXPECT_NEAR(s.claim.lipschitz, 2.0, 1e-9) << "the root of 2 over 0.5";
+  // 1, and a third of q (q - 1 / q) / 2 with q = 2 / 0.5 for how fast its own slope turns.
+  EXPECT_LE(s.claim.lipschitz, 3.5 + 1e-9);
+  EXPECT_GE(s.claim.lipschitz, 2.0) << "far away it is off by the root of 2 over 0.5";
   EXPECT_EQ(scale(box(Vec3E(1.0)), Vec3E(0.5, 1.0, 2.0)).claim.kind, ClaimKind::Bound) << "faces are exact";
   EXPECT_EQ(s.bounds.max, glm::dvec3(0.5, 1.0, 2.0));
   expectClaim(s, cube(3.0), 6);

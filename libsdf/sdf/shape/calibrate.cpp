@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 #include <span>
-#include <unordered_map>
 
-#include "sdf/expr/apply-inl.h"
 #include "sdf/expr/gradient.h"
+#include "sdf/shape/cells.h"
+#include "sdf/shape/curved.h"
 #include "sdf/shape/forms.h"
 #include "sdf/shape/formula.h"
 
@@ -16,90 +16,12 @@ namespace sdf {
 
 namespace {
 
-// The interval reading of several expressions at once.
-class IntervalReading {
- public:
-  explicit IntervalReading(std::span<const Expr> roots)
-      : order_(topologicalOrder(roots)), values_(order_.size()) {
-    std::unordered_map<Expr, std::size_t> places;
-    for (const Expr& e : order_) {
-      std::array<std::size_t, 3> args{};
-      for (int i = 0; i < arity(e.op()); ++i) args[i] = places.at(e.arg(i));
-      args_.push_back(args);
-      places.emplace(e, places.size());
-    }
-    for (const Expr& root : roots) outputs_.push_back(places.at(root));
-  }
-
-  void run(const Box& box) {
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      const Expr& e = order_[i];
-      const auto arg = [&](int k) { return values_[args_[i][k]]; };
-      if (e.op() == Op::Variable && e.variableIndex() <= Variable::Z) {
-        const int axis = static_cast<int>(e.variableIndex());
-        values_[i] = Interval(box.min[axis], box.max[axis]);
-      } else {
-        values_[i] = arity(e.op()) == 0 ? e.range() : evaluateOp<Interval>(e.op(), e.payloadPart(), arg);
-      }
-    }
-  }
-  std::size_t size() const { return order_.size(); }
-  const Interval& operator[](std::size_t output) const { return values_[outputs_[output]]; }
-  double most(std::size_t output) const {
-    const Interval& i = (*this)[output];
-    return i.nan ? kInfinity : i.hi;
-  }
-
- private:
-  std::vector<Expr> order_;
-  std::vector<std::array<std::size_t, 3>> args_;
-  std::vector<std::size_t> outputs_;
-  std::vector<Interval> values_;
-};
-
-Expr magnitude(const Vec3E& v) { return sqrt(weighted(v, v)); }
-
 // A product of bounds, of which one may be of nothing.
 double scaledBy(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
 
-// A cell of space with the slopes that bound each part's in it, the last being the whole's.
-struct Cell {
-  Box box;
-  std::vector<double> slopes;
-  double worst() const { return slopes.back(); }
-};
-
-// Cells that cover the region, halved where the slope is worst until that is good or there are too many.
-// `slopesOf` reads one.
-template <class SlopesOf>
-std::vector<Cell> refined(const Box& region, double size, std::size_t mostCells, SlopesOf slopesOf) {
-  constexpr double kGood = 1.25;  // less is not looked for
-  std::vector<Cell> cells;
-  const auto add = [&](const Box& box) {
-    cells.push_back({box, slopesOf(box)});
-    std::ranges::push_heap(cells, {}, &Cell::worst);
-  };
-  add(region);
-  while (cells.size() < mostCells && cells.front().worst() > kGood) {
-    std::ranges::pop_heap(cells, {}, &Cell::worst);
-    const Box box = cells.back().box;
-    cells.pop_back();
-    const glm::dvec3 sides = box.size();
-    const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
-    const double lo = box.min[axis], hi = box.max[axis];
-    const double unbounded = hi < kInfinity ? hi - size : lo > -kInfinity ? lo + size : 0.0;
-    for (const bool upper : {false, true}) {
-      Box half = box;
-      (upper ? half.min : half.max)[axis] = hi - lo < kInfinity ? 0.5 * (lo + hi) : unbounded;
-      add(half);
-    }
-  }
-  return cells;
-}
-
 // What the distance is taken apart into. Values are those of the result, told in the operand's space.
 struct Part {
-  enum class Kind { Uniform, Negative, Least, Greatest, Choice, Box, Length, Linear, Turning };
+  enum class Kind { Uniform, Negative, Least, Greatest, Choice, Box, Length, Linear, Curved, Turning };
   Kind kind;
   std::vector<int> of{};             // the parts that it is made of, before it in the list
   Expr value{};                      // of a leaf
@@ -111,17 +33,23 @@ struct Part {
 
 class Calibration {
  public:
-  explicit Calibration(const Warp& warp) : warp_(warp) {}
-
-  Expr run(const Expr& distance) {
+  // Curved parts have their own slope as far as `share` of what they could.
+  Calibration(const Expr& distance, const Warp& warp, double share) : warp_(warp), share_(share) {
     of(distance, 0.0);
-    std::vector<double> slopes = bounds();
-    if (slopes.back() == kInfinity) {
-      parts_.clear(), roots_.clear();
-      turning(distance, 0.0);
-      slopes = bounds();
-    }
-    return built(slopes);
+    slopes_ = bounds();
+    if (slope() < kInfinity) return;
+    parts_.clear(), roots_.clear();
+    turning(distance, 0.0);
+    slopes_ = bounds();
+  }
+
+  double slope() const { return slopes_.back(); }
+  bool hasCurved() const { return std::ranges::count(parts_, Part::Kind::Curved, &Part::kind) > 0; }
+
+  Expr built() const {
+    std::vector<Expr> made;
+    for (std::size_t i = 0; i < parts_.size(); ++i) made.push_back(built(parts_[i], made, slopes_[i]));
+    return made.back();
   }
 
  private:
@@ -165,6 +93,8 @@ class Calibration {
       if (const auto sides = partsOfBox(e); !sides.empty()) return together(Kind::Box, sides);
       if (const auto parts = partsOfLength(e); !parts.empty()) return together(Kind::Length, parts);
     }
+    if (const auto part = curvedPart(claimed, offset, warp_, share_))
+      return add({.kind = Kind::Curved, .value = part->value, .roots = addRoots({part->value, part->slope})});
     return turning(claimed, offset);
   }
 
@@ -213,23 +143,21 @@ class Calibration {
     return &a != &b && a.direction && b.direction ? abs(weighted(*a.direction, *b.direction)) : Expr(1.0);
   }
 
-  // |J^T grad log s|.
-  Expr climb(const Expr& s) const { return scaled(magnitude(warp_.pulled(gradientOf(s))), 1.0 / s); }
-
   int linear(const Expr& g, const Vec3E& n) {
     const Vec3E v = warp_.pulled(n);
-    const Expr s = magnitude(v), value = g / s;
+    const Expr s = warp_.stretchAlong(n), value = g / s;
     return add({.kind = Kind::Linear,
                 .value = value,
-                .roots = addRoots({value, climb(s)}),
+                .roots = addRoots({value, warp_.climb(s)}),
                 .direction = scaled(v, 1.0 / s)});
   }
 
   int turning(const Expr& claimed, const Expr& offset) {
     const Expr value = (claimed + offset) / warp_.usual;
     const Expr steepest = claimed.lipschitz() * warp_.shear;
-    return add(
-        {.kind = Kind::Turning, .value = value, .roots = addRoots({value, climb(warp_.usual), steepest})});
+    return add({.kind = Kind::Turning,
+                .value = value,
+                .roots = addRoots({value, warp_.climb(warp_.usual), steepest})});
   }
 
   // Bounds of the parts' slopes.
@@ -266,6 +194,8 @@ class Calibration {
       value = reading[part.roots];
       slope = is(Kind::Linear) ? 1.0 : reading.most(part.roots + 2);
       slope += scaledBy(value.nan ? kInfinity : value.magnitude(), reading.most(part.roots + 1));
+    } else if (is(Kind::Curved)) {
+      value = reading[part.roots], slope = reading.most(part.roots + 1);
     } else if (is(Kind::Negative)) {
       value = neg(valueOf(0)), slope = slopeOf(0);
     } else if (is(Kind::Least) || is(Kind::Greatest)) {
@@ -320,12 +250,6 @@ class Calibration {
 
   Expr placed(const Expr& e) const { return remap(e, {warp_.back.x, warp_.back.y, warp_.back.z}, kInfinity); }
 
-  Expr built(std::span<const double> slopes) const {
-    std::vector<Expr> made;
-    for (std::size_t i = 0; i < parts_.size(); ++i) made.push_back(built(parts_[i], made, slopes[i]));
-    return made.back();
-  }
-
   Expr built(const Part& part, std::span<const Expr> made, double slope) const {
     std::vector<Expr> d;
     for (std::size_t i = 0; i < part.of.size(); ++i) {
@@ -348,6 +272,7 @@ class Calibration {
       case Kind::Length:
         return (d.size() == 2 ? length(d[0], d[1]) : length(d[0], d[1], d[2])).claimLipschitz(slope);
       case Kind::Linear:
+      case Kind::Curved:
       case Kind::Turning:
         break;
     }
@@ -355,14 +280,32 @@ class Calibration {
   }
 
   const Warp& warp_;
+  double share_;
   std::vector<Part> parts_;
-  std::vector<Expr> roots_;  // what is read of a cell
-  std::vector<Expr> kept_;   // keeps the keys alive
+  std::vector<double> slopes_;  // bounds of the parts'
+  std::vector<Expr> roots_;     // what is read of a cell
+  std::vector<Expr> kept_;      // keeps the keys alive
   std::map<std::pair<const Node*, const Node*>, int> done_;
 };
 
 }  // namespace
 
-Expr calibrated(const Expr& distance, const Warp& warp) { return Calibration(warp).run(distance); }
+Expr Warp::stretchAlong(const Vec3E& n) const {
+  const Vec3E v = pulled(n);
+  return sqrt(weighted(v, v));
+}
+Expr Warp::climb(const Expr& s) const { return scaled(stretchAlong(gradientOf(s)), 1.0 / s); }
+
+// Curved parts have their own slopes as far as that does not make the whole much steeper.
+Expr calibrated(const Expr& distance, const Warp& warp) {
+  constexpr double kModerate = 6.0, kMuchSteeper = 2.0;
+  const Calibration whole(distance, warp, 1.0);
+  if (whole.slope() <= kModerate || !whole.hasCurved()) return whole.built();
+  const Calibration none(distance, warp, 0.0);
+  const double most = std::max(kModerate, kMuchSteeper * none.slope());
+  if (whole.slope() <= most) return whole.built();
+  const Calibration some(distance, warp, 0.25);
+  return some.slope() <= most ? some.built() : none.built();
+}
 
 }  // namespace sdf

@@ -13,20 +13,26 @@ struct Warp {
   Vec3E back;  ///< T(p): where the result's point p is looked up
   /// What has the gradient n there has a slope of |J^T n| in the result: J^T n, turned at will, linear in n.
   std::function<Vec3E(const Vec3E& n)> pulled;
-  Expr usual;              ///< what |J^T n| is like there for unit n
-  Expr shear;              ///< bound of |J^T n| / usual
-  Box region;              ///< where this holds and the result's slope matters,
-  Expr beyond;             ///< but not where this is positive
-  double size;             ///< of the shape
-  double cap = kInfinity;  ///< a result that is no less than this may be steeper
+  Expr usual;                ///< what |J^T n| is like there for unit n
+  Expr shear;                ///< the largest that |J^T n| / usual is, or more,
+  Expr least;                ///< and the least, or less
+  Box region;                ///< where this holds and the result's slope matters,
+  Expr beyond;               ///< but not where this is positive
+  double size;               ///< of the shape
+  double reach = kInfinity;  ///< how far from curved parts their slope matters
+  double cap = kInfinity;    ///< a result that is no less than this may be steeper
+
+  Expr stretchAlong(const Vec3E& n) const;  ///< |J^T n|
+  Expr climb(const Expr& s) const;          ///< |J^T grad log s|
 };
 
 /// The shape's distance f after the warp: it has the sign of f(T(p)), a slope of about 1 near its zeros, and
 /// a proven constant. Near a smooth zero the distance is f(T) / |J^T grad f| (Taubin 1994). To keep it
 /// continuous, f is taken apart where it is the least or greatest of functions, the distance to a box in
-/// them, or their length, and each is calibrated by itself: a linear one, such as a face's, by its own slope,
-/// one whose gradient turns by the usual slope, for which it may be off by the shear. The constant is bounded
-/// by intervals over cells of the region; it is infinite where the shape's own is.
+/// them, or their length, and each is calibrated by itself: a linear one, such as a face's, by its own slope;
+/// a curved one, such as a sphere, by its own as far as its radius allows (curved.h); any other by the usual
+/// one, for which it may be off by the shear. The constant is bounded by intervals over cells of the region;
+/// it is infinite where the shape's own is.
 Expr calibrated(const Expr& distance, const Warp& warp);
 
 }  // namespace sdf

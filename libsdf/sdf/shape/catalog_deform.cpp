@@ -42,19 +42,24 @@ std::vector<CatalogEntry> deformEntries() {
             "touching the axis; else bound",
             {flat, number("offset", "moves the flat shape along x first, scene units", Rule::Any, "0")},
             revolve),
-      entry("twist", "Turned about the y axis, the more the higher.",
-            "calibrated; where a surface turns off by a shear of up to (a + sqrt(a^2 + 4)) / 2, a = |rate| "
-            "radius; a field if unbounded in x or z",
-            {operand, number("rate", "degrees for each unit of y")},
-            [](const Shape& s, const Expr& rate) { return twist(s, radians(rate)); }),
+      entry(
+          "twist", "Turned about the y axis, the more the higher.",
+          "near the true one of flat, round and rounded shapes; of other curved ones off by a shear of up to "
+          "(a + sqrt(a^2 + 4)) / 2, a = |rate| radius; a field if unbounded in x or z",
+          {operand, number("rate", "degrees for each unit of y")},
+          [](const Shape& s, const Expr& rate) { return twist(s, radians(rate)); }),
       entry("bend",
             "The x axis bent into a circle towards +y; lengths along it stay. The shape must not reach the "
             "circle's centre nor half way around.",
-            "calibrated; where a surface turns off by up to the stretch, 1 / (1 - y / radius)",
+            "near the true one of flat, round and rounded shapes; of other curved ones off by up to the "
+            "stretch, "
+            "1 / (1 - y / radius)",
             {operand, number("rate", "degrees for each unit of x; the radius is 57.3 / rate")},
             [](const Shape& s, const Expr& rate) { return bend(s, radians(rate)); }),
       entry("taper", "The cross section at height y scaled by 1 + rate y in x and z.",
-            "calibrated; where a surface turns off by up to the shear; a field if unbounded in x or z",
+            "near the true one of flat, round and rounded shapes; of other curved ones off by up to the "
+            "shear; a "
+            "field if unbounded in x or z",
             {operand, number("rate", "change of the scale for each unit of y; negative narrows upwards")},
             taper),
   };

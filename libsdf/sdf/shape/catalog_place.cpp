@@ -21,12 +21,13 @@ std::vector<CatalogEntry> placeEntries() {
             [](const Shape& s, const Vec3E& axis, const Expr& angle) {
               return rotateAbout(s, axis, radians(angle));
             }),
-      entry("scale",
-            "Scaled about the origin; negative factors reflect. One number scales alike along all axes.",
-            "as the shape; with unequal factors calibrated, where a surface turns off by up to the root of "
-            "their ratio",
-            {operand, vector3("factor", "factors along x, y and z", Rule::NotZero)},
-            [](const Shape& s, const Vec3E& factors) { return scale(s, factors); }),
+      entry(
+          "scale",
+          "Scaled about the origin; negative factors reflect. One number scales alike along all axes.",
+          "as the shape; with unequal factors near the true one of flat, round and rounded shapes, of other "
+          "curved ones off by up to the root of their ratio",
+          {operand, vector3("factor", "factors along x, y and z", Rule::NotZero)},
+          [](const Shape& s, const Vec3E& factors) { return scale(s, factors); }),
       entry("mirror", "The shape and its mirror image in a plane through the origin, united.",
             "as the shape if it keeps to one side of the plane and clear of it; exact outside if exact; else "
             "bound",

@@ -23,4 +23,10 @@ std::vector<Expr> partsOfBox(const Expr& e);
 /// The gradient of a linear function, which is uniform, or nothing.
 std::optional<Vec3E> linearGradient(const Expr& e);
 
+/// Is e the length of coordinates at right angles, the distance to a box in them, or the same of such
+/// lengths less numbers? Its gradient has the length 1 then where it is positive, and the second derivative
+/// is at most 1 / min(e, r): returns r, which is infinite for coordinates and no steeper than 1, else
+/// nothing.
+std::optional<Expr> innerRadius(const Expr& e);
+
 }  // namespace sdf

@@ -206,8 +206,8 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
       return {scaled(n.x, 1.0 / by.x), scaled(n.y, 1.0 / by.y), scaled(n.z, 1.0 / by.z)};
     };
     const Expr uneven = sqrt(most / least);
-    result.distance = calibrated(
-        shape.distance, {back, pulled, uneven / most, uneven, Box::everything(), -1.0, sizeOf(shape.bounds)});
+    result.distance = calibrated(shape.distance, {back, pulled, uneven / most, uneven, 1.0 / uneven,
+                                                  Box::everything(), -1.0, sizeOf(shape.bounds)});
     result.claim = {ClaimKind::Field, result.distance.lipschitz(),
                     growthOf(shape.claim) * most.range().hi / least.range().lo};
   }

@@ -20,7 +20,8 @@ Shape rotateAbout(const Shape& shape, const Vec3E& axis, const Expr& angle);
 /// claim stays. Fails on 0.
 Shape scale(const Shape& shape, const Expr& factor);
 /// Scaled along each axis. With unequal factors the distance is calibrated, see deform.h: exact where it is
-/// that to a box, else with a constant of up to the root of the factors' ratio, and off by as much.
+/// that to a box, near the true one of what is round by a radius, else off by up to the root of the factors'
+/// ratio.
 Shape scale(const Shape& shape, const Vec3E& factors);
 
 /// The shape united with its mirror image in the plane through the origin across `normal`. Where the bounds

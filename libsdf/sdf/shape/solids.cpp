@@ -211,8 +211,8 @@ Shape solidAngle(const Expr& angle, const Expr& radius) {
   // The frame of the cone's side: along it, and out of it.
   const Expr along = (rho * s + p.y * k).claimLipschitz(1.0), out = (rho * k - p.y * s).claimLipschitz(1.0);
   const Expr side = norm(out, beyond(along, radius));
-  // This jumps beyond the rim, where the ball's distance is larger.
-  const Expr toSide = select(less(out, 0.0), -side, side);
+  // Beyond the rim the ball's distance is no less than along - radius, which keeps this from jumping there.
+  const Expr toSide = select(less(out, 0.0), max(-side, along - radius), side).claimLipschitz(1.0);
   const Expr distance = max(norm(p.x, p.y, p.z) - radius, toSide);
   const double r = upper(radius), widest = upper(a);
   return solid(distance, roundBounds(widest < std::numbers::pi / 2 ? r * std::sin(widest) : r,

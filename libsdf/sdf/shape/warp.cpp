@@ -109,10 +109,14 @@ Box bentBoxForAny(const Box& b) {
   return {{-reach, -reach, b.min.z}, {reach, reach, b.max.z}};
 }
 
-// A lower bound of what the expression is where the coordinates keep within the box.
+// A lower bound of what the expression is where the coordinates keep within the box, and are numbers whose
+// squares are: at infinity gradients are not.
 double leastOver(const Expr& e, const Box& box) {
+  constexpr double kFarthest = 1e30;
   Vec3E p = position();
-  for (int i = 0; i < 3; ++i) component(p, i) = clampedTo(component(p, i), {box.min[i], box.max[i]});
+  for (int i = 0; i < 3; ++i)
+    component(p, i) =
+        clampedTo(component(p, i), {std::max(box.min[i], -kFarthest), std::min(box.max[i], kFarthest)});
   const Interval range = remap(e, {p.x, p.y, p.z}, kInfinity).range();
   return range.nan ? 0.0 : range.lo;
 }
@@ -172,8 +176,9 @@ Shape twist(const Shape& shape, const Expr& rate) {
     return {n.x, n.y + rate * (scaled(p.x, n.z) - scaled(p.z, n.x)), n.z};
   };
   const Box region{{-reach, ends.lo, -reach}, {reach, ends.hi, reach}};
-  const Expr d = calibrated(shape.distance, {back, pulled, 1.0, stretchOf(1.0, rate * min(r, reach)), region,
-                                             r - reach, sizeOf(b)});
+  const Expr most = stretchOf(1.0, rate * min(r, reach));
+  const Expr d =
+      calibrated(shape.distance, {back, pulled, 1.0, most, 1.0 / most, region, r - reach, sizeOf(b)});
   return within(std::move(warped), {r - reach, outsideOf(p.y, ends), d}, 1.0, r - radius);
 }
 
@@ -214,7 +219,8 @@ Shape taper(const Shape& shape, const Expr& rate) {
   };
   const Box region{{-reach, ends.lo, -reach}, {reach, ends.hi, reach}};
   const Expr sheared = largestSingular(1.0, rate * min(r, reach), factorAt(p.y));
-  const Expr d = calibrated(shape.distance, {back, pulled, once, sheared, region, r - reach, sizeOf(b)});
+  const Expr d = calibrated(
+      shape.distance, {back, pulled, once, sheared, factorAt(p.y) / sheared, region, r - reach, sizeOf(b)});
   // Across the cone of this slope points are moved to it along the radius, not along its normal: a shear.
   const Expr slope = rate * reach, aside = 1.0 / sqrt(square(slope) + 1.0);
   const double shear = stretchOf(1.0, slope).range().hi;
@@ -256,14 +262,19 @@ Shape bend(const Shape& shape, const Expr& curvature) {
       const double centre = fold.constantValue() / k.constantValue();
       (centre > 0.0 ? region.max : region.min).y = centre;
     }
-    return calibrated(shape.distance, {from, pulled, 1.0, max(across, 1.0), region, -1.0, sizeOf(b), cap});
+    return calibrated(shape.distance, {from, pulled, 1.0, max(across, 1.0), min(across, 1.0), region, -1.0,
+                                       sizeOf(b), gap, cap});
   };
   // The operand's distance is at least gap / growth where T tears or stretches without limit, so that the
   // result's is at least that much less stretched; or what it is over all that lies there.
   const double stretch = steepest.range().hi;
   double cap = gap / growth / stretch;
-  if (k.isConstant() && std::isfinite(farthestAlong(b, 1)))
-    cap = std::max(cap, leastWhereTorn(bent(p, gap, kInfinity), b, k.constantValue(), fold.constantValue()));
+  // As far as offsets are wanted, and no farther: the slope is bounded up to there.
+  const double wanted = 0.1 * sizeOf(b);
+  if (cap < wanted && k.isConstant() && std::isfinite(farthestAlong(b, 1))) {
+    const double least = leastWhereTorn(bent(p, gap, kInfinity), b, k.constantValue(), fold.constantValue());
+    cap = std::max(cap, std::min(least, wanted));
+  }
   const Expr d = bent(back, cap * growth * stretch, cap);
   return within(std::move(warped), {min(d, cap)}, 1.0, {});
 }

@@ -1,0 +1,68 @@
+// Bounds of expressions over a region, by intervals over cells of it. Private to sdf/shape.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sdf/base/box.h"
+#include "sdf/expr/expr.h"
+
+namespace sdf {
+
+// The interval reading of several expressions at once.
+class IntervalReading {
+ public:
+  explicit IntervalReading(std::span<const Expr> roots);
+
+  void run(const Box& box);
+  std::size_t size() const { return order_.size(); }
+  const Interval& operator[](std::size_t output) const { return values_[outputs_[output]]; }
+  double most(std::size_t output) const {
+    const Interval& i = (*this)[output];
+    return i.nan ? kInfinity : i.hi;
+  }
+
+ private:
+  std::vector<Expr> order_;
+  std::vector<std::array<std::size_t, 3>> args_;
+  std::vector<std::size_t> outputs_;
+  std::vector<Interval> values_;
+};
+
+// A cell of space with the slopes that bound each part's in it, the last being the whole's.
+struct Cell {
+  Box box;
+  std::vector<double> slopes;
+  double worst() const { return slopes.back(); }
+};
+
+// Cells that cover the region, halved where the slope is worst until that is good or there are too many.
+// `slopesOf` reads one.
+template <class SlopesOf>
+std::vector<Cell> refined(const Box& region, double size, std::size_t mostCells, SlopesOf slopesOf) {
+  constexpr double kGood = 1.25;  // less is not looked for
+  std::vector<Cell> cells;
+  const auto add = [&](const Box& box) {
+    cells.push_back({box, slopesOf(box)});
+    std::ranges::push_heap(cells, {}, &Cell::worst);
+  };
+  add(region);
+  while (cells.size() < mostCells && cells.front().worst() > kGood) {
+    std::ranges::pop_heap(cells, {}, &Cell::worst);
+    const Box box = cells.back().box;
+    cells.pop_back();
+    const glm::dvec3 sides = box.size();
+    const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
+    const double lo = box.min[axis], hi = box.max[axis];
+    const double unbounded = hi < kInfinity ? hi - size : lo > -kInfinity ? lo + size : 0.0;
+    for (const bool upper : {false, true}) {
+      Box half = box;
+      (upper ? half.min : half.max)[axis] = hi - lo < kInfinity ? 0.5 * (lo + hi) : unbounded;
+      add(half);
+    }
+  }
+  return cells;
+}
+
+}  // namespace sdf
