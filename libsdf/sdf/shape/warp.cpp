@@ -269,13 +269,20 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   // result's is at least that much less stretched; or what it is over all that lies there.
   const double stretch = steepest.range().hi;
   double cap = gap / growth / stretch;
-  // As far as offsets are wanted, and no farther: the slope is bounded up to there.
-  const double wanted = 0.1 * sizeOf(b);
-  if (cap < wanted && k.isConstant() && std::isfinite(farthestAlong(b, 1))) {
+  const auto upTo = [&](double most) { return bent(back, most * growth * stretch, most); };
+  Expr d = upTo(cap);
+  if (k.isConstant() && std::isfinite(farthestAlong(b, 1))) {
+    // As far as may be, or at least as far as offsets are wanted, unless its slope is the price.
+    constexpr double kModerate = 6.0, kMuchSteeper = 2.0, kWanted = 0.1;
     const double least = leastWhereTorn(bent(p, gap, kInfinity), b, k.constantValue(), fold.constantValue());
-    cap = std::max(cap, std::min(least, wanted));
+    for (const double most : {least, std::min(least, kWanted * sizeOf(b))}) {
+      if (most <= cap) continue;
+      const Expr farther = upTo(most);
+      if (farther.lipschitz() > std::max(kModerate, kMuchSteeper * d.lipschitz())) continue;
+      d = farther, cap = most;
+      break;
+    }
   }
-  const Expr d = bent(back, cap * growth * stretch, cap);
   return within(std::move(warped), {min(d, cap)}, 1.0, {});
 }
 
