@@ -1,0 +1,15 @@
+// A part's mesh and materials in a glTF file.
+#pragma once
+#include "sdf/base/box.h"
+#include "sdf/gltf/gltf_model-inl.h"
+
+namespace sdf {
+
+/// Adds the part's mesh, which must have triangles: a primitive for each material, with those materials that
+/// the file does not have yet. Returns the mesh's index.
+int addMesh(GltfModel& model, const ExportPart& part);
+
+/// The box of all positions that the file's meshes have; empty if there are none.
+Box boundsOfMeshes(const GltfModel& model);
+
+}  // namespace sdf
