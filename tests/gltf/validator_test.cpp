@@ -75,6 +75,23 @@ TEST(Validator, AcceptsWhatIsMadeOfBrokenNormalsColoursAndNames) {
   EXPECT_EQ(complaints(".glb", Scene{}, {part("\xC3", mesh)}), "");
 }
 
+TEST(Validator, AcceptsBakedLight) {
+  const auto lit = [](Mesh mesh) {
+    ExportPart lit = part("lit", std::move(mesh));
+    lit.ambient.emplace(AmbientLight{glm::vec3(0.5f), {}, 0.0f});
+    for (const glm::vec3& p : lit.mesh.positions) {
+      lit.mesh.ambient.push_back({1.0f, 0.5f + 0.5f * p.x, 0.0f});
+      lit.ambient->occlusion.push_back(0.5f + 0.5f * p.y);
+    }
+    return lit;
+  };
+  Mesh glowing = twoColoredSphere(5, 5);
+  glowing.materials[0].emission = {5.0f, 1.0f, 0.0f};
+  const std::vector<ExportPart> parts{lit(glowing), lit(sphere(4, 4)), lit(sphere(1, 3))};
+  EXPECT_EQ(complaints(".glb", litScene(), parts), "");
+  EXPECT_EQ(complaints(".gltf", litScene(), parts), "");
+}
+
 TEST(Validator, AcceptsAPartWithoutTriangles) {
   EXPECT_EQ(complaints(".glb", Scene{}, {part("empty", Mesh{})}), "");
   EXPECT_EQ(complaints(".gltf", litScene(), {part("empty", Mesh{}), part("full", sphere(3, 4))}), "");

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "memory.h"
 #include "report.h"
 #include "sdf/base/file.h"
+#include "sdf/gltf/bake.h"
 #include "sdf/gltf/export.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/script/script.h"
@@ -19,6 +21,8 @@ namespace {
 /// Voxels along the longest side, unless told otherwise: a side of a thousand pixels then has five to a
 /// voxel.
 constexpr double kDefaultVoxels = 200.0;
+constexpr std::string_view kStepsAreNotBaked =
+    "ambient_occlusion: what counts steps depends on who looks and is not baked; take kind = 'taps'";
 
 /// Runs `work` and returns what it returned, adding how long it took.
 template <class Work>
@@ -57,6 +61,7 @@ class FrameExport {
     if (Status s = load(time); !s) return s;
     if (Status s = chooseVoxelSize(voxelSize); !s) return s;
     if (Status s = meshParts(exportedParts(scene, target), *voxelSize); !s) return s;
+    if (Status s = bake(); !s) return s;
     progress_.setSubject(subject_);
     progress_.beginStage("writing");
     if (Status s = stage("writing", [&] { return writeMeshes(target, scene, parts_); }); !s) return s;
@@ -124,6 +129,17 @@ class FrameExport {
       releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
     }
     return interrupted();
+  }
+
+  Status bake() {
+    if (!options_.bake) return okStatus();
+    progress_.setSubject(subject_);
+    if (scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps)
+      report.warnings.emplace_back(kStepsAreNotBaked);
+    if (Status s = stage("occlusion", [&] { return bakeAmbient(scene, clip_, parts_, progress_); }); !s)
+      return s;
+    for (std::size_t i = 0; i < parts_.size(); ++i) report.parts[i].ambientError = parts_[i].ambient->error;
+    return okStatus();
   }
 
   /// Runs `work`, which is a stage of the total.

@@ -6,6 +6,7 @@
 #include "command_line/frames.h"
 #include "command_line/values.h"
 #include "memory.h"
+#include "sdf/base/file.h"
 #include "sdf/base/version.h"
 #include "sdf/gltf/export.h"
 
@@ -20,7 +21,7 @@ struct Words {
   std::string scene, output;
   std::optional<std::string> voxelSize, bounds, time, frames, fps, only, report, threads, maxMemory;
   std::vector<std::string> parameters;
-  bool quiet = false;
+  bool bake = false, quiet = false;
 };
 
 Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
@@ -40,6 +41,13 @@ Status checkSequence(const Words& words) {
   return okStatus();
 }
 
+// Precondition: checkExtension(words.output).
+Status checkBake(const Words& words) {
+  if (!words.bake || isGltf(words.output)) return okStatus();
+  return usage("--bake writes ambient light as the emission of materials, which " +
+               lowerExtension(words.output) + " files do not have; write .glb or .gltf, or leave --bake out");
+}
+
 void declare(CLI::App& app, Words& words) {
   app.add_option("SCENE", words.scene, "scene file (Lua)")->required()->type_name("");
   const auto add = [&](const char* flag, auto& word, const char* value, const char* what) {
@@ -57,6 +65,8 @@ void declare(CLI::App& app, Words& words) {
   add("--report", words.report, "FILE.json", "write every figure to this file");
   add("--threads", words.threads, "N", "threads to use [all]");
   add("--max-memory", words.maxMemory, "GiB", "refuse to mesh what needs more [75 % of the machine's]");
+  app.add_flag("--bake", words.bake,
+               "put the ambient light and its occlusion into .glb and .gltf files, as emission");
   app.add_flag("-q,--quiet", words.quiet, "print errors only");
   app.footer(
       "Files appear under their names only when complete; of a sequence, finished frames stay if a later one "
@@ -68,13 +78,15 @@ Result<Options> interpreted(const Words& words) {
   Options options;
   options.scene = words.scene;
   options.output = words.output;
+  options.bake = words.bake;
   options.quiet = words.quiet;
   options.maxMemory = 0.75 * physicalMemory();
   options.only = words.only;
   options.report = words.report;
 
   constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
-  for (const Status& s : {checkExtension(words.output), checkSequence(words),
+  if (Status s = checkExtension(words.output); !s) return s.error();
+  for (const Status& s : {checkBake(words), checkSequence(words),
                           take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
                           take<double>("--time", words.time, options.time, seconds),
                           take<int>("--frames", words.frames, options.frames, count),

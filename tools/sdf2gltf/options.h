@@ -25,6 +25,7 @@ struct Options {
   std::optional<std::filesystem::path> report;
   std::optional<int> threads;
   double maxMemory = 0.0;  ///< bytes
+  bool bake = false;
   bool quiet = false;
 };
 

@@ -62,9 +62,12 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
   return all;
 }
 
+bool isGltf(const std::filesystem::path& target) {
+  return std::holds_alternative<GltfContainer>(findFormat(target)->encoding);
+}
+
 std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path& target) {
-  const bool apart = std::holds_alternative<GltfContainer>(findFormat(target)->encoding);
-  if (apart || scene.parts.size() < 2) return scene.parts;
+  if (isGltf(target) || scene.parts.size() < 2) return scene.parts;
   return {Part{"all parts united", scene.whole()}};
 }
 

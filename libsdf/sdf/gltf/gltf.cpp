@@ -14,7 +14,9 @@ using tinygltf::Value;
 void addPart(GltfModel& model, const ExportPart& part) {
   tinygltf::Node node;
   node.name = utf8(part.name);
-  node.extras = Value(extrasOf(part.stats));
+  Value::Object extras = extrasOf(part.stats);
+  if (part.ambient) extras["ambientError"] = Value(static_cast<double>(part.ambient->error));
+  node.extras = Value(std::move(extras));
   if (!part.mesh.triangles.empty()) node.mesh = addMesh(model, part);
   model.addNode(std::move(node));
 }

@@ -3,7 +3,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 
+#include "sdf/gltf/emission.h"
 #include "sdf/gltf/gltf_mesh-inl.h"
 #include "sdf/gltf/pbr.h"
 #include "sdf/gltf/primitive.h"
@@ -23,6 +25,7 @@ glm::vec3 unit(const glm::vec3& n) {
 }
 
 using ColorValue = glm::vec<4, std::uint16_t>;
+using CoordinateValue = glm::vec<2, std::uint16_t>;
 
 /// Linear colour in 16 bits a channel (8 would show bands in the darks), opaque.
 ColorValue quantized(const glm::vec3& color) {
@@ -30,25 +33,31 @@ ColorValue quantized(const glm::vec3& color) {
   return ColorValue(glm::round(color * kMost), 65535);
 }
 
-/// Adds the primitives of one mesh and their materials.
+/// Adds the primitives of one part's mesh and their materials.
 class MeshWriter {
  public:
-  MeshWriter(GltfModel& model, const Mesh& mesh) : model_(model), mesh_(mesh) {}
+  MeshWriter(GltfModel& model, const ExportPart& part) : model_(model), part_(part), mesh_(part.mesh) {}
 
   /// Makes room for all that the primitives will add, so that the data is never moved.
   void reserveFor(const std::vector<Primitive>& primitives) {
     std::size_t size = model_.bytes().size();
     for (const Primitive& primitive : primitives) {
       const std::size_t perIndex = primitive.vertices.size() > kMostShortVertices ? 4 : 2;
-      const std::size_t perVertex = 2 * sizeof(glm::vec3) + sizeof(ColorValue);
-      constexpr std::size_t kPadding = 4;
-      size += primitive.indices.size() * perIndex + primitive.vertices.size() * perVertex + kPadding;
+      const std::size_t perVertex = 2 * sizeof(glm::vec3) + sizeof(ColorValue) + sizeof(CoordinateValue);
+      constexpr std::size_t kPadding = 4, kTextures = 512;
+      size +=
+          primitive.indices.size() * perIndex + primitive.vertices.size() * perVertex + kPadding + kTextures;
     }
     model_.bytes().reserve(size);
   }
 
   tinygltf::Primitive add(const Primitive& primitive) {
-    const MeshMaterial& material = mesh_.materials[primitive.material];
+    MeshMaterial material = mesh_.materials[primitive.material];
+    BakedEmission baked;
+    if (part_.ambient) {
+      baked = bakedEmission(mesh_, primitive, *part_.ambient);
+      material.emission = baked.peak;
+    }
     const PbrMaterial pbr = toMetallicRoughness(material);
     const auto colorOf = [&](std::uint32_t vertex) { return pbr.baseColor(mesh_.colors[vertex]); };
     const std::uint32_t first = primitive.vertices[0];
@@ -69,7 +78,16 @@ class MeshWriter {
       model_.accessors[index].normalized = true;
       out.attributes["COLOR_0"] = index;
     }
-    out.material = addMaterial(material.name, pbr, plain ? colorOf(first) : glm::vec3(1.0f));
+    int texture = -1;
+    if (!baked.coordinates.empty()) {
+      const int index = model_.addAccessor(baked.coordinates.size(), TINYGLTF_TARGET_ARRAY_BUFFER,
+                                           TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC2,
+                                           [&](std::size_t i) { return baked.coordinates[i]; });
+      model_.accessors[index].normalized = true;
+      out.attributes["TEXCOORD_0"] = index;
+      texture = addTexture(2, baked.texels);
+    }
+    out.material = addMaterial(material.name, pbr, plain ? colorOf(first) : glm::vec3(1.0f), texture);
     return out;
   }
 
@@ -107,14 +125,32 @@ class MeshWriter {
                               [&](std::size_t i) { return static_cast<std::uint16_t>(indices[i]); });
   }
 
+  /// Index of a square texture of these texels, filtered between them and not beyond.
+  int addTexture(int side, std::span<const Texel> texels) {
+    tinygltf::Sampler sampler;
+    sampler.minFilter = sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    tinygltf::Texture texture;
+    texture.sampler = placeOf(std::move(sampler), model_.samplers);
+    texture.source = model_.addImage(side, texels);
+    return placeOf(std::move(texture), model_.textures);
+  }
+
   /// Index of the material; parts that wear the same one share it.
-  int addMaterial(const std::string& name, const PbrMaterial& pbr, const glm::vec3& baseColor) {
+  int addMaterial(const std::string& name, const PbrMaterial& pbr, const glm::vec3& baseColor,
+                  int emissiveTexture) {
     tinygltf::Material material;
     material.name = utf8(name);
     material.pbrMetallicRoughness.baseColorFactor = {baseColor.x, baseColor.y, baseColor.z, 1.0};
     material.pbrMetallicRoughness.metallicFactor = pbr.metallic;
     material.pbrMetallicRoughness.roughnessFactor = pbr.roughness;
     material.emissiveFactor = numbers(pbr.emissiveFactor);
+    if (emissiveTexture >= 0) {
+      material.emissiveTexture.index = emissiveTexture;
+      // VTK 9.1, and with it F3D, looks for other textures only where there is one of the base colour.
+      const Texel white[] = {Texel(255)};
+      material.pbrMetallicRoughness.baseColorTexture.index = addTexture(1, white);
+    }
     if (pbr.emissiveStrength > 1.0f) {
       material.extensions["KHR_materials_emissive_strength"] = tinygltf::Value(tinygltf::Value::Object{
           {"emissiveStrength", tinygltf::Value(static_cast<double>(pbr.emissiveStrength))}});
@@ -124,6 +160,7 @@ class MeshWriter {
   }
 
   GltfModel& model_;
+  const ExportPart& part_;
   const Mesh& mesh_;
 };
 
@@ -133,7 +170,7 @@ int addMesh(GltfModel& model, const ExportPart& part) {
   tinygltf::Mesh mesh;
   mesh.name = utf8(part.name);
   const std::vector<Primitive> primitives = splitByMaterial(part.mesh);
-  MeshWriter writer(model, part.mesh);
+  MeshWriter writer(model, part);
   writer.reserveFor(primitives);
   for (const Primitive& primitive : primitives) mesh.primitives.push_back(writer.add(primitive));
   model.meshes.push_back(std::move(mesh));

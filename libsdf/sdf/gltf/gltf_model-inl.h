@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ inline std::vector<double> numbers(const glm::dquat& q) { return {q.x, q.y, q.z,
 
 /// The measured figures, as a part's and the file's `extras` hold them.
 tinygltf::Value::Object extrasOf(const MeshStats& stats);
+
+using Texel = glm::vec<3, std::uint8_t>;
 
 /// A tinygltf model with one buffer and one scene.
 struct GltfModel : tinygltf::Model {
@@ -35,11 +38,15 @@ struct GltfModel : tinygltf::Model {
   template <class ElementAt>
   int addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt);
 
+  /// Index of a square picture of these texels, sRGB, by rows; the same one is held once.
+  int addImage(int side, std::span<const Texel> texels);
+
   /// Writes the file; its data is gone then. Errors: Limits (a .glb over 4 GiB).
   Status write(std::ostream& out, GltfContainer container);
 
  private:
   Status writeBinary(std::ostream& out);
+  std::vector<std::vector<unsigned char>> pictures_;  // the images as PNG
 };
 
 /// Index of the value in the list, to which it is added unless it is there.

@@ -12,6 +12,23 @@ namespace {
 /// The length of a .glb is a 32-bit number; the rest is left for the JSON chunk.
 constexpr std::uint64_t kMostBinaryBytes = (1ull << 32) - (1ull << 26);
 
+/// tinygltf hands out its encoder's bytes as a data URI only.
+std::vector<unsigned char> png(int side, std::span<const Texel> texels) {
+  tinygltf::Image image;
+  image.width = image.height = side;
+  image.component = 3;
+  image.bits = 8;
+  image.pixel_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+  for (const Texel& texel : texels) image.image.insert(image.image.end(), {texel.x, texel.y, texel.z});
+  const std::string folder, name = "texels.png";
+  std::string uri, kind;
+  std::vector<unsigned char> bytes;
+  constexpr bool kEmbedded = true;
+  tinygltf::WriteImageData(&folder, &name, &image, kEmbedded, &uri, nullptr);
+  tinygltf::DecodeDataURI(&bytes, kind, uri, 0, false);
+  return bytes;
+}
+
 }  // namespace
 
 tinygltf::Value::Object extrasOf(const MeshStats& stats) {
@@ -46,6 +63,24 @@ int GltfModel::addNode(tinygltf::Node node, int parent) {
 
 void GltfModel::useExtension(const std::string& name) {
   if (std::ranges::find(extensionsUsed, name) == extensionsUsed.end()) extensionsUsed.push_back(name);
+}
+
+int GltfModel::addImage(int side, std::span<const Texel> texels) {
+  const std::vector<unsigned char> picture = png(side, texels);
+  const int place = placeOf(picture, pictures_);
+  if (place < static_cast<int>(images.size())) return place;
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = bytes().size();
+  view.byteLength = picture.size();
+  bytes().insert(bytes().end(), picture.begin(), picture.end());
+  bytes().resize((bytes().size() + 3) / 4 * 4);
+  tinygltf::Image image;
+  image.bufferView = static_cast<int>(bufferViews.size());
+  image.mimeType = "image/png";
+  bufferViews.push_back(std::move(view));
+  images.push_back(std::move(image));
+  return place;
 }
 
 Status GltfModel::write(std::ostream& out, GltfContainer container) {
