@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "sdf/gltf/export.h"
+#include "sdf/gltf/animation.h"
 #include "support/folder.h"
 #include "synthetic.h"
 
@@ -90,6 +90,30 @@ TEST(Validator, AcceptsBakedLight) {
   const std::vector<ExportPart> parts{lit(glowing), lit(sphere(4, 4)), lit(sphere(1, 3))};
   EXPECT_EQ(complaints(".glb", litScene(), parts), "");
   EXPECT_EQ(complaints(".gltf", litScene(), parts), "");
+}
+
+TEST(Validator, AcceptsAnimations) {
+  const std::vector<double> times{0.0, 0.5};
+  Animation animation{times, {litScene(), litScene()}, {}};
+  animation.scenes[1].camera.from = Vec3E(1.0, 2.0, 3.0);
+  animation.scenes[1].lights[1].vector = Vec3E(1.0, 2.0, 4.0);
+  const RigidMotion moved{glm::angleAxis(3.0, glm::dvec3(0.6, 0.0, 0.8)), {1.0, 2.0, 3.0}};
+  animation.parts.push_back({"moving", {{part("moving", sphere(3, 4)), {RigidMotion{}, moved}}}});
+  animation.parts.push_back({"changing",
+                             {{part("changing", sphere(3, 4)), {RigidMotion{}, std::nullopt}},
+                              {part("changing", twoColoredSphere(3, 5)), {std::nullopt, moved}}}});
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    const Folder folder;
+    ASSERT_TRUE(writeAnimation(folder / name, animation));
+    EXPECT_EQ(complaints(folder / name), "");
+  }
+  animation.times = {2.0};
+  animation.scenes.resize(1);
+  animation.parts[1].meshes.resize(1);
+  for (AnimatedPart& part : animation.parts) part.meshes[0].motions.resize(1);
+  const Folder folder;
+  ASSERT_TRUE(writeAnimation(folder / "a.glb", animation));
+  EXPECT_EQ(complaints(folder / "a.glb"), "") << "one frame";
 }
 
 TEST(Validator, AcceptsAPartWithoutTriangles) {

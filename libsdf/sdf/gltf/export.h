@@ -25,7 +25,8 @@ struct ExportPart {
   std::optional<AmbientLight> ambient{};  ///< what .glb and .gltf hold of it; the other formats have no place
 };
 
-/// Figures of all parts together: sums; the largest voxel size and distance; the RMS weighted by triangles.
+/// Figures of all meshes together: sums; the largest voxel size and distance; the RMS weighted by triangles.
+MeshStats combined(const std::vector<MeshStats>& meshes);
 MeshStats combined(const std::vector<ExportPart>& parts);
 
 /// Is the extension one that writeMeshes takes (in upper or lower case)? The error lists those it takes

@@ -5,9 +5,9 @@
 
 namespace sdf {
 
-/// Adds the part's mesh, which must have triangles: a primitive for each material, with those materials that
-/// the file does not have yet. Returns the mesh's index.
-int addMesh(GltfModel& model, const ExportPart& part);
+/// A node of the part's name, with its figures. Its mesh, if it has triangles, is added to the file: a
+/// primitive for each material, with those materials that the file does not have yet.
+tinygltf::Node partNode(GltfModel& model, const ExportPart& part);
 
 /// The box of all positions that the file's meshes have; empty if there are none.
 Box boundsOfMeshes(const GltfModel& model);

@@ -164,8 +164,6 @@ class MeshWriter {
   const Mesh& mesh_;
 };
 
-}  // namespace
-
 int addMesh(GltfModel& model, const ExportPart& part) {
   tinygltf::Mesh mesh;
   mesh.name = utf8(part.name);
@@ -175,6 +173,19 @@ int addMesh(GltfModel& model, const ExportPart& part) {
   for (const Primitive& primitive : primitives) mesh.primitives.push_back(writer.add(primitive));
   model.meshes.push_back(std::move(mesh));
   return static_cast<int>(model.meshes.size()) - 1;
+}
+
+}  // namespace
+
+tinygltf::Node partNode(GltfModel& model, const ExportPart& part) {
+  using tinygltf::Value;
+  tinygltf::Node node;
+  node.name = utf8(part.name);
+  Value::Object extras = extrasOf(part.stats);
+  if (part.ambient) extras["ambientError"] = Value(static_cast<double>(part.ambient->error));
+  node.extras = Value(std::move(extras));
+  if (!part.mesh.triangles.empty()) node.mesh = addMesh(model, part);
+  return node;
 }
 
 Box boundsOfMeshes(const GltfModel& model) {
