@@ -21,7 +21,7 @@ struct Words {
   std::string scene, output;
   std::optional<std::string> voxelSize, bounds, time, frames, fps, only, report, threads, maxMemory;
   std::vector<std::string> parameters;
-  bool bake = false, quiet = false;
+  bool animate = false, bake = false, quiet = false;
 };
 
 Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
@@ -35,7 +35,15 @@ Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
                *text + "'");
 }
 
+// Precondition: checkExtension(words.output).
 Status checkSequence(const Words& words) {
+  if (words.animate && !words.frames)
+    return usage("--animate puts frames into one file; say how many with --frames N, or leave --animate out");
+  if (words.animate && !isGltf(words.output))
+    return usage(
+        "--animate: " + lowerExtension(words.output) +
+        " files hold no animation; write .glb or .gltf, or leave --animate out for a file for each frame");
+  if (words.animate) return okStatus();
   if (words.frames) return checkFrameName(words.output);
   if (words.fps) return usage("--fps says how fast --frames N go by; add --frames or leave --fps out");
   return okStatus();
@@ -60,6 +68,7 @@ void declare(CLI::App& app, Words& words) {
       ->allow_extra_args(false);
   add("-t,--time", words.time, "T", "the scene's time in seconds [0]");
   add("--frames", words.frames, "N", "write N files, OUT_0001.glb and so on, or wherever OUT has %04d");
+  app.add_flag("--animate", words.animate, "write the frames as one .glb or .gltf that moves");
   add("--fps", words.fps, "F", "frames a second [24]");
   add("--only", words.only, "PART", "export this part alone");
   add("--report", words.report, "FILE.json", "write every figure to this file");
@@ -78,6 +87,7 @@ Result<Options> interpreted(const Words& words) {
   Options options;
   options.scene = words.scene;
   options.output = words.output;
+  options.animate = words.animate;
   options.bake = words.bake;
   options.quiet = words.quiet;
   options.maxMemory = 0.75 * physicalMemory();
@@ -102,6 +112,12 @@ Result<Options> interpreted(const Words& words) {
 }
 
 }  // namespace
+
+double frameTime(const Options& options, int i) { return options.time + i / options.framesPerSecond; }
+
+std::string frameSubject(const Options& options, int i) {
+  return options.frames ? "frame " + std::to_string(i + 1) + " of " + std::to_string(*options.frames) : "";
+}
 
 Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* argv) {
   using Parsed = std::variant<Options, Answer>;

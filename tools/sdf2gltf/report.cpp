@@ -146,10 +146,17 @@ std::string reportJson(const Options& options, const std::vector<ParameterInfo>&
   for (const FileReport& file : files) {
     Json parts = Json::array();
     for (const ReportLine& part : file.parts) parts.push_back(json(part));
+    Json frames = Json::array();
+    for (const FrameReport& frame : file.frames) {
+      Json meshes = Json::object();
+      for (const auto& [part, place] : frame.meshes) meshes[part] = place;
+      frames.push_back({{"time", frame.time}, {"meshes", meshes}});
+    }
     outputs.push_back({{"file", file.file.string()},
                        {"time", file.time},
                        {"parts", parts},
                        {"total", json(file.total)},
+                       {"frames", frames},
                        {"warnings", file.warnings}});
   }
   const Json report{{"generator", std::string("sdf2gltf ") + version()},

@@ -28,11 +28,19 @@ struct ReportLine {
   std::optional<float> ambientError{};  ///< AmbientLight::error, where light was baked
 };
 
+/// One moment of an animation.
+struct FrameReport {
+  double time = 0.0;
+  std::vector<std::pair<std::string, std::size_t>>
+      meshes;  ///< the parts that are there, with their places in the report
+};
+
 /// One written file.
 struct FileReport {
   std::filesystem::path file;
   double time = 0.0;
   std::vector<ReportLine> parts;
+  std::vector<FrameReport> frames;    ///< of an animation
   std::vector<std::string> warnings;  ///< of the whole file
   ReportLine total;                   ///< with the stages that belong to no part: script, bounds, writing
 };
