@@ -71,6 +71,15 @@ TEST(MotionBetween, IsExactlyNothingWhereNothingMoved) {
   EXPECT_EQ(m->translation, glm::dvec3(0.0));
 }
 
+TEST(MotionBetween, DoesNotTurnWhatOnlyMoves) {
+  const Shape askew = rotate(body(), {0.3, 0.5, 0.7});
+  const std::optional<RigidMotion> m =
+      between(translate(askew, {0.1, 0.2, 0.3}), translate(askew, {1.7, -0.3, 0.9}));
+  ASSERT_TRUE(m);
+  EXPECT_EQ(m->rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
+  EXPECT_LT(glm::distance(m->translation, {1.6, -0.5, 0.6}), 1e-14);
+}
+
 TEST(MotionBetween, SeesThroughWhatElseWasDoneToABody) {
   // Turned about a point of its own, twisted before, painted after, in a union that moves as a whole.
   const auto at = [](double t) {

@@ -187,7 +187,10 @@ std::optional<RigidMotion> motionOf(const std::array<const Pair*, 3>& pivots,
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(product[i][j] - (i == j ? 1.0 : 0.0)));
   if (!(off < kSame / kApart) || glm::determinant(turn) < 0.0) return std::nullopt;
-  const glm::dquat rotation = glm::normalize(glm::quat_cast(turn));
+  glm::dquat rotation = glm::normalize(glm::quat_cast(turn));
+  // What only moves is not to be turned by rounding.
+  if (glm::length(glm::dvec3(rotation.x, rotation.y, rotation.z)) < 0.1 * kSame)
+    rotation = {1.0, 0.0, 0.0, 0.0};
   return RigidMotion{rotation, -(rotation * (glm::inverse(glm::transpose(from)) * shift))};
 }
 
