@@ -16,13 +16,16 @@ constexpr std::size_t kFrames = 4;
 
 AnimatedMesh still(ExportPart part) { return {std::move(part), {kFrames, RigidMotion{}}}; }
 
+/// Of the mesh that moves.
+const glm::vec3 kMiddle(3.0f, 1.0f, 0.0f);
+
 glm::dquat aboutY(double angle) { return glm::angleAxis(angle, glm::dvec3(0.0, 1.0, 0.0)); }
 
 /// Four frames of half a second, from time 1: a part that rests, one that moves and turns, and one of two
 /// shapes.
 Animation example() {
   Animation animation{{1.0, 1.5, 2.0, 2.5}, std::vector<Scene>(kFrames), {}};
-  AnimatedMesh moving = still(part("moving", sphere(3, 4)));
+  AnimatedMesh moving = still(part("moving", sphere(3, 4, kMiddle)));
   for (std::size_t i = 0; i < kFrames; ++i)
     moving.motions[i] = {aboutY(2.0 * static_cast<double>(i)), {1.0 * i, 0.0, -1.0}};
   AnimatedMesh first = still(part("changing", sphere(3, 4))), second = still(part("changing", sphere(4, 5)));
@@ -89,7 +92,9 @@ TEST(Animation, APartThatMovesHasOneMeshAndAKeyForEachFrame) {
     ASSERT_EQ(moved.size(), kFrames);
     ASSERT_EQ(turned.size(), kFrames);
     for (std::size_t i = 0; i < kFrames; ++i) {
-      EXPECT_EQ(moved[i], glm::vec3(i, 0, -1));
+      const RigidMotion motion{aboutY(2.0 * static_cast<double>(i)), {1.0 * i, 0.0, -1.0}};
+      EXPECT_LT(glm::distance(moved[i], glm::vec3(motion(glm::dvec3(kMiddle)))), 8 * 0x1p-23f)
+          << "of some units";
       const glm::dquat meant = aboutY(2.0 * static_cast<double>(i));
       // Either of the two quaternions of one turn, in float.
       const double cosine = glm::dot(glm::dvec4(turned[i]), glm::dvec4(meant.x, meant.y, meant.z, meant.w));
@@ -99,9 +104,12 @@ TEST(Animation, APartThatMovesHasOneMeshAndAKeyForEachFrame) {
       }
     }
     EXPECT_TRUE(scales(model, "moving").empty());
-    EXPECT_GE(model.nodes[nodeOf(model, "moving")].mesh, 0);
-    EXPECT_EQ(model.nodes[nodeOf(model, "moving")].translation, (std::vector<double>{0, 0, -1}))
-        << "the first frame";
+    const tinygltf::Node& node = model.nodes[nodeOf(model, "moving")];
+    ASSERT_EQ(node.children.size(), 1u);
+    const tinygltf::Node& held = model.nodes[node.children[0]];
+    EXPECT_GE(held.mesh, 0);
+    EXPECT_EQ(held.translation, (std::vector<double>{-3, -1, 0})) << "it turns about its middle";
+    EXPECT_EQ(node.translation, (std::vector<double>{3, 1, -1})) << "as in the first frame";
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <glm/common.hpp>
 #include <iterator>
+#include <utility>
 
 #include "sdf/gltf/formats.h"
 #include "sdf/gltf/gltf_mesh-inl.h"
@@ -114,6 +116,44 @@ std::vector<RigidMotion> filled(const std::vector<std::optional<RigidMotion>>& m
   return all;
 }
 
+bool turns(const std::vector<RigidMotion>& motions) {
+  return std::ranges::any_of(motions,
+                             [&](const RigidMotion& m) { return m.rotation != motions[0].rotation; });
+}
+
+/// Middle of the mesh's box, in float.
+glm::vec3 middleOf(const Mesh& mesh) {
+  glm::vec3 low = mesh.positions[0], high = low;
+  for (const glm::vec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return 0.5f * (low + high);
+}
+
+/// Adds a node that moves so; where it turns it does so about the middle of its mesh, which a child holds.
+/// Between two keys a reader moves a node's origin along a chord: about the scene's origin all that is far
+/// from it would sway.
+int addMoving(GltfModel& model, tinygltf::Node node, const std::optional<int>& parent, const Mesh& mesh,
+              std::vector<RigidMotion> motions, KeyWriter& keys) {
+  const auto add = [&](tinygltf::Node one) {
+    return parent ? model.addNode(std::move(one), *parent) : model.addNode(std::move(one));
+  };
+  if (node.mesh < 0 || !turns(motions)) {
+    const int index = add(std::move(node));
+    keys.move(index, motions);
+    return index;
+  }
+  const glm::dvec3 middle(middleOf(mesh));
+  tinygltf::Node held = placed(node.name + " about its middle", {-middle, {1.0, 0.0, 0.0, 0.0}});
+  held.mesh = std::exchange(node.mesh, -1);
+  const int index = add(std::move(node));
+  model.addNode(std::move(held), index);
+  for (RigidMotion& m : motions) m.translation = m(middle);
+  keys.move(index, motions);
+  return index;
+}
+
 void addPart(GltfModel& model, const AnimatedPart& part, KeyWriter& keys) {
   std::optional<int> parent;
   if (part.meshes.size() > 1) {
@@ -123,13 +163,12 @@ void addPart(GltfModel& model, const AnimatedPart& part, KeyWriter& keys) {
   }
   for (std::size_t i = 0; i < part.meshes.size(); ++i) {
     const AnimatedMesh& mesh = part.meshes[i];
-    tinygltf::Node shape = partNode(model, mesh.part);
-    if (parent) shape.name += " " + std::to_string(i + 1);
-    const int node = parent ? model.addNode(std::move(shape), *parent) : model.addNode(std::move(shape));
-    keys.move(node, filled(mesh.motions));
+    tinygltf::Node node = partNode(model, mesh.part);
+    if (parent) node.name += " " + std::to_string(i + 1);
+    const int index = addMoving(model, std::move(node), parent, mesh.part.mesh, filled(mesh.motions), keys);
     std::vector<bool> there;
     for (const auto& m : mesh.motions) there.push_back(m.has_value());
-    keys.show(node, there);
+    keys.show(index, there);
   }
 }
 

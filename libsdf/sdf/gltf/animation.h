@@ -35,8 +35,9 @@ struct Animation {
 /// Writes a .glb or .gltf whose one animation, "frames", has a key for each frame, beginning at 0: the nodes'
 /// translation and rotation where a mesh, the camera or a light moves, interpolated linearly, and 0 or 1 for
 /// the scale of each of a part's several meshes, in steps. A part of one mesh is a node; of several, a node
-/// with a child for each. Without animation the file shows the first frame. A camera that the scenes leave
-/// open stands where it sees all frames' bounds. Errors: as writeMeshes.
+/// with a child for each. What turns does so about the middle of its mesh, which a child of its node holds.
+/// Without animation the file shows the first frame. A camera that the scenes leave open stands where it sees
+/// all frames' bounds. Errors: as writeMeshes.
 Status writeAnimation(const std::filesystem::path& target, const Animation& animation);
 
 /// What changes with time and cannot be written, a line each: the camera's angle, the colours and intensities
