@@ -229,10 +229,14 @@ Status encodeAnimation(std::ostream& out, GltfContainer container, const Animati
   GltfModel model;
   KeyWriter keys(model, animation.times);
   std::vector<MeshStats> stats;
-  for (const AnimatedPart& part : animation.parts) {
-    addPart(model, part, keys);
-    for (const AnimatedMesh& mesh : part.meshes) stats.push_back(mesh.part.stats);
-  }
+  std::size_t most = 0;
+  for (const AnimatedPart& part : animation.parts)
+    for (const AnimatedMesh& mesh : part.meshes) {
+      most += mostBytesOf(mesh.part);
+      stats.push_back(mesh.part.stats);
+    }
+  model.bytes().reserve(most);
+  for (const AnimatedPart& part : animation.parts) addPart(model, part, keys);
   addCameraAndLights(model, animation, keys);
   model.asset.extras = Value(extrasOf(combined(stats)));
   return model.write(out, container);

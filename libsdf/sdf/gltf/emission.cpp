@@ -1,8 +1,10 @@
 #include "sdf/gltf/emission.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "sdf/gltf/srgb.h"
 

@@ -38,19 +38,6 @@ class MeshWriter {
  public:
   MeshWriter(GltfModel& model, const ExportPart& part) : model_(model), part_(part), mesh_(part.mesh) {}
 
-  /// Makes room for all that the primitives will add, so that the data is never moved.
-  void reserveFor(const std::vector<Primitive>& primitives) {
-    std::size_t size = model_.bytes().size();
-    for (const Primitive& primitive : primitives) {
-      const std::size_t perIndex = primitive.vertices.size() > kMostShortVertices ? 4 : 2;
-      const std::size_t perVertex = 2 * sizeof(glm::vec3) + sizeof(ColorValue) + sizeof(CoordinateValue);
-      constexpr std::size_t kPadding = 4, kTextures = 512;
-      size +=
-          primitive.indices.size() * perIndex + primitive.vertices.size() * perVertex + kPadding + kTextures;
-    }
-    model_.bytes().reserve(size);
-  }
-
   tinygltf::Primitive add(const Primitive& primitive) {
     MeshMaterial material = mesh_.materials[primitive.material];
     BakedEmission baked;
@@ -78,15 +65,7 @@ class MeshWriter {
       model_.accessors[index].normalized = true;
       out.attributes["COLOR_0"] = index;
     }
-    int texture = -1;
-    if (!baked.coordinates.empty()) {
-      const int index = model_.addAccessor(baked.coordinates.size(), TINYGLTF_TARGET_ARRAY_BUFFER,
-                                           TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC2,
-                                           [&](std::size_t i) { return baked.coordinates[i]; });
-      model_.accessors[index].normalized = true;
-      out.attributes["TEXCOORD_0"] = index;
-      texture = addTexture(2, baked.texels);
-    }
+    const int texture = addTexture(baked, out);
     out.material = addMaterial(material.name, pbr, plain ? colorOf(first) : glm::vec3(1.0f), texture);
     return out;
   }
@@ -97,6 +76,17 @@ class MeshWriter {
   int addAttribute(const Primitive& primitive, int componentType, int type, ElementOf elementOf) {
     return model_.addAccessor(primitive.vertices.size(), TINYGLTF_TARGET_ARRAY_BUFFER, componentType, type,
                               [&](std::size_t i) { return elementOf(primitive.vertices[i]); });
+  }
+
+  /// Index of the emission's texture, to which the primitive receives coordinates; -1 if it has none.
+  int addTexture(const BakedEmission& baked, tinygltf::Primitive& primitive) {
+    if (baked.coordinates.empty()) return -1;
+    const int index = model_.addAccessor(baked.coordinates.size(), TINYGLTF_TARGET_ARRAY_BUFFER,
+                                         TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC2,
+                                         [&](std::size_t i) { return baked.coordinates[i]; });
+    model_.accessors[index].normalized = true;
+    primitive.attributes["TEXCOORD_0"] = index;
+    return addTexture(2, baked.texels);
   }
 
   int addPositions(const Primitive& primitive) {
@@ -167,10 +157,9 @@ class MeshWriter {
 int addMesh(GltfModel& model, const ExportPart& part) {
   tinygltf::Mesh mesh;
   mesh.name = utf8(part.name);
-  const std::vector<Primitive> primitives = splitByMaterial(part.mesh);
   MeshWriter writer(model, part);
-  writer.reserveFor(primitives);
-  for (const Primitive& primitive : primitives) mesh.primitives.push_back(writer.add(primitive));
+  for (const Primitive& primitive : splitByMaterial(part.mesh))
+    mesh.primitives.push_back(writer.add(primitive));
   model.meshes.push_back(std::move(mesh));
   return static_cast<int>(model.meshes.size()) - 1;
 }
@@ -186,6 +175,15 @@ tinygltf::Node partNode(GltfModel& model, const ExportPart& part) {
   node.extras = Value(std::move(extras));
   if (!part.mesh.triangles.empty()) node.mesh = addMesh(model, part);
   return node;
+}
+
+std::size_t mostBytesOf(const ExportPart& part) {
+  constexpr std::size_t kVertex = 2 * sizeof(glm::vec3) + sizeof(ColorValue) + sizeof(CoordinateValue);
+  constexpr std::size_t kTriangle = sizeof(glm::uvec3);
+  constexpr std::size_t kPrimitive = 512;  // padding and textures
+  const Mesh& mesh = part.mesh;
+  return mesh.positions.size() * kVertex + mesh.triangles.size() * kTriangle +
+         mesh.materials.size() * kPrimitive;
 }
 
 Box boundsOfMeshes(const GltfModel& model) {
