@@ -1,11 +1,10 @@
 // Files are read back with tinygltf's loader and, in validator_test.cpp, by Khronos' validator.
 #include <gtest/gtest.h>
-#include <tiny_gltf.h>
 
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "gltf/read_back.h"
 #include "sdf/gltf/export.h"
 #include "sdf/gltf/primitive.h"
 #include "support/folder.h"
@@ -14,45 +13,7 @@
 namespace sdf {
 namespace {
 
-tinygltf::Model load(const std::filesystem::path& file) {
-  tinygltf::Model model;
-  std::string error, warning;
-  tinygltf::TinyGLTF loader;
-  const bool loaded = file.extension() == ".glb"
-                          ? loader.LoadBinaryFromFile(&model, &error, &warning, file.string())
-                          : loader.LoadASCIIFromFile(&model, &error, &warning, file.string());
-  EXPECT_TRUE(loaded) << error;
-  EXPECT_EQ(error + warning, "");
-  return model;
-}
-
-/// The elements of an accessor, as the type they are stored in.
-template <class T>
-std::vector<T> elements(const tinygltf::Model& model, int index) {
-  const tinygltf::Accessor& accessor = model.accessors.at(index);
-  const tinygltf::BufferView& view = model.bufferViews.at(accessor.bufferView);
-  std::vector<T> out(accessor.count);
-  EXPECT_EQ(view.byteLength, accessor.count * sizeof(T));
-  std::memcpy(out.data(), model.buffers.at(view.buffer).data.data() + view.byteOffset, view.byteLength);
-  return out;
-}
-
-std::vector<std::uint32_t> indices(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
-  if (model.accessors.at(primitive.indices).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    return elements<std::uint32_t>(model, primitive.indices);
-  }
-  const auto narrow = elements<std::uint16_t>(model, primitive.indices);
-  return {narrow.begin(), narrow.end()};
-}
-
-std::vector<glm::vec3> corners(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
-  const auto positions = elements<glm::vec3>(model, primitive.attributes.at("POSITION"));
-  std::vector<glm::vec3> out;
-  for (const std::uint32_t i : indices(model, primitive)) out.push_back(positions.at(i));
-  return out;
-}
-
-std::vector<glm::vec3> corners(const Mesh& mesh, std::uint32_t material) {
+std::vector<glm::vec3> cornersOf(const Mesh& mesh, std::uint32_t material) {
   std::vector<glm::vec3> out;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (mesh.triangleMaterial[t] != material) continue;
@@ -69,10 +30,10 @@ TEST(Gltf, ReadsBackTheTrianglesOfEveryPartAndMaterial) {
     const tinygltf::Model model = load(folder / name);
     ASSERT_EQ(model.meshes.size(), 2u);
     ASSERT_EQ(model.meshes[0].primitives.size(), 2u);
-    EXPECT_EQ(corners(model, model.meshes[0].primitives[0]), corners(one, 0));
-    EXPECT_EQ(corners(model, model.meshes[0].primitives[1]), corners(one, 1));
+    EXPECT_EQ(corners(model, model.meshes[0].primitives[0]), cornersOf(one, 0));
+    EXPECT_EQ(corners(model, model.meshes[0].primitives[1]), cornersOf(one, 1));
     ASSERT_EQ(model.meshes[1].primitives.size(), 1u);
-    EXPECT_EQ(corners(model, model.meshes[1].primitives[0]), corners(two, 0));
+    EXPECT_EQ(corners(model, model.meshes[1].primitives[0]), cornersOf(two, 0));
   }
 }
 
@@ -114,7 +75,7 @@ TEST(Gltf, IndicesAreSixteenBitsUpToTheRestartValueAndThirtyTwoBeyond) {
     EXPECT_TRUE(writeMeshes(folder / "a.glb", Scene{}, {part("p", mesh)}));
     const tinygltf::Model model = load(folder / "a.glb");
     const tinygltf::Primitive& primitive = model.meshes[0].primitives[0];
-    EXPECT_EQ(corners(model, primitive), corners(mesh, 0));
+    EXPECT_EQ(corners(model, primitive), cornersOf(mesh, 0));
     return model.accessors.at(primitive.indices).componentType;
   };
   EXPECT_EQ(componentType(13, 5041),

@@ -82,7 +82,7 @@ inline ExportPart part(const std::string& name, Mesh mesh) {
   stats.watertight = stats.manifold = true;
   stats.components = 1;
   stats.eulerCharacteristic = 2;
-  return {name, std::move(mesh), stats};
+  return {name, std::move(mesh), stats, {}};
 }
 
 }  // namespace sdf

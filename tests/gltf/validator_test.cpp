@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "sdf/gltf/export.h"
+#include "sdf/gltf/animation.h"
 #include "support/folder.h"
 #include "synthetic.h"
 
@@ -73,6 +73,47 @@ TEST(Validator, AcceptsWhatIsMadeOfBrokenNormalsColoursAndNames) {
   mesh.materials[0].name = "\xFF";
   mesh.materials[0].shininess = nan;
   EXPECT_EQ(complaints(".glb", Scene{}, {part("\xC3", mesh)}), "");
+}
+
+TEST(Validator, AcceptsBakedLight) {
+  const auto lit = [](Mesh mesh) {
+    ExportPart lit = part("lit", std::move(mesh));
+    lit.ambient.emplace(AmbientLight{glm::vec3(0.5f), {}, 0.0f});
+    for (const glm::vec3& p : lit.mesh.positions) {
+      lit.mesh.ambient.push_back({1.0f, 0.5f + 0.5f * p.x, 0.0f});
+      lit.ambient->occlusion.push_back(0.5f + 0.5f * p.y);
+    }
+    return lit;
+  };
+  Mesh glowing = twoColoredSphere(5, 5);
+  glowing.materials[0].emission = {5.0f, 1.0f, 0.0f};
+  const std::vector<ExportPart> parts{lit(glowing), lit(sphere(4, 4)), lit(sphere(1, 3))};
+  EXPECT_EQ(complaints(".glb", litScene(), parts), "");
+  EXPECT_EQ(complaints(".gltf", litScene(), parts), "");
+}
+
+TEST(Validator, AcceptsAnimations) {
+  const std::vector<double> times{0.0, 0.5};
+  Animation animation{times, {litScene(), litScene()}, {}};
+  animation.scenes[1].camera.from = Vec3E(1.0, 2.0, 3.0);
+  animation.scenes[1].lights[1].vector = Vec3E(1.0, 2.0, 4.0);
+  const RigidMotion moved{glm::angleAxis(3.0, glm::dvec3(0.6, 0.0, 0.8)), {1.0, 2.0, 3.0}};
+  animation.parts.push_back({"moving", {{part("moving", sphere(3, 4)), {RigidMotion{}, moved}}}});
+  animation.parts.push_back({"changing",
+                             {{part("changing", sphere(3, 4)), {RigidMotion{}, std::nullopt}},
+                              {part("changing", twoColoredSphere(3, 5)), {std::nullopt, moved}}}});
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    const Folder folder;
+    ASSERT_TRUE(writeAnimation(folder / name, animation));
+    EXPECT_EQ(complaints(folder / name), "");
+  }
+  animation.times = {2.0};
+  animation.scenes.resize(1);
+  animation.parts[1].meshes.resize(1);
+  for (AnimatedPart& part : animation.parts) part.meshes[0].motions.resize(1);
+  const Folder folder;
+  ASSERT_TRUE(writeAnimation(folder / "a.glb", animation));
+  EXPECT_EQ(complaints(folder / "a.glb"), "") << "one frame";
 }
 
 TEST(Validator, AcceptsAPartWithoutTriangles) {

@@ -148,6 +148,32 @@ TEST(ColorMesh, ColourFollowsPositionAndNormal) {
   }
 }
 
+TEST(ColorMesh, AnswersTheAmbientLightInAColourOfItsOwn) {
+  const Material plain{.color = {0.5, 0.25, 0.0}};
+  const Mesh same = meshed(sphere(0.4).paint(plain), 1.0 / 8);
+  EXPECT_EQ(same.ambient, same.colors);
+  const Material dark{.color = {1.0, 1.0, 1.0}, .ambient = Vec3E(position().x, 2.0, sqrt(position().x))};
+  const Mesh mesh = meshed(sphere(0.4).paint(dark), 1.0 / 8);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    ASSERT_EQ(mesh.ambient[i].x, std::max(mesh.positions[i].x, 0.0f)) << "light is not negative";
+    ASSERT_EQ(mesh.ambient[i].y, 2.0f);
+    if (mesh.positions[i].x < 0.0f) {
+      ASSERT_EQ(mesh.ambient[i].z, 0.0f) << "not a number";
+    }
+  }
+}
+
+TEST(ColorMesh, EachSideOfABorderAnswersTheAmbientLightAsItsOwnMaterialDoes) {
+  const Shape dim = translate(sphere(0.5), {-0.3, 0.0, 0.0}).paint({.ambient = Vec3E(0.25)}),
+              bright = translate(sphere(0.4), {0.3, 0.1, 0.0}).paint({.ambient = Vec3E(0.75)});
+  const Mesh mesh = meshed(unite(dim, bright), 1.0 / 16);
+  ASSERT_EQ(mesh.materials.size(), 2u);
+  ASSERT_EQ(mesh.ambient.size(), mesh.positions.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      ASSERT_EQ(mesh.ambient[mesh.triangles[t][k]], glm::vec3(mesh.triangleMaterial[t] == 0 ? 0.25f : 0.75f));
+}
+
 TEST(ColorMesh, ColoursOutsideTheUnitCubeAreHeldInIt) {
   const Mesh mesh = meshed(sphere(0.4).paint({.color = {2.0, -1.0, sqrt(position().x)}}), 1.0 / 8);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {

@@ -10,6 +10,8 @@
 
 #include "mesh/scenes.h"
 #include "sdf/eval/batch.h"
+#include "sdf/shape/deform.h"
+#include "sdf/shape/flats.h"
 #include "support/payloads.h"
 
 namespace sdf::test {
@@ -362,6 +364,22 @@ TEST(MeshShape, MakesTheSameBytesForAnyNumberOfThreads) {
       EXPECT_EQ(one.stats.voxels, other.stats.voxels);
     }
   }
+}
+
+TEST(MeshShape, HasNormalsWhereADistanceIsARoot) {
+  // A trapezoid's is the root of a square, whose slope is 0 on the surface itself. A normal is rounded some
+  // times.
+  const Mesh mesh = meshed(revolve(trapezoid(0.6, 0.2, 0.5)), {.voxelSize = 1.0 / 24}).mesh;
+  std::size_t onSide = 0;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::dvec3 p(mesh.positions[i]);
+    if (std::abs(p.y) > 0.4) continue;
+    ++onSide;
+    const double radius = std::hypot(p.x, p.z);
+    const glm::dvec3 exact = glm::normalize(glm::dvec3(p.x / radius, 0.4, p.z / radius));
+    EXPECT_LT(glm::distance(glm::dvec3(mesh.normals[i]), exact), 16 * 0x1p-24) << "vertex " << i;
+  }
+  EXPECT_GT(onSide, 500u);
 }
 
 TEST(MeshShape, HasUnitNormalsHoweverSlightOrSteepTheFieldIs) {

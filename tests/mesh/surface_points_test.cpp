@@ -110,8 +110,8 @@ Comparison compareWithWhole(const PointScene& scene) {
         PointRows at;
         float local[kOutputs + 1][kBatchPoints], whole[kOutputs + 1][kBatchPoints];
         for (std::size_t i = 0; i < run.count; ++i) at.set(i, scene.points[run.first + i]);
-        float* const l[] = {local[0], local[1], local[2], local[3], local[4]};
-        float* const w[] = {whole[0], whole[1], whole[2], whole[3], whole[4]};
+        float *l[kOutputs], *w[kOutputs];
+        for (int k = 0; k < kOutputs; ++k) l[k] = local[k], w[k] = whole[k];
         run.batch.evaluate(*run.tapes.surface, at.rows(), run.count, l);
         run.batch.evaluate(*run.tapes.distance, at.rows(), run.count, local[kOutputs]);
         run.batch.evaluate(*scene.tape, at.rows(), run.count, w);

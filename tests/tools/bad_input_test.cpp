@@ -86,6 +86,26 @@ TEST_F(BadInput, UnknownExtensionsAreAnsweredWithTheKnownOnes) {
   expectRefusal(run({scene(kSphere), "-o", out("a")}), kUsage, {"no extension", ".glb"});
 }
 
+TEST_F(BadInput, LightIsBakedIntoMaterialsOnly) {
+  for (const char* name : {"a.stl", "a.PLY", "a.obj"})
+    expectRefusal(run({scene(kSphere), "-o", out(name), "--bake"}), kUsage,
+                  {"--bake", "emission", "write .glb or .gltf"});
+}
+
+TEST_F(BadInput, BakedOcclusionNeedsAKnownSlope) {
+  expectBadScene(
+      "ambient_occlusion { kind = 'taps' } bounds({-1, -1, -1}, {1, 1, 1})"
+      "return field(function(x, y, z) return x * x * x + y * y * z + z * x end)",
+      {"ambient occlusion", "slope", "lipschitz"}, kScene, {"--bake"});
+}
+
+TEST_F(BadInput, AnAnimationNeedsFramesAndAFormatThatHoldsIt) {
+  expectBadFlags({"--animate"}, {"--animate puts frames into one file", "--frames N"});
+  for (const char* name : {"a.stl", "a.PLY", "a.obj"})
+    expectRefusal(run({scene(kSphere), "-o", out(name), "--animate", "--frames", "2"}), kUsage,
+                  {"--animate", "files hold no animation", "write .glb or .gltf"});
+}
+
 TEST_F(BadInput, ASequenceNeedsOnePlaceForItsNumber) {
   expectRefusal(run({scene(kSphere), "-o", out("a_%d_%04d.glb"), "--frames", "2"}), kUsage,
                 {"%d_%04d", "keep one"});

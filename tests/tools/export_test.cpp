@@ -4,15 +4,13 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cfloat>
-#include <nlohmann/json.hpp>
 
+#include "exported.h"
 #include "sdf/mesh/stages.h"
-#include "sdf2gltf.h"
 
 namespace sdf {
 namespace {
 
-using Json = nlohmann::json;
 using Loaded = OpenMesh::TriMesh_ArrayKernelT<>;
 
 Loaded load(const std::string& file) {
@@ -48,28 +46,6 @@ double volumeOf(const Loaded& mesh) {
   for (const glm::uvec3& t : trianglesOf(mesh)) sum += (corner(t.x) | (corner(t.y) % corner(t.z))) / 6.0;
   return sum;
 }
-
-class Export : public Sdf2gltf {
- protected:
-  void expectSuccess(const Outcome& outcome) {
-    EXPECT_EQ(outcome.status, 0);
-    EXPECT_EQ(outcome.err, "");
-  }
-
-  Json report(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--report", out("report.json")});
-    expectSuccess(run(arguments));
-    return Json::parse(contents(out("report.json")));
-  }
-
-  /// The JSON chunk of a .glb, after its header of 12 bytes and the chunk's own of 8.
-  static Json glbJson(const std::string& file) {
-    const std::string bytes = contents(file);
-    std::uint32_t length = 0;
-    bytes.copy(reinterpret_cast<char*>(&length), 4, 12);
-    return Json::parse(bytes.substr(20, length));
-  }
-};
 
 TEST_F(Export, WritesOnlyTheFileAskedFor) {
   const Outcome outcome = run({scene(kSphere), "-o", out("a.glb")});

@@ -38,6 +38,12 @@ TEST_F(Interrupt, EndsMeshing) {
   expectQuickEnd(arguments, SIGTERM);
 }
 
+TEST_F(Interrupt, EndsAnAnimation) {
+  const std::string growing = scene("return sphere(1 + time)");
+  expectQuickEnd({growing, "-o", out("a.glb"), "--animate", "--frames", "10000", "--voxel-size", "0.02"},
+                 SIGINT);
+}
+
 TEST_F(Interrupt, EndsASceneThatTakesLong) {
   // Each round is few instructions and much work, so that the bound on instructions is far.
   expectQuickEnd({scene("local s = sphere(1) while true do s = s | sphere(1) end"), "-o", out("a.glb")},

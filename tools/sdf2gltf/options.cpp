@@ -6,6 +6,7 @@
 #include "command_line/frames.h"
 #include "command_line/values.h"
 #include "memory.h"
+#include "sdf/base/file.h"
 #include "sdf/base/version.h"
 #include "sdf/gltf/export.h"
 
@@ -20,7 +21,7 @@ struct Words {
   std::string scene, output;
   std::optional<std::string> voxelSize, bounds, time, frames, fps, only, report, threads, maxMemory;
   std::vector<std::string> parameters;
-  bool quiet = false;
+  bool animate = false, bake = false, quiet = false;
 };
 
 Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
@@ -34,10 +35,25 @@ Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
                *text + "'");
 }
 
+// Precondition: checkExtension(words.output).
 Status checkSequence(const Words& words) {
+  if (words.animate && !words.frames)
+    return usage("--animate puts frames into one file; say how many with --frames N, or leave --animate out");
+  if (words.animate && !isGltf(words.output))
+    return usage(
+        "--animate: " + lowerExtension(words.output) +
+        " files hold no animation; write .glb or .gltf, or leave --animate out for a file for each frame");
+  if (words.animate) return okStatus();
   if (words.frames) return checkFrameName(words.output);
   if (words.fps) return usage("--fps says how fast --frames N go by; add --frames or leave --fps out");
   return okStatus();
+}
+
+// Precondition: checkExtension(words.output).
+Status checkBake(const Words& words) {
+  if (!words.bake || isGltf(words.output)) return okStatus();
+  return usage("--bake writes ambient light as the emission of materials, which " +
+               lowerExtension(words.output) + " files do not have; write .glb or .gltf, or leave --bake out");
 }
 
 void declare(CLI::App& app, Words& words) {
@@ -52,11 +68,14 @@ void declare(CLI::App& app, Words& words) {
       ->allow_extra_args(false);
   add("-t,--time", words.time, "T", "the scene's time in seconds [0]");
   add("--frames", words.frames, "N", "write N files, OUT_0001.glb and so on, or wherever OUT has %04d");
+  app.add_flag("--animate", words.animate, "write the frames as one .glb or .gltf that moves");
   add("--fps", words.fps, "F", "frames a second [24]");
   add("--only", words.only, "PART", "export this part alone");
   add("--report", words.report, "FILE.json", "write every figure to this file");
   add("--threads", words.threads, "N", "threads to use [all]");
   add("--max-memory", words.maxMemory, "GiB", "refuse to mesh what needs more [75 % of the machine's]");
+  app.add_flag("--bake", words.bake,
+               "put the ambient light and its occlusion into .glb and .gltf files, as emission");
   app.add_flag("-q,--quiet", words.quiet, "print errors only");
   app.footer(
       "Files appear under their names only when complete; of a sequence, finished frames stay if a later one "
@@ -68,13 +87,16 @@ Result<Options> interpreted(const Words& words) {
   Options options;
   options.scene = words.scene;
   options.output = words.output;
+  options.animate = words.animate;
+  options.bake = words.bake;
   options.quiet = words.quiet;
   options.maxMemory = 0.75 * physicalMemory();
   options.only = words.only;
   options.report = words.report;
 
   constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
-  for (const Status& s : {checkExtension(words.output), checkSequence(words),
+  if (Status s = checkExtension(words.output); !s) return s.error();
+  for (const Status& s : {checkBake(words), checkSequence(words),
                           take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
                           take<double>("--time", words.time, options.time, seconds),
                           take<int>("--frames", words.frames, options.frames, count),
@@ -90,6 +112,12 @@ Result<Options> interpreted(const Words& words) {
 }
 
 }  // namespace
+
+double frameTime(const Options& options, int i) { return options.time + i / options.framesPerSecond; }
+
+std::string frameSubject(const Options& options, int i) {
+  return options.frames ? "frame " + std::to_string(i + 1) + " of " + std::to_string(*options.frames) : "";
+}
 
 Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* argv) {
   using Parsed = std::variant<Options, Answer>;

@@ -25,8 +25,15 @@ struct Options {
   std::optional<std::filesystem::path> report;
   std::optional<int> threads;
   double maxMemory = 0.0;  ///< bytes
+  bool animate = false;
+  bool bake = false;
   bool quiet = false;
 };
+
+/// The scene's time in the i-th frame, seconds.
+double frameTime(const Options& options, int i);
+/// "frame 2 of 24"; "" where there is but one.
+std::string frameSubject(const Options& options, int i);
 
 /// Errors: Usage.
 Result<std::variant<Options, command_line::Answer>> parseOptions(int argc, const char* const* argv);

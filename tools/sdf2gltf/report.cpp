@@ -15,6 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kMiB = 1024.0 * 1024.0;
+/// Of linear light: some steps of a byte of sRGB in the dark, one in the middle.
+constexpr float kSeenError = 0.01f;
 
 std::string grouped(std::uint64_t n) {
   std::string digits = std::to_string(n);
@@ -78,7 +80,8 @@ Json json(const ReportLine& line) {
           {"first_unresolved", placeJson(stats.unresolved, stats.firstUnresolved)},
           {"resolving_voxel_size", stats.resolvingVoxel > 0.0 ? Json(stats.resolvingVoxel) : Json(nullptr)},
           {"not_numbers", stats.notNumbers},
-          {"first_not_number", placeJson(stats.notNumbers, stats.firstNotNumber)}};
+          {"first_not_number", placeJson(stats.notNumbers, stats.firstNotNumber)},
+          {"ambient_error", line.ambientError ? Json(*line.ambientError) : Json(nullptr)}};
 }
 
 }  // namespace
@@ -94,7 +97,8 @@ void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
 }
 
 void printWarnings(std::ostream& out, const FileReport& report) {
-  for (const auto& [name, united, stats, stages, seconds, memory] : report.parts) {
+  for (const std::string& warning : report.warnings) out << "sdf2gltf: warning: " << warning << '\n';
+  for (const auto& [name, united, stats, stages, seconds, memory, ambientError] : report.parts) {
     const std::string part = "sdf2gltf: warning: part '" + name + "': ";
     if (stats.unresolved > 0)
       out << part << "solids or gaps thinner than a voxel were missed at " << grouped(stats.unresolved)
@@ -107,6 +111,11 @@ void printWarnings(std::ostream& out, const FileReport& report) {
           << " samples, the first near " << place(stats.firstNotNumber)
           << "; they were taken as outside. Check for divisions by zero, roots and logarithms of negative "
              "numbers\n";
+    if (ambientError.value_or(0.0f) > kSeenError)
+      out << part << "the baked ambient light is off by up to " << formatted("%.2g", *ambientError)
+          << ": a primitive's emission holds the blends of two colours, and this part's ambient colours are "
+             "of "
+             "more; give the colours materials of their own\n";
   }
 }
 
@@ -137,8 +146,18 @@ std::string reportJson(const Options& options, const std::vector<ParameterInfo>&
   for (const FileReport& file : files) {
     Json parts = Json::array();
     for (const ReportLine& part : file.parts) parts.push_back(json(part));
-    outputs.push_back(
-        {{"file", file.file.string()}, {"time", file.time}, {"parts", parts}, {"total", json(file.total)}});
+    Json frames = Json::array();
+    for (const FrameReport& frame : file.frames) {
+      Json meshes = Json::object();
+      for (const auto& [part, place] : frame.meshes) meshes[part] = place;
+      frames.push_back({{"time", frame.time}, {"meshes", meshes}});
+    }
+    outputs.push_back({{"file", file.file.string()},
+                       {"time", file.time},
+                       {"parts", parts},
+                       {"total", json(file.total)},
+                       {"frames", frames},
+                       {"warnings", file.warnings}});
   }
   const Json report{{"generator", std::string("sdf2gltf ") + version()},
                     {"scene", options.scene.string()},

@@ -1,6 +1,7 @@
 // What was made and what it took, for people and for programs.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -23,7 +24,15 @@ struct ReportLine {
   MeshStats stats;
   StageSeconds stages;
   double seconds = 0.0;
-  double peakMemory = 0.0;  ///< bytes, of the process up to when this was done
+  double peakMemory = 0.0;              ///< bytes, of the process up to when this was done
+  std::optional<float> ambientError{};  ///< AmbientLight::error, where light was baked
+};
+
+/// One moment of an animation.
+struct FrameReport {
+  double time = 0.0;
+  std::vector<std::pair<std::string, std::size_t>>
+      meshes;  ///< the parts that are there, with their places in the report
 };
 
 /// One written file.
@@ -31,13 +40,15 @@ struct FileReport {
   std::filesystem::path file;
   double time = 0.0;
   std::vector<ReportLine> parts;
-  ReportLine total;  ///< with the stages that belong to no part: script, bounds, writing
+  std::vector<FrameReport> frames;    ///< of an animation
+  std::vector<std::string> warnings;  ///< of the whole file
+  ReportLine total;                   ///< with the stages that belong to no part: script, bounds, writing
 };
 
 /// A table of the file's parts and their total.
 void printTable(std::ostream& out, const FileReport& report);
 
-/// A line for each part whose mesh is known to miss something.
+/// A line for each warning, and for each part whose mesh or light is known to miss something.
 void printWarnings(std::ostream& out, const FileReport& report);
 
 /// Everything as JSON. `parameters` are the values that the scene ran with.

@@ -35,12 +35,11 @@ Status checkExtension(const std::filesystem::path& target) {
   return checkExtension(target, known);
 }
 
-MeshStats combined(const std::vector<ExportPart>& parts) {
+MeshStats combined(const std::vector<MeshStats>& meshes) {
   MeshStats all;
-  all.watertight = all.manifold = !parts.empty();
+  all.watertight = all.manifold = !meshes.empty();
   double squares = 0.0;
-  for (const ExportPart& part : parts) {
-    const MeshStats& one = part.stats;
+  for (const MeshStats& one : meshes) {
     all.voxels += one.voxels;
     all.vertices += one.vertices;
     all.triangles += one.triangles;
@@ -62,10 +61,29 @@ MeshStats combined(const std::vector<ExportPart>& parts) {
   return all;
 }
 
+bool isGltf(const std::filesystem::path& target) {
+  return std::holds_alternative<GltfContainer>(findFormat(target)->encoding);
+}
+
+MeshStats combined(const std::vector<ExportPart>& parts) {
+  std::vector<MeshStats> meshes;
+  for (const ExportPart& part : parts) meshes.push_back(part.stats);
+  return combined(meshes);
+}
+
 std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path& target) {
-  const bool apart = std::holds_alternative<GltfContainer>(findFormat(target)->encoding);
-  if (apart || scene.parts.size() < 2) return scene.parts;
+  if (isGltf(target) || scene.parts.size() < 2) return scene.parts;
   return {Part{"all parts united", scene.whole()}};
+}
+
+Status writeAnimation(const std::filesystem::path& target, const Animation& animation) {
+  if (Status known = checkExtension(target); !known) return known;
+  const auto* container = std::get_if<GltfContainer>(&findFormat(target)->encoding);
+  if (!container)
+    return Error{
+        ErrorKind::Usage,
+        lowerExtension(target) + " files hold no animation; write .glb or .gltf, or a file for each frame"};
+  return writeFile(target, [&](std::ostream& out) { return encodeAnimation(out, *container, animation); });
 }
 
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,

@@ -1,6 +1,7 @@
 // Writing meshes: .glb and .gltf with materials, camera and lights; .stl, .ply and .obj through OpenMesh.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,18 +11,31 @@
 
 namespace sdf {
 
+/// The ambient light that a part receives, to be written as emission. bakeAmbient (bake.h) makes it.
+struct AmbientLight {
+  glm::vec3 color{0.0f};         ///< linear RGB
+  std::vector<float> occlusion;  ///< by vertex, the share of it that arrives, 0 to 1; empty: all of it
+  float error = 0.0f;            ///< largest difference of the written emission from it at a vertex, linear
+};
+
 struct ExportPart {
   std::string name;
   Mesh mesh;
   MeshStats stats;
+  std::optional<AmbientLight> ambient{};  ///< what .glb and .gltf hold of it; the other formats have no place
 };
 
-/// Figures of all parts together: sums; the largest voxel size and distance; the RMS weighted by triangles.
+/// Figures of all meshes together: sums; the largest voxel size and distance; the RMS weighted by triangles.
+MeshStats combined(const std::vector<MeshStats>& meshes);
 MeshStats combined(const std::vector<ExportPart>& parts);
 
 /// Is the extension one that writeMeshes takes (in upper or lower case)? The error lists those it takes
 /// (Usage).
 Status checkExtension(const std::filesystem::path& target);
+
+/// Is it a glTF file's name? Those alone hold parts, materials, cameras and lights. Precondition:
+/// checkExtension(target).
+bool isGltf(const std::filesystem::path& target);
 
 /// The bodies that the format of `target` holds apart, to be meshed and handed to writeMeshes: the scene's
 /// parts; in .stl, .ply and .obj, which know no parts, their union as one, by the name "all parts united".
@@ -32,7 +46,7 @@ std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path&
 /// complete.
 /// - .glb, .gltf: one file (the .gltf's buffer is embedded); a node for each part, a primitive for each
 ///   material of it, materials by toMetallicRoughness (pbr.h), camera and lights as in view.h; measured
-///   errors in `extras`.
+///   errors in `extras`. Ambient light, where a part has it, is added to the emission.
 /// - .stl, .ply (both binary), .obj: welded triangles of all parts in one list, Y up; meshes that overlap go
 ///   on doing so, exportedParts unites them before. PLY and OBJ carry normals, PLY also vertex colours, as
 ///   sRGB; STL has neither.

@@ -3,7 +3,7 @@
 #include <ostream>
 #include <vector>
 
-#include "sdf/gltf/export.h"
+#include "sdf/gltf/animation.h"
 
 namespace sdf {
 
@@ -12,6 +12,9 @@ enum class GltfContainer { Binary, Text };
 /// of .glb).
 Status encodeGltf(std::ostream& out, GltfContainer container, const Scene& scene,
                   const std::vector<ExportPart>& parts);
+
+/// The same with the scene's motion, as writeAnimation says.
+Status encodeAnimation(std::ostream& out, GltfContainer container, const Animation& animation);
 
 enum class PlainFormat { Stl, Ply, Obj };
 /// Welded triangles of all parts in one list: binary STL; binary PLY with normals and sRGB colours; OBJ with

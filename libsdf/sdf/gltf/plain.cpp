@@ -6,24 +6,15 @@
 #include <OpenMesh/Core/IO/writer/OBJWriter.hh>
 #include <OpenMesh/Core/IO/writer/PLYWriter.hh>
 #include <OpenMesh/Core/IO/writer/STLWriter.hh>
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
 #include <limits>
 
 #include "sdf/gltf/formats.h"
+#include "sdf/gltf/srgb.h"
 
 namespace sdf {
 namespace {
 
 namespace om = OpenMesh;
-
-/// IEC 61966-2-1, for formats whose readers take colours as they would be shown: 0 to 255.
-unsigned char srgb(float linear) {
-  const float v = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
-  const float shown = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-  return static_cast<unsigned char>(std::lround(shown * 255.0f));
-}
 
 /// Shows OpenMesh's writers the parts as one list of triangles over the vertices of a mesh. The mesh has no
 /// faces of its own, as a half-edge mesh drops triangles where more than two meet at an edge.

@@ -35,6 +35,10 @@ glm::dquat lookAlong(const glm::dvec3& forward, const glm::dvec3& up) {
 }  // namespace
 
 std::optional<ViewCamera> viewCamera(const Scene& scene) {
+  return viewCamera(scene, scene.camera.from ? std::nullopt : boundsInView(scene));
+}
+
+std::optional<ViewCamera> viewCamera(const Scene& scene, const std::optional<Box>& box) {
   const glm::dvec3 from = valueOf(scene.camera.eye());
   const glm::dvec3 up = valueOf(scene.camera.up);
   const double fov = uniformValue(scene.camera.fov);
@@ -44,8 +48,7 @@ std::optional<ViewCamera> viewCamera(const Scene& scene) {
       forward && finite(from) && finite(up) && fov > 0.0 && fov < 180.0 && most > 0.0 && std::isfinite(most);
   if (!usable) return std::nullopt;
   ViewCamera camera{{from, lookAlong(*forward, up)}, glm::radians(fov), 0.0, 0.0};
-  const std::optional<Box> inView = scene.camera.from ? std::nullopt : boundsInView(scene);
-  if (inView) {
+  if (const std::optional<Box> inView = scene.camera.from ? std::nullopt : box) {
     const double radius = viewRadius(*inView);
     glm::dmat3 axes = glm::mat3_cast(camera.placement.rotation);
     axes[2] = *forward;

@@ -35,6 +35,8 @@ struct ViewLight {
 /// The scene's camera; a fitted one shows all of the scene in pictures of kPictureAspect and wider. Nothing
 /// where the camera's numbers do not make one (not finite, or it looks at where it stands).
 std::optional<ViewCamera> viewCamera(const Scene& scene);
+/// The same where a fitted camera shows this box, if there is one.
+std::optional<ViewCamera> viewCamera(const Scene& scene, const std::optional<Box>& box);
 
 /// The lights that shine: finite numbers, and neither black nor without direction.
 std::vector<ViewLight> viewLights(const Scene& scene, const glm::dvec3& centre);

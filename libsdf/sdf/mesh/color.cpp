@@ -16,14 +16,15 @@ constexpr float kBorderShifts[] = {0.05f, 0.3f, 1.0f};
 constexpr std::size_t kMaterialSamples = 64;
 
 float unit(float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f; }
+float notNegative(float v) { return std::isfinite(v) ? std::max(v, 0.0f) : 0.0f; }
 
 glm::vec3 centroid(const Mesh& mesh, const glm::uvec3& t) {
   return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
 }
 
-// Colour and material at each of `count` points.
+// Colours and material at each of `count` points.
 struct SurfaceSamples {
-  std::vector<glm::vec3> colors;
+  std::vector<glm::vec3> colors, ambient;
   std::vector<int> ids;
 };
 
@@ -31,16 +32,25 @@ template <class Point, class Normal>
 SurfaceSamples sampleSurface(std::size_t count, const Point& point, const Normal& normal,
                              const LocalField& field, Progress& progress) {
   constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
-  SurfaceSamples s{std::vector<glm::vec3>(count), std::vector<int>(count)};
+  SurfaceSamples s{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count), std::vector<int>(count)};
   forEachRun(count, point, field, progress, [&](const PointRun& run) {
     PointRows normals;
     float values[kOutputs][kBatchPoints];
     for (std::size_t i = 0; i < run.count; ++i) normals.set(i, normal(run.first + i));
-    float* const out[kOutputs] = {values[0], values[1], values[2], values[3], values[4]};
+    float* out[kOutputs];
+    for (int k = 0; k < kOutputs; ++k) out[k] = values[k];
+    const auto at = [&](SurfaceOutput output) { return values[static_cast<int>(output)]; };
+    const float *const red = at(SurfaceOutput::Red), *const green = at(SurfaceOutput::Green),
+                       *const blue = at(SurfaceOutput::Blue), *const id = at(SurfaceOutput::MaterialId),
+                       *const ambientRed = at(SurfaceOutput::AmbientRed),
+                       *const ambientGreen = at(SurfaceOutput::AmbientGreen),
+                       *const ambientBlue = at(SurfaceOutput::AmbientBlue);
     run.batch.evaluate(*run.tapes.surface, run.points.rows(normals), run.count, out);
     for (std::size_t i = 0; i < run.count; ++i) {
-      s.colors[run.first + i] = {unit(values[1][i]), unit(values[2][i]), unit(values[3][i])};
-      s.ids[run.first + i] = static_cast<int>(std::lround(values[4][i]));
+      s.colors[run.first + i] = {unit(red[i]), unit(green[i]), unit(blue[i])};
+      s.ambient[run.first + i] = {notNegative(ambientRed[i]), notNegative(ambientGreen[i]),
+                                  notNegative(ambientBlue[i])};
+      s.ids[run.first + i] = static_cast<int>(std::lround(id[i]));
     }
   });
   return s;
@@ -128,6 +138,7 @@ void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt,
     std::vector<BorderPoint> elsewhere;
     for (std::size_t i = 0; i < points.size(); ++i) {
       mesh.colors[points[i].vertex] = s.colors[i];
+      mesh.ambient[points[i].vertex] = s.ambient[i];
       if (s.ids[i] != idAt[points[i].material]) elsewhere.push_back(points[i]);
     }
     points = std::move(elsewhere);
@@ -182,13 +193,14 @@ void colorMesh(const Shape& shape, const Values& values, const LocalField& field
     idAt = assignMaterials(shape, atCentroids.ids, mesh);
     orderByMaterial(mesh);
   }
-  mesh.colors =
-      sampleSurface(
-          mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, field, progress)
-          .colors;
+  SurfaceSamples samples = sampleSurface(
+      mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, field, progress);
+  mesh.colors = std::move(samples.colors);
+  mesh.ambient = std::move(samples.ambient);
   if (mesh.materials.size() > 1) {
     std::vector<BorderPoint> border = splitBorders(mesh);
     mesh.colors.resize(mesh.positions.size());
+    mesh.ambient.resize(mesh.positions.size());
     colorBorders(std::move(border), idAt, field, progress, mesh);
   }
   resolveMaterials(shape, values, mesh);

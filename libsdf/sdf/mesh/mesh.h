@@ -24,6 +24,7 @@ struct Mesh {
   std::vector<glm::vec3> positions;             ///< scene units
   std::vector<glm::vec3> normals;               ///< unit
   std::vector<glm::vec3> colors;                ///< linear RGB in [0, 1]
+  std::vector<glm::vec3> ambient;               ///< answer to the ambient light, linear RGB, not negative
   std::vector<glm::uvec3> triangles;            ///< ordered by material
   std::vector<std::uint32_t> triangleMaterial;  ///< index into materials
   std::vector<MeshMaterial> materials;

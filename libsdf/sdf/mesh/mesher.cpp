@@ -38,9 +38,10 @@ Error sceneError(const std::string& name, const std::string& what) {
   return {ErrorKind::Scene, "part '" + name + "': " + what};
 }
 
-// The shape within the clip, whose faces close it.
-Shape clipped(const Shape& shape, const Box& clip) {
-  return intersect(shape, translate(box(Vec3E(clip.size() * 0.5)), Vec3E(clip.centre())));
+// The shape, whose bounds are these, within a box, whose faces close it.
+Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
+  if (by.contains(bounds)) return shape;
+  return intersect(shape, translate(box(Vec3E(by.size() * 0.5)), Vec3E(by.centre())));
 }
 
 // Runs the stages of one mesh and keeps their times.
@@ -95,8 +96,8 @@ class Mesher {
   // The finite box to mesh in; clips the shape where the options say so.
   Result<Box> boundsOf(Shape& shape) {
     Box bounds = findBounds(shape);
-    if (options_.bounds && !options_.bounds->contains(bounds)) {
-      shape = clipped(shape, *options_.bounds);
+    if (options_.bounds) {
+      shape = cut(shape, bounds, *options_.bounds);
       bounds = intersect(bounds, *options_.bounds);
     }
     if (bounds.empty())
@@ -168,6 +169,8 @@ class Mesher {
 };
 
 }  // namespace
+
+Shape clipped(const Shape& shape, const Box& box) { return cut(shape, findBounds(shape), box); }
 
 Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
                               Progress& progress) {

@@ -31,6 +31,10 @@ struct MeshedShape {
 /// arithmetic, as far as 2^40 from the origin. Infinite sides remain where the shape is unbounded.
 Box findBounds(const Shape& shape);
 
+/// What is meshed of a shape within a box: the shape, or where it may leave the box, the shape cut by its
+/// sides.
+Shape clipped(const Shape& shape, const Box& box);
+
 /// Meshes one shape. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the
 /// calling thread's oneTBB arena; the result does not depend on the number of threads. What is stated of a
 /// field, its bounds and its slope, is relied on, and found out where the mesh leaves the bounds, is not

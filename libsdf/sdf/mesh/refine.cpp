@@ -10,10 +10,12 @@ namespace {
 
 constexpr int kRefineSteps = 3;
 
-// Scaled by a power of two first, which rounds nothing: squares then neither vanish nor overflow.
-glm::vec3 unit(const glm::vec3& g) {
+// The gradient's direction; the one found before where there is none: a distance that is a root has the slope
+// 0 on the surface itself, and the way to there has the normal. Scaled by a power of two first, which rounds
+// nothing: squares then neither vanish nor overflow.
+glm::vec3 unit(const glm::vec3& g, const glm::vec3& before) {
   const float size = std::abs(g.x) + std::abs(g.y) + std::abs(g.z);
-  if (!(size > 0.0f && std::isfinite(size))) return {0.0f, 1.0f, 0.0f};
+  if (!(size > 0.0f && std::isfinite(size))) return before;
   const glm::vec3 scaled = glm::ldexp(g, glm::ivec3(-std::ilogb(size)));
   return scaled / glm::length(scaled);
 }
@@ -32,7 +34,7 @@ void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
       if (distance < best[i]) {
         best[i] = distance;
         positions[i] = trial.at(i);
-        normals[i] = unit(g.gradient(i));
+        normals[i] = unit(g.gradient(i), normals[i]);
       }
       const glm::vec3 target = trial.at(i) + g.step(i);
       if (!(glm::distance(target, run.points.at(i)) <= reach)) continue;

@@ -45,10 +45,10 @@ void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t verti
 /// is one (measureTopology: not watertight).
 std::uint32_t openVertex(const std::vector<glm::uvec3>& triangles, std::size_t vertices);
 
-/// Fills colors, triangleMaterial and materials, orders the triangles by material, and repeats vertices where
-/// materials meet (copyOf), each copy coloured on its own side of the border. positions, normals, triangles
-/// and welded are given; `values` are the inputs' that the field was made for. Once progress is stopped the
-/// mesh may be left unfinished.
+/// Fills colors, ambient, triangleMaterial and materials, orders the triangles by material, and repeats
+/// vertices where materials meet (copyOf), each copy coloured on its own side of the border. positions,
+/// normals, triangles and welded are given; `values` are the inputs' that the field was made for. Once
+/// progress is stopped the mesh may be left unfinished.
 void colorMesh(const Shape& shape, const Values& values, const LocalField& field, Progress& progress,
                Mesh& mesh);
 

@@ -12,7 +12,13 @@ namespace {
 
 std::vector<Expr> surfaceOutputs(const Shape& shape) {
   const auto attribute = [&](Attribute a) { return shape.surface[static_cast<int>(a)]; };
-  return {shape.distance, attribute(Attribute::Red), attribute(Attribute::Green), attribute(Attribute::Blue),
+  return {shape.distance,
+          attribute(Attribute::Red),
+          attribute(Attribute::Green),
+          attribute(Attribute::Blue),
+          attribute(Attribute::AmbientRed),
+          attribute(Attribute::AmbientGreen),
+          attribute(Attribute::AmbientBlue),
           attribute(Attribute::MaterialId)};
 }
 

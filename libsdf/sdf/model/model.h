@@ -13,7 +13,11 @@
 namespace sdf {
 
 /// The outputs of the tapes that meshing runs on: the distance, then what colouring needs of the attributes.
-enum class SurfaceOutput { Distance, Red, Green, Blue, MaterialId, Count };
+// clang-format off
+enum class SurfaceOutput {
+  Distance, Red, Green, Blue, AmbientRed, AmbientGreen, AmbientBlue, MaterialId, Count
+};
+// clang-format on
 
 /// A model's tapes at some values of its inputs, whole or for regions. Immutable.
 class ModelTapes {

@@ -1,0 +1,50 @@
+// Scenes that move, in one glTF file.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sdf/expr/motion.h"
+#include "sdf/gltf/export.h"
+
+namespace sdf {
+
+/// One mesh of a part, and where it is at each moment.
+struct AnimatedMesh {
+  ExportPart part;
+  /// From where it was meshed to where it is, by frame; nothing while the part looks otherwise or is not
+  /// there.
+  std::vector<std::optional<RigidMotion>> motions;
+};
+
+/// A part: one mesh if it does nothing but move, else one for each shape that it takes, of which at most one
+/// is there at any moment.
+struct AnimatedPart {
+  std::string name;
+  std::vector<AnimatedMesh> meshes;
+};
+
+struct Animation {
+  std::vector<double> times;        ///< of the frames, ascending, seconds
+  std::vector<Scene> scenes;        ///< by frame: cameras and lights
+  std::vector<AnimatedPart> parts;  ///< their meshes have a motion or nothing for each frame
+};
+
+/// Writes a .glb or .gltf whose one animation, "frames", has a key for each frame, beginning at 0: the nodes'
+/// translation and rotation where a mesh, the camera or a light moves, interpolated linearly, and 0 or 1 for
+/// the scale of each of a part's several meshes, in steps. A part of one mesh is a node; of several, a node
+/// with a child for each. What turns does so about the middle of its mesh, which a child of its node holds.
+/// Without animation the file shows the first frame. A camera that the scenes leave open stands where it sees
+/// all frames' bounds. Errors: as writeMeshes.
+Status writeAnimation(const std::filesystem::path& target, const Animation& animation);
+
+/// What changes with time and cannot be written, a line each: the camera's angle, the colours and intensities
+/// of lights, their number and kinds. The file has the first frame's.
+std::vector<std::string> notAnimated(const Animation& animation);
+
+/// Do meshes move among each other, or change?
+bool moves(const Animation& animation);
+
+}  // namespace sdf

@@ -1,0 +1,89 @@
+// A glTF file as it is built: what every part of the writer adds to. Khronos, glTF 2.0 Specification (2021),
+// section numbers in comments.
+#pragma once
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sdf/gltf/formats.h"
+#include "sdf/gltf/view.h"
+
+namespace sdf {
+
+inline std::vector<double> numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+inline std::vector<double> numbers(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+
+/// The measured figures, as a part's and the file's `extras` hold them.
+tinygltf::Value::Object extrasOf(const MeshStats& stats);
+
+using Texel = glm::vec<3, std::uint8_t>;
+
+/// A tinygltf model with one buffer and one scene.
+struct GltfModel : tinygltf::Model {
+  GltfModel();
+
+  std::vector<unsigned char>& bytes() { return buffers[0].data; }
+
+  /// Adds a node to the scene, or to another node's children, and returns its index.
+  int addNode(tinygltf::Node node);
+  int addNode(tinygltf::Node node, int parent);
+  void useExtension(const std::string& name);
+
+  /// Appends elementAt(0) … elementAt(count - 1) and returns the index of an accessor for them. Their sizes
+  /// are multiples of four except for 16-bit indices, so the next view is aligned by padding.
+  template <class ElementAt>
+  int addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt);
+
+  /// Index of a square picture of these texels, sRGB, by rows; the same one is held once.
+  int addImage(int side, std::span<const Texel> texels);
+
+  /// Writes the file; its data is gone then. Errors: Limits (a .glb over 4 GiB).
+  Status write(std::ostream& out, GltfContainer container);
+
+ private:
+  Status writeBinary(std::ostream& out);
+  std::vector<std::vector<unsigned char>> pictures_;  // the images as PNG
+};
+
+/// Index of the value in the list, to which it is added unless it is there.
+template <class T>
+int placeOf(T value, std::vector<T>& list) {
+  const auto found = std::ranges::find(list, value);
+  const auto place = static_cast<int>(found - list.begin());
+  if (found == list.end()) list.push_back(std::move(value));
+  return place;
+}
+
+/// A node of this name where the placement says; what is at the origin and not turned is not said.
+tinygltf::Node placed(const std::string& name, const Placement& placement);
+
+template <class ElementAt>
+int GltfModel::addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt) {
+  using Element = decltype(elementAt(0));
+  std::vector<unsigned char>& data = bytes();
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = data.size();
+  view.byteLength = count * sizeof(Element);
+  view.target = target;
+  data.resize((data.size() + view.byteLength + 3) / 4 * 4);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Element element = elementAt(i);
+    std::memcpy(data.data() + view.byteOffset + i * sizeof(Element), &element, sizeof(Element));
+  }
+
+  tinygltf::Accessor accessor;
+  accessor.bufferView = static_cast<int>(bufferViews.size());
+  accessor.componentType = componentType;
+  accessor.type = type;
+  accessor.count = count;
+  bufferViews.push_back(std::move(view));
+  accessors.push_back(std::move(accessor));
+  return static_cast<int>(accessors.size()) - 1;
+}
+
+}  // namespace sdf

@@ -1,0 +1,22 @@
+// The sRGB curve in bytes (IEC 61966-2-1), for what readers take as it would be shown.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace sdf {
+
+/// Linear light as sRGB, 0 to 255; NaN counts as 0.
+inline std::uint8_t srgb(float linear) {
+  const float v = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
+  const float shown = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(shown * 255.0f));
+}
+
+/// The linear light of an sRGB byte.
+inline float linearOf(std::uint8_t srgb) {
+  const float v = static_cast<float>(srgb) / 255.0f;
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+}  // namespace sdf

@@ -1,0 +1,138 @@
+#include "frame_export.h"
+
+#include <string_view>
+#include <utility>
+
+#include "memory.h"
+#include "sdf/gltf/bake.h"
+#include "sdf/mesh/mesher.h"
+#include "sdf/script/script.h"
+#include "timed.h"
+
+namespace sdf::exporter {
+namespace {
+
+/// Voxels along the longest side, unless told otherwise: a side of a thousand pixels then has five to a
+/// voxel.
+constexpr double kDefaultVoxels = 200.0;
+constexpr std::string_view kStepsAreNotBaked =
+    "ambient_occlusion: what counts steps depends on who looks and is not baked; take kind = 'taps'";
+
+/// The scene with only the part that was asked for.
+Result<Scene> selected(Scene scene, const Options& options) {
+  if (!options.only) return scene;
+  std::string names;
+  for (const Part& part : scene.parts) {
+    if (part.name == *options.only) {
+      scene.parts = {Part(part)};
+      return scene;
+    }
+    names += (names.empty() ? "" : ", ") + part.name;
+  }
+  return Error{ErrorKind::Usage, "--only: " + options.scene.string() + " has no part '" + *options.only +
+                                     "'; its parts are " + names};
+}
+
+}  // namespace
+
+Status FrameExport::load(double time, std::optional<double>& voxelSize) {
+  report.time = time;
+  report.total.name = "total";
+  if (Status s = loadParts(time); !s) return s;
+  return chooseVoxelSize(voxelSize);
+}
+
+Status FrameExport::loadParts(double time) {
+  progress_.setSubject(subject_);
+  progress_.beginStage("script");
+  const ScriptOptions script{.values = options_.parameters, .time = time, .fixed = true};
+  Result<Scene> loaded = stage(report.total, "script", [&] { return loadScene(options_.scene, script); });
+  if (!loaded) return loaded.error();
+  Result<Scene> chosen = selected(std::move(*loaded), options_);
+  if (!chosen) return chosen.error();
+  scene = std::move(*chosen);
+  clip = options_.bounds ? options_.bounds : scene.bounds;
+  return interrupted();
+}
+
+// Also refuses parts that are unbounded, by their own names.
+Status FrameExport::chooseVoxelSize(std::optional<double>& voxelSize) {
+  progress_.beginStage("bounds");
+  Box all;
+  for (const Part& part : scene.parts) {
+    Box box = stage(report.total, "bounds", [&] { return findBounds(part.shape); });
+    if (clip) box = intersect(box, *clip);
+    if (Status s = interrupted(); !s) return s;
+    if (box.empty()) continue;
+    // Rather now than after the other parts: the mesher knows best how to word why it cannot be meshed.
+    if (!box.finite()) {
+      Result<MeshedShape> refused = meshShape(part.shape, part.name, meshOptions(0.0), progress_);
+      if (!refused) return refused.error();
+    }
+    all = unite(all, box);
+  }
+  if (!voxelSize) voxelSize = all.finite() ? all.longestSide() / kDefaultVoxels : 0.0;
+  return okStatus();
+}
+
+Status FrameExport::mesh(const std::vector<Part>& bodies, double voxelSize) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string place = " (" + std::to_string(i + 1) + " of " + std::to_string(bodies.size()) + ")";
+    progress_.setSubject(subject_ + (subject_.empty() ? "" : ", ") + "part '" + bodies[i].name + "'" + place);
+    if (Status s = meshOne(bodies[i], voxelSize); !s) return s;
+  }
+  if (Status s = interrupted(); !s) return s;
+  return bake();
+}
+
+Status FrameExport::meshOne(const Part& body, double voxelSize) {
+  ReportLine& line = report.parts.emplace_back();
+  line.name = body.name;
+  if (!isGltf(options_.output) && scene.parts.size() > 1)
+    for (const Part& one : scene.parts) line.united.push_back(one.name);
+  Result<MeshedShape> meshed = timed(
+      line.seconds, [&] { return meshShape(body.shape, body.name, meshOptions(voxelSize), progress_); });
+  if (!meshed) return meshed.error();
+  line.stages = std::move(meshed->stageSeconds);
+  line.stats = meshed->stats;
+  line.peakMemory = peakMemory();
+  report.total.seconds += line.seconds;
+  for (const auto& [name, seconds] : line.stages) addSeconds(report.total.stages, name, seconds);
+  parts.push_back({body.name, std::move(meshed->mesh), meshed->stats});
+  releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
+  return okStatus();
+}
+
+Status FrameExport::bake() {
+  if (!options_.bake || parts.empty()) return okStatus();
+  progress_.setSubject(subject_);
+  if (scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps)
+    report.warnings.emplace_back(kStepsAreNotBaked);
+  if (Status s = stage(report.total, "occlusion", [&] { return bakeAmbient(scene, clip, parts, progress_); });
+      !s)
+    return s;
+  for (std::size_t i = 0; i < parts.size(); ++i) report.parts[i].ambientError = parts[i].ambient->error;
+  return okStatus();
+}
+
+Status FrameExport::write(const std::filesystem::path& target) {
+  report.file = target;
+  progress_.setSubject(subject_);
+  progress_.beginStage("writing");
+  if (Status s = stage(report.total, "writing", [&] { return writeMeshes(target, scene, parts); }); !s)
+    return s;
+  report.total.stats = combined(parts);
+  report.total.peakMemory = peakMemory();
+  return okStatus();
+}
+
+MeshOptions FrameExport::meshOptions(double voxelSize) const {
+  return {.voxelSize = voxelSize, .bounds = clip, .maxMemory = options_.maxMemory};
+}
+
+Status FrameExport::interrupted() const {
+  if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
+  return okStatus();
+}
+
+}  // namespace sdf::exporter
