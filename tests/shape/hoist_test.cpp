@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sdf/shape/booleans.h"
+#include "sdf/shape/flats.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
 #include "shape/cases.h"
@@ -72,6 +73,14 @@ TEST(Hoist, KeepsWhatTurnsTheOrderRound) {
   const Expr subtracted = min(1.0 - p.x, 1.0 - p.y);
   EXPECT_EQ(hoisted(subtracted), subtracted);
   EXPECT_EQ(hoisted(max(sqrt(abs(p.x)) - p.z, sqrt(abs(p.y)) - p.z)), sqrt(max(abs(p.x), abs(p.y))) - p.z);
+}
+
+TEST(Hoist, TakesOneRootForAPolygon) {
+  const glm::dvec2 profile[] = {{0, 0}, {3, 0}, {3, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  const Expr before = polygon(profile).distance, after = hoisted(before);
+  EXPECT_EQ(countOf(Op::Sqrt, before), 8);
+  EXPECT_EQ(countOf(Op::Sqrt, after), 1);
+  expectSame(before, after, 4);
 }
 
 TEST(Hoist, GivesTheSameValuesForTheWholeCatalog) {

@@ -152,10 +152,11 @@ vec3 gradientAt(vec3 p) {
 }
 )";
 
-/// Defines normalAt(p, d), where d is the direction of the ray.
+/// Defines normalAt(p, d), where d is the direction of the ray. It reads the gradient some roundings before
+/// the surface: on it that of a root vanishes.
 inline constexpr const char* kNormal = R"(
 vec3 normalAt(vec3 p, vec3 d) {
-  vec3 g = gradientAt(p);
+  vec3 g = gradientAt(p - 2e-6 * max(unit, max(abs(p.x), max(abs(p.y), abs(p.z)))) * d);
   float far = length(g);
   return far > 0.0 ? g / far : -d;
 }

@@ -39,6 +39,14 @@ Expr chosen(Op choice, const Expr& a, const Expr& b) {
   return Expr::make(a.op(), args);
 }
 
+// A length of which e is a part?
+bool isLengthWith(const Expr& e, const Expr& length) {
+  if (length.op() != Op::Sqrt || length.arg(0).op() != Op::Add) return false;
+  const Expr &part = e.op() == Op::Neg ? e.arg(0) : e, &sum = length.arg(0);
+  const Expr &a = sum.arg(0), &b = sum.arg(1);
+  return a.op() == Op::Square && b.op() == Op::Square && (a.arg(0) == part || b.arg(0) == part);
+}
+
 Expr isLessEqual(const Expr& a, const Expr& b) {
   const std::optional<int> place = difference(a, b);
   return place ? isLessEqual(a.arg(*place), b.arg(*place)) : lessEqual(a, b);
@@ -72,6 +80,7 @@ Expr hoisted(const Expr& e) {
   };
   const auto hoist = [&](const Expr& node, std::span<const Expr> args) -> std::optional<Expr> {
     if (node.op() != Op::Min && node.op() != Op::Max) return std::nullopt;
+    if (node.op() == Op::Max && isLengthWith(args[0], args[1])) return args[1];
     std::vector<Expr> all = operands(node.arg(0), args[0], node.op());
     const std::vector<Expr> more = operands(node.arg(1), args[1], node.op());
     if (all.size() + more.size() > kMostOperands) return chosen(node.op(), args[0], args[1]);

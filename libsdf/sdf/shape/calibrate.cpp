@@ -122,7 +122,7 @@ class Calibration {
       return u.op() == Op::Neg && u.arg(0).unclaimed() == v;
     };
     if (isNegativeOf(a, b) || isNegativeOf(b, a)) return true;
-    if (c.op() != Op::Less || !isZero(c.arg(1))) return false;
+    if ((c.op() != Op::Less && c.op() != Op::LessEqual) || !isZero(c.arg(1))) return false;
     return c.arg(0).unclaimed() == a || c.arg(0).unclaimed() == b;
   }
 

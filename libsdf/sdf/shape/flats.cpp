@@ -76,7 +76,7 @@ Shape star(int points, const Expr& outer, const Expr& inner) {
   const Expr x = w.along - tip;
   const Expr along = (x * (ex / edge) + w.across * (ey / edge)).claimLipschitz(1.0);
   const Expr out = (x * (ey / edge) - w.across * (ex / edge)).claimLipschitz(1.0);
-  const Expr distance = norm(out, beyond(along, edge));
+  const Expr distance = segmentDistance(out, beyond(along, edge));
   return flat(select(less(out, 0.0), -distance, distance), -both(tip), both(tip));
 }
 

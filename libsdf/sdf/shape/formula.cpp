@@ -34,6 +34,8 @@ Expr beyond(const Expr& a, const Expr& limit) {
   return (a - clamp(a, 0.0, limit)).claimLipschitz(a.lipschitz());
 }
 
+Expr segmentDistance(const Expr& out, const Expr& past) { return max(out, norm(out, past)); }
+
 Expr boxDistance(const Expr& x, const Expr& y) { return boxDistance({x, y}, 1.0); }
 Expr boxDistance(const Expr& x, const Expr& y, const Expr& z) { return boxDistance({x, y, z}, 1.0); }
 
@@ -43,6 +45,10 @@ Expr boxDistance(const std::vector<Expr>& sides, double slope) {
   const Expr corner = plane ? length(off(0), off(1)) : length(off(0), off(1), off(2));
   const Expr most = plane ? max(sides[0], sides[1]) : largest(sides[0], sides[1], sides[2]);
   return (corner.claimLipschitz(slope) + min(most, 0.0)).claimLipschitz(slope);
+}
+
+Expr insideOr(const Expr& inside, const Expr& outside) {
+  return select(lessEqual(inside, 0.0), inside, outside).claimLipschitz(1.0);
 }
 
 Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom, const Expr& top,
@@ -57,7 +63,7 @@ Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom
   Expr outside = min(norm(out, beyond(down, slant)), norm(max(across - bottom, 0.0), along + half));
   // A side that ends in a point needs no upper end of its own.
   if (!top.isConstant(0.0)) outside = min(outside, norm(max(x, 0.0), y));
-  return select(less(inside, 0.0), inside, outside).claimLipschitz(1.0);
+  return insideOr(inside, outside);
 }
 
 Expr arcDistance(const Expr& along, const Expr& across, const Expr& radius, const Expr& angle) {

@@ -32,12 +32,19 @@ Expr norm(const Expr& a, const Expr& b, const Expr& c);
 Expr largest(const Expr& a, const Expr& b, const Expr& c);
 /// a held within [0, limit], subtracted from a: how far a lies outside.
 Expr beyond(const Expr& a, const Expr& limit);
+/// norm(out, past), the distance to a segment from how far a point is out of its line and past its ends, with
+/// the gradient of `out` on the segment, where a root's would vanish.
+Expr segmentDistance(const Expr& out, const Expr& past);
 
 /// Exact distance to a box, given how far the point lies beyond its faces along each axis.
 Expr boxDistance(const Expr& x, const Expr& y);
 Expr boxDistance(const Expr& x, const Expr& y, const Expr& z);
 /// The same of two or three functions instead, with a slope of at most `slope`.
 Expr boxDistance(const std::vector<Expr>& sides, double slope);
+
+/// Distance of a convex solid from that to the planes of its faces, which holds inside and on the surface,
+/// where the gradient of a root would vanish, and the one that holds outside.
+Expr insideOr(const Expr& inside, const Expr& outside);
 
 /// Exact distance to the ellipsoid (ellipse: two axes) with these radii, from coordinates along its axes.
 Expr ellipsoidDistance(std::vector<Expr> radii, std::vector<Expr> coordinates);

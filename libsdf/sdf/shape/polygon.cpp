@@ -67,9 +67,9 @@ bool isConvex(const Points& p) {
   return true;
 }
 
-// One edge's frame: distance out of it (counter-clockwise: to its right) and distance to it as a segment.
+// One edge's frame: distance out of it (counter-clockwise: to its right) and past its ends.
 struct Edge {
-  Expr out, distance;
+  Expr out, past;
 };
 
 Edge edgeOf(const glm::dvec2& from, const glm::dvec2& to) {
@@ -78,31 +78,33 @@ Edge edgeOf(const glm::dvec2& from, const glm::dvec2& to) {
   const Expr x = position().x - from.x, y = position().y - from.y;
   const Expr out = (scaled(x, e.y) - scaled(y, e.x)).claimLipschitz(1.0);
   const Expr along = (scaled(x, e.x) + scaled(y, e.y)).claimLipschitz(1.0);
-  return {out, norm(out, beyond(along, size))};
+  return {out, beyond(along, size)};
 }
 
 // Convex: outside the nearest edge, inside the nearest edge's line.
 Expr convexDistance(const std::vector<Edge>& edges) {
-  Expr outside = edges[0].distance, inside = edges[0].out;
+  Expr outside = norm(edges[0].out, edges[0].past), inside = edges[0].out;
   for (std::size_t i = 1; i < edges.size(); ++i) {
-    outside = min(outside, edges[i].distance);
+    outside = min(outside, norm(edges[i].out, edges[i].past));
     inside = max(inside, edges[i].out);
   }
-  return select(less(inside, 0.0), inside, outside);
+  return insideOr(inside, outside);
 }
 
 // Any simple polygon: the sign from the winding number (Sunday 2001), 1 inside and 0 outside.
 Expr windingDistance(const std::vector<Edge>& edges, const Points& points) {
   const Expr y = position().y;
-  Expr distance = edges[0].distance, winding = 0.0;
+  const auto distanceTo = [&](std::size_t i) { return segmentDistance(edges[i].out, edges[i].past); };
+  Expr distance = distanceTo(0), winding = 0.0;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    distance = min(distance, edges[i].distance);
+    distance = min(distance, distanceTo(i));
     const glm::dvec2 &a = points[i], &b = points[(i + 1) % points.size()];
     if (a.y == b.y) continue;
     const Expr above = lessEqual(a.y, y) - lessEqual(b.y, y);  // 1 where the edge passes the point upwards
     winding = winding + above * (a.y < b.y ? less(edges[i].out, 0.0) : less(0.0, edges[i].out));
   }
-  return select(winding, -distance, distance);
+  // On an edge the winding number may be either; the gradient of `distance` points out of it.
+  return select(min(winding, less(0.0, distance)), -distance, distance);
 }
 
 }  // namespace

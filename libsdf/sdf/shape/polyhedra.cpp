@@ -32,11 +32,14 @@ Shape prism(const char* name, int sides, const Expr& radius, const Expr& halfHei
                {{lo.x * r, -h, lo.y * r}, {hi.x * r, h, hi.y * r}});
 }
 
+// (smaller, larger). Where both are equal each takes the gradient of another one.
+std::pair<Expr, Expr> sorted(const Expr& a, const Expr& b) { return {min(a, b), max(b, a)}; }
+
 // (larger, smaller) of |a| and |b|, the sign of a * b kept on the smaller: the plane folded about both of its
 // diagonals.
 std::pair<Expr, Expr> foldDiagonals(const Expr& a, const Expr& b) {
-  const Expr smaller = 0.5 * (abs((a + b)) - abs(a - b));
-  return {max(abs(a), abs(b)), smaller.claimLipschitz(1.0)};
+  const Expr sum = abs(a + b), difference = abs(a - b);
+  return {(0.5 * (sum + difference)).claimLipschitz(1.0), (0.5 * (sum - difference)).claimLipschitz(1.0)};
 }
 
 }  // namespace
@@ -51,8 +54,9 @@ Shape triPrism(const Expr& radius, const Expr& halfHeight) {
 Shape octahedron(const Expr& radius) {
   if (Check c("octahedron"); !c.positive("radius", radius).ok()) return c.failure();
   const Vec3E p = abs(position());
-  const Expr lowXy = min(p.x, p.y), highXy = max(p.x, p.y);
-  const Expr low = min(lowXy, p.z), high = max(highXy, p.z), middle = min(highXy, max(lowXy, p.z));
+  const auto [lowXy, highXy] = sorted(p.x, p.y);
+  const auto [low, highLow] = sorted(lowXy, p.z);
+  const auto [middle, high] = sorted(highLow, highXy);
   const Expr over = low + middle + high - radius;
   return solid(faceDistance(over * (1.0 / sqrt3), (over - 3.0 * low) * (1.0 / kRoot6),
                             (high - middle - radius) * (1.0 / sqrt2)),
@@ -67,7 +71,7 @@ Shape tetrahedron(const Expr& radius) {
   const Expr k = radius * (1.0 / sqrt3);
   const auto [x, xy] = foldDiagonals(p.x, p.y);
   const auto [y, z] = foldDiagonals(xy, p.z);
-  const Expr xs = max(x, y), ys = min(x, y);
+  const auto [ys, xs] = sorted(x, y);
   return solid(faceDistance((xs + ys - z - k) * (1.0 / sqrt3), (2.0 * (xs - k) - ys + z) * (1.0 / kRoot6),
                             (ys + z - 2.0 * k) * (1.0 / sqrt2)),
                Box::centred(glm::dvec3(upper(k))));
@@ -77,8 +81,8 @@ Shape pyramid(const Expr& halfWidth, const Expr& halfHeight) {
   Check c("pyramid");
   if (!c.positive("half_width", halfWidth).positive("half_height", halfHeight).ok()) return c.failure();
   const Vec3E p = position(), q = abs(p);
-  const Expr w = positiveSize(halfWidth), h = positiveSize(halfHeight);
-  const Expr x = max(q.x, q.z), z = min(q.x, q.z), y = p.y - h;
+  const Expr w = positiveSize(halfWidth), h = positiveSize(halfHeight), y = p.y - h;
+  const auto [z, x] = sorted(q.x, q.z);
   const Expr height = h + h, slope = length(w, height), edge = length(w, slope);
   // The sloping face's frame from the tip: out of it, down it, and sideways z.
   const Expr out = (x * (height / slope) + y * (w / slope)).claimLipschitz(1.0);
@@ -91,7 +95,7 @@ Shape pyramid(const Expr& halfWidth, const Expr& halfHeight) {
           .claimLipschitz(1.0);
   const Expr toBase = norm(max(x - w, 0.0), max(z - w, 0.0), p.y + h);
   const Expr inside = max(out, -h - p.y);
-  return solid(select(less(inside, 0.0), inside, min(norm(out, toFace), toBase)),
+  return solid(insideOr(inside, min(norm(out, toFace), toBase)),
                Box::centred({upper(w), upper(h), upper(w)}));
 }
 

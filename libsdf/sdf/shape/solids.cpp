@@ -210,7 +210,7 @@ Shape solidAngle(const Expr& angle, const Expr& radius) {
   const Expr a = clamp(angle, 0.0, std::numbers::pi), s = sin(a), k = cos(a), rho = radial(p);
   // The frame of the cone's side: along it, and out of it.
   const Expr along = (rho * s + p.y * k).claimLipschitz(1.0), out = (rho * k - p.y * s).claimLipschitz(1.0);
-  const Expr side = norm(out, beyond(along, radius));
+  const Expr side = segmentDistance(out, beyond(along, radius));
   // Beyond the rim the ball's distance is no less than along - radius, which keeps this from jumping there.
   const Expr toSide = select(less(out, 0.0), max(-side, along - radius), side).claimLipschitz(1.0);
   const Expr distance = max(norm(p.x, p.y, p.z) - radius, toSide);
