@@ -9,6 +9,7 @@
 
 #include "sdf/expr/apply-inl.h"
 #include "sdf/expr/gradient.h"
+#include "sdf/shape/cells.h"
 #include "sdf/shape/forms.h"
 #include "sdf/shape/formula.h"
 
@@ -61,41 +62,6 @@ Expr magnitude(const Vec3E& v) { return sqrt(weighted(v, v)); }
 
 // A product of bounds, of which one may be of nothing.
 double scaledBy(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
-
-// A cell of space with the slopes that bound each part's in it, the last being the whole's.
-struct Cell {
-  Box box;
-  std::vector<double> slopes;
-  double worst() const { return slopes.back(); }
-};
-
-// Cells that cover the region, halved where the slope is worst until that is good or there are too many.
-// `slopesOf` reads one.
-template <class SlopesOf>
-std::vector<Cell> refined(const Box& region, double size, std::size_t mostCells, SlopesOf slopesOf) {
-  constexpr double kGood = 1.25;  // less is not looked for
-  std::vector<Cell> cells;
-  const auto add = [&](const Box& box) {
-    cells.push_back({box, slopesOf(box)});
-    std::ranges::push_heap(cells, {}, &Cell::worst);
-  };
-  add(region);
-  while (cells.size() < mostCells && cells.front().worst() > kGood) {
-    std::ranges::pop_heap(cells, {}, &Cell::worst);
-    const Box box = cells.back().box;
-    cells.pop_back();
-    const glm::dvec3 sides = box.size();
-    const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
-    const double lo = box.min[axis], hi = box.max[axis];
-    const double unbounded = hi < kInfinity ? hi - size : lo > -kInfinity ? lo + size : 0.0;
-    for (const bool upper : {false, true}) {
-      Box half = box;
-      (upper ? half.min : half.max)[axis] = hi - lo < kInfinity ? 0.5 * (lo + hi) : unbounded;
-      add(half);
-    }
-  }
-  return cells;
-}
 
 // What the distance is taken apart into. Values are those of the result, told in the operand's space.
 struct Part {

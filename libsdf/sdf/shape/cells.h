@@ -1,0 +1,46 @@
+// Slopes bounded over cells of space. Private to sdf/shape.
+#pragma once
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "sdf/base/box.h"
+
+namespace sdf {
+
+/// A cell of space with the slopes that bound each part's in it, the last being the whole's.
+struct Cell {
+  Box box;
+  std::vector<double> slopes;
+  double worst() const { return slopes.back(); }
+};
+
+/// Cells that cover the region, halved where the slope is worst until that is good or there are too many.
+/// `slopesOf` reads one. `size` is the shape's: where sides do not end they are cut in such pieces.
+template <class SlopesOf>
+std::vector<Cell> refined(const Box& region, double size, std::size_t mostCells, SlopesOf slopesOf) {
+  constexpr double kGood = 1.25;  // less is not looked for
+  std::vector<Cell> cells;
+  const auto add = [&](const Box& box) {
+    cells.push_back({box, slopesOf(box)});
+    std::ranges::push_heap(cells, {}, &Cell::worst);
+  };
+  add(region);
+  while (cells.size() < mostCells && cells.front().worst() > kGood) {
+    std::ranges::pop_heap(cells, {}, &Cell::worst);
+    const Box box = cells.back().box;
+    cells.pop_back();
+    const glm::dvec3 sides = box.size();
+    const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
+    const double lo = box.min[axis], hi = box.max[axis];
+    const double unbounded = hi < kInfinity ? hi - size : lo > -kInfinity ? lo + size : 0.0;
+    for (const bool upper : {false, true}) {
+      Box half = box;
+      (upper ? half.min : half.max)[axis] = hi - lo < kInfinity ? 0.5 * (lo + hi) : unbounded;
+      add(half);
+    }
+  }
+  return cells;
+}
+
+}  // namespace sdf
