@@ -248,26 +248,17 @@ TEST(Marchable, AUnionIsAsMarchableAsEachOfItsOperands) {
   EXPECT_EQ(marchable(unite(wild, field(p.x * p.x))).slope, kInfinity);
 }
 
-TEST(Marchable, AFieldOfUnknownSlopeIsTheWayToItsBoundsFarAway) {
+TEST(Marchable, AFieldIsNoNearerThanTheWayToItsBounds) {
   const Vec3E p = position();
   const Shape wild = field(p.x * p.x * p.x - p.y, Box::centred(glm::dvec3(1.0)));
   const Marchable m = marchable(wild);
   ASSERT_TRUE(std::isfinite(m.slope));
   const Tape distance(m.distance), step(m.step);
   EXPECT_EQ(evaluate(distance, {0.5, 0.25, 0.0}), 0.125 - 0.25);
-  EXPECT_EQ(evaluate(distance, {0.0, 0.0, 11.0}), 10.0);
+  EXPECT_EQ(evaluate(distance, {0.0, 0.0, 11.0}), 9.0) << "to the bounds grown by half their side";
   EXPECT_EQ(evaluate(step, {0.0, 0.0, 11.0}), 10.0);
   EXPECT_EQ(marchable(field(p.x * p.x)).slope, kInfinity) << "nothing is known of it";
   EXPECT_GT(marchable(field(Expr(1.0))).slope, 0.0);
-}
-
-TEST(SlopeIn, IsTheClaimsOrTheFormulas) {
-  const Vec3E p = position();
-  const Box box = Box::centred(glm::dvec3(2.0));
-  EXPECT_EQ(slopeIn(sphere(1.0), box), 1.0);
-  const double slope = slopeIn(field(p.x * p.x), box);
-  EXPECT_GE(slope, 4.0);
-  EXPECT_LE(slope, 4.0 * (1.0 + 8.0 * DBL_EPSILON)) << "bounds are rounded outwards";
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "sdf/shape/booleans.h"
+#include "sdf/shape/deform.h"
 #include "shape/cases.h"
 
 namespace sdf {
@@ -383,6 +385,42 @@ TEST(Field, TrustsABoundThatIsGivenWhereTheGraphProvesNone) {
   const Shape s = field(formula, bounds, 10.0);
   EXPECT_EQ(s.claim.lipschitz, 10.0);
   EXPECT_TRUE(bounds.contains(s.bounds) && s.bounds.contains(bounds));
+}
+
+// Of a formula that is ever steeper, its bounds are where its slope counts, grown by half their side.
+TEST(Field, HasASlopeWhereItsFormulaHasOneWithinItsBounds) {
+  const Vec3E p = position();
+  const Expr formula = dot(p, p) - 0.5;
+  const Shape s = field(formula, Box::centred(dvec3(1.0)));
+  const double steepest = 2.0 * 2.0 * std::sqrt(3.0);  // at a corner of the box of half size 2
+  EXPECT_GE(slopeOf(s), steepest);
+  EXPECT_LE(slopeOf(s), 1.01 * steepest);
+  const test::Evaluator f(s.distance), g(formula);
+  test::Sampler sampler(Box::centred(dvec3(5.0)), 3);
+  for (int i = 0; i < 2000; ++i) {
+    const dvec3 a = sampler.orOnAnAxis(), b = sampler.near(a, 0.5), far = glm::abs(a);
+    ASSERT_LE(std::abs(f(a) - f(b)), slopeOf(s) * glm::length(a - b) + 1e-12) << test::text(a);
+    const double outside = std::max({far.x, far.y, far.z}) - 2.0;
+    if (outside <= 0.0) {
+      ASSERT_EQ(f(a), g(a)) << test::text(a);
+    } else {
+      ASSERT_GE(f(a), outside) << test::text(a);
+    }
+  }
+}
+
+TEST(Field, OperatorsKeepTheSlopeThatItsBoundsGiveIt) {
+  const Vec3E p = position();
+  const Shape ball = field(dot(p, p) - 0.5, Box::centred(dvec3(1.0))), block = box(Vec3E(0.5));
+  for (const Shape& s : {intersect(ball, block), subtract(ball, block), subtract(block, ball),
+                         unite(ball, block, Blend::quadratic(0.1)), twist(ball, 1.0), round(ball, 0.1)})
+    EXPECT_LT(slopeOf(s), 1e3);
+}
+
+TEST(Field, HasNoSlopeWhereItsFormulaJumps) {
+  const Expr steps = position().y - floor(position().x);
+  EXPECT_EQ(slopeOf(field(steps, Box::centred(dvec3(1.0)))), kInfinity);
+  EXPECT_EQ(field(steps, Box::centred(dvec3(1.0))).distance, steps);
 }
 
 TEST(Field, RefusesTheNormalAndBoundsThatHoldNothing) {

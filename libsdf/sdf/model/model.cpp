@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operand.h"
 
 namespace sdf {
@@ -104,11 +103,6 @@ TapePtr ModelTapes::link(std::span<const std::uint32_t> operands) const {
   return tapes_ && operands.size() < all_.size() ? tapes_->link(operands) : whole_;
 }
 
-double slopeIn(const Shape& shape, const Box& box) {
-  const double everywhere = slopeOf(shape);
-  return everywhere < kInfinity ? everywhere : lipschitzOver(Tape(shape.distance), box);
-}
-
 namespace {
 
 constexpr double kConstant = 0x1p-64;  // stands for 0: the slope of a distance that is the same everywhere
@@ -130,18 +124,6 @@ Expr leastOf(std::span<const Expr> all) {
   if (all.size() == 1) return all.front();
   const std::size_t half = all.size() / 2;
   return min(leastOf(all.first(half)), leastOf(all.subspan(half)));
-}
-
-// Of a shape whose slope is not known everywhere.
-Marchable nearItsBounds(const Shape& shape) {
-  Marchable result{shape.distance, shape.distance, kInfinity};
-  if (!shape.bounds.finite()) return result;
-  const Box near = shape.bounds.grown(0.5 * shape.bounds.longestSide());
-  const double slope = divisorOf(slopeIn(shape, near));
-  if (slope == kInfinity) return result;
-  const Expr isFar = less(0.0, *outsideBox(near)), way = *outsideBox(shape.bounds);
-  const Expr step = stepOf(shape.distance, slope, shape.bounds);
-  return {select(isFar, way, shape.distance), select(isFar, way, step), slope};
 }
 
 Marchable leastOf(const Marchable& a, const Marchable& b) {
@@ -192,7 +174,7 @@ Marchable marchable(const Shape& shape) {
     if (slope == kInfinity || !std::ranges::all_of(shape.outer->operands, isAlike))
       return leastOf(shape.outer->operands);
   }
-  if (slope == kInfinity) return nearItsBounds(shape);
+  if (slope == kInfinity) return {shape.distance, shape.distance, kInfinity};
   return {shape.distance, stepOf(shape.distance, slope, shape.bounds), slope};
 }
 

@@ -80,10 +80,6 @@ class Model {
   std::shared_ptr<const Compiled> compiled_;
 };
 
-/// Bound of the slope of the shape's distance in a box: the one that holds everywhere, or else the one that
-/// the formula has there by interval arithmetic; infinite where neither is known.
-double slopeIn(const Shape& shape, const Box& box);
-
 /// A shape's distance for two ends: how far it is, which light reads, and how far one may go. The two are one
 /// node where the distance's slope is 1.
 struct Marchable {
@@ -107,9 +103,7 @@ Marchable leastOf(std::span<const Steep> all);
 
 /// What the shape is marched by. The step of one shape is its distance divided by its slope or, where that is
 /// above 1, the way to its bounds if this is more; of a hard union it is the least of its operands', so that
-/// none is slowed down by another's slope. Where the slope is not known everywhere but near the finite
-/// bounds, the distance and the step are so there, and both the way to the bounds beyond. Cost: linear in the
-/// number of operands.
+/// none is slowed down by another's slope. Cost: linear in the number of operands.
 Marchable marchable(const Shape& shape);
 
 }  // namespace sdf

@@ -38,7 +38,7 @@ struct Cell {
 };
 
 // Cells that cover the region, halved where the slope is worst until that is good or there are too many.
-// `slopesOf` reads one.
+// `slopesOf` reads one. `size` is the shape's: sides without an end are cut in such pieces.
 template <class SlopesOf>
 std::vector<Cell> refined(const Box& region, double size, std::size_t mostCells, SlopesOf slopesOf) {
   constexpr double kGood = 1.25;  // less is not looked for

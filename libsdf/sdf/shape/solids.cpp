@@ -239,19 +239,4 @@ Shape cutSphere(const Expr& radius, const Expr& height) {
                roundBounds(bottom > 0.0 ? std::sqrt(top * top - bottom * bottom) : top, bottom, top));
 }
 
-Shape field(const Expr& distance, const Box& bounds, double lipschitz) {
-  Check c("field");
-  c.that(lipschitz > 0.0, "lipschitz must be positive, got " + shown(lipschitz));
-  for (const Expr& e : topologicalOrder({&distance, 1}))
-    c.that(e.op() != Op::Variable || e.variableIndex() <= Variable::Z,
-           "distance must not depend on the normal");
-  c.that(!bounds.empty(), "bounds must not be empty");
-  if (!c.ok()) return c.failure();
-  Shape s;
-  s.distance = distance.claimLipschitz(lipschitz);
-  s.bounds = bounds;
-  s.claim = {ClaimKind::Field, s.distance.lipschitz()};
-  return s;
-}
-
 }  // namespace sdf
