@@ -69,6 +69,19 @@ TEST(MetallicRoughness, MirrorsAreMetalAboveTheDielectricsFourPercent) {
   EXPECT_EQ(toMetallicRoughness(material).metallic, 1.0f);
 }
 
+TEST(MetallicRoughness, WhatMirrorsAtGrazingAnglesOnlyIsASmoothDielectric) {
+  MeshMaterial varnish;
+  varnish.reflectivity = 0.45f;
+  varnish.shininess = 60.0f;
+  const PbrMaterial mirror = toMetallicRoughness(varnish);
+  varnish.fresnelPower = 5.0f;
+  EXPECT_GT(mirror.metallic, 0.4f);
+  EXPECT_EQ(toMetallicRoughness(varnish).metallic, 0.0f);
+  EXPECT_EQ(toMetallicRoughness(varnish).roughness, mirror.roughness);
+  varnish.fresnelBias = 1.0f;  // head on now 0.45
+  EXPECT_NEAR(toMetallicRoughness(varnish).metallic, mirror.metallic, kRounding);
+}
+
 TEST(MetallicRoughness, BrightEmissionIsSplitIntoColourAndStrength) {
   MeshMaterial material;
   material.emission = {4.0f, 2.0f, 0.0f};
@@ -85,7 +98,7 @@ TEST(MetallicRoughness, StaysInRangeForHostileNumbers) {
   for (const float v : {nan, -1.0f, huge, std::numeric_limits<float>::infinity(), 0.0f, 1e-38f}) {
     MeshMaterial material;
     material.specular = {v, 0.0f, 1.0f};
-    material.shininess = material.reflectivity = v;
+    material.shininess = material.reflectivity = material.fresnelPower = material.fresnelBias = v;
     material.emission = {v, 0.0f, 0.0f};
     const PbrMaterial pbr = toMetallicRoughness(material);
     for (const float share :

@@ -78,6 +78,8 @@ TEST(ColorMesh, OneMaterialNeedsNoCopies) {
                       .specular = {0.5, 0.25, 0.125},
                       .shininess = 77.0,
                       .reflectivity = 0.25,
+                      .fresnelPower = 5.0,
+                      .fresnelBias = 0.125,
                       .emission = {2.0, 0.0, 1.0}};
   const Mesh mesh = meshed(boredBox().paint(gold), 1.0 / 16);
   ASSERT_EQ(mesh.materials.size(), 1u);
@@ -91,6 +93,8 @@ TEST(ColorMesh, OneMaterialNeedsNoCopies) {
   EXPECT_EQ(m.specular, glm::vec3(0.5f, 0.25f, 0.125f));
   EXPECT_EQ(m.shininess, 77.0f);
   EXPECT_EQ(m.reflectivity, 0.25f);
+  EXPECT_EQ(m.fresnelPower, 5.0f);
+  EXPECT_EQ(m.fresnelBias, 0.125f);
   EXPECT_EQ(m.emission, glm::vec3(2.0f, 0.0f, 1.0f));
 }
 

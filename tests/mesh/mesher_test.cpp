@@ -256,7 +256,7 @@ TEST(MeshShape, SaysWhenThereIsNothingToMesh) {
   };
   for (const Case& c :
        {Case{field(dot(p, p) + 1.0), {}, "no surface"},
-        Case{field(dot(p, p) + 1.0), region(1.0), "no surface"},
+        Case{field(dot(p, p) + 1.0), region(1.0), "no surface inside the bounds at a voxel size of 0.1"},
         Case{translate(sphere(1.0), {9.0, 0.0, 0.0}), region(1.0), "nothing inside the bounds"},
         Case{sphere(-1.0), {}, "radius must be positive"}}) {
     const auto m = tryMesh(c.shape, {.voxelSize = 0.1, .bounds = c.bounds});
@@ -266,6 +266,16 @@ TEST(MeshShape, SaysWhenThereIsNothingToMesh) {
     EXPECT_NE(m.error().message.find("part 'floor'"), std::string::npos) << m.error().message;
     EXPECT_EQ(m.error().message.find('\n'), std::string::npos);
   }
+}
+
+TEST(MeshShape, NamesAVoxelSizeThatSeesWhatIsTooThin) {
+  const Shape sheet = translate(box({1.0, 0.01, 1.0}), {0.0, 0.05, 0.0});
+  const auto refused = tryMesh(sheet, {.voxelSize = 0.1});
+  ASSERT_FALSE(refused.ok());
+  const std::string &message = refused.error().message, says = "at a voxel size of 0.1; take one of ";
+  const std::size_t at = message.find(says);
+  ASSERT_NE(at, std::string::npos) << message;
+  EXPECT_TRUE(tryMesh(sheet, {.voxelSize = std::stod(message.substr(at + says.size()))}).ok()) << message;
 }
 
 // The unit ball by a formula that is steep near one point of its surface only: up to 21 there.

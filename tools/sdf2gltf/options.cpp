@@ -62,7 +62,8 @@ void declare(CLI::App& app, Words& words) {
     return app.add_option(flag, word, what)->type_name(value);
   };
   add("-o,--output", words.output, "OUT", "file to write: .glb .gltf .stl .ply .obj")->required();
-  add("--voxel-size", words.voxelSize, "H", "sampling distance in scene units [1/200 of the longest side]");
+  add("--voxel-size", words.voxelSize, "H",
+      "sampling distance in scene units [1/200 of the longest side of all that is exported]");
   add("--bounds", words.bounds, "x0,y0,z0,x1,y1,z1", "clip to this box, closed [the scene's bounds]");
   add("-D", words.parameters, "name=value", "set a parameter of the scene; may be repeated")
       ->allow_extra_args(false);

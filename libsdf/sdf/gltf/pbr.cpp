@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 namespace sdf {
 namespace {
@@ -20,6 +21,13 @@ glm::vec3 clamped(const glm::vec3& v, float low, float high) {
 float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 float smallest(const glm::vec3& v) { return std::min({v.x, v.y, v.z}); }
 
+// The mirror weight where (1 - cos)^power is this.
+float mirrorWeight(const MeshMaterial& material, float grazing) {
+  const float most = std::numeric_limits<float>::max();
+  const float bias = clamped(material.fresnelBias, 0.0f, most);
+  return clamped(clamped(material.reflectivity, 0.0f, most) * (bias + grazing), 0.0f, 1.0f);
+}
+
 }  // namespace
 
 glm::vec3 PbrMaterial::baseColor(const glm::vec3& diffuse) const {
@@ -30,7 +38,8 @@ PbrMaterial toMetallicRoughness(const MeshMaterial& material) {
   const float most = std::numeric_limits<float>::max();
   const glm::vec3 specular = clamped(material.specular, 0.0f, most);
   const float peak = largest(specular);
-  const float mirror = clamped(material.reflectivity, 0.0f, 1.0f);
+  const float headOn = mirrorWeight(material, material.fresnelPower > 0.0f ? 0.0f : 1.0f);
+  const float grazing = mirrorWeight(material, 1.0f);
   const float shininess = clamped(material.shininess, 0.0f, most);
 
   PbrMaterial pbr;
@@ -40,10 +49,10 @@ PbrMaterial toMetallicRoughness(const MeshMaterial& material) {
   }
   pbr.metallic =
       std::max(pbr.metalShare,
-               clamped((mirror - kDielectricReflectance) / (1.0f - kDielectricReflectance), 0.0f, 1.0f));
+               clamped((headOn - kDielectricReflectance) / (1.0f - kDielectricReflectance), 0.0f, 1.0f));
 
   const float lobe = std::pow(1.0f / (2.0f * shininess + 1.0f), 0.25f);
-  pbr.roughness = glm::mix(1.0f, lobe, std::min(1.0f, std::max(peak, mirror) / kDielectricReflectance));
+  pbr.roughness = glm::mix(1.0f, lobe, std::min(1.0f, std::max(peak, grazing) / kDielectricReflectance));
 
   const glm::vec3 emission = clamped(material.emission, 0.0f, most);
   pbr.emissiveStrength = std::max(1.0f, largest(emission));

@@ -21,16 +21,17 @@ struct PbrMaterial {
 };
 
 /// The metallic-roughness material that looks most like a Phong material; numbers out of range are clamped
-/// first. With exponent n, highlight colour s of peak s* = max(s), and mirror weight r:
+/// first. With exponent n, highlight colour s of peak s* = max(s), and mirror weights r0 head on and r1 at
+/// grazing angles (reflectivity * (bias + (1 - cos)^power), at most 1: r1 = r0 where the power is 0):
 /// - Phong's lobe about the mirror direction is Blinn's about the half vector with exponent 4n, as the half
 ///   vector turns half as fast (cos^n 2h ~ cos^4n h for small h);
 /// - Blinn's exponent m is a microfacet width of alpha^2 = 2 / (m + 2) (Walter et al. 2007, Microfacet Models
 ///   for Refraction, section 5.2), and glTF's roughness is sqrt(alpha): roughness = (1 / (2n + 1))^(1/4);
 /// - glTF's dielectrics always reflect 4 %, so below that the highlight is spread out:
-///   roughness = mix(1, the above, min(1, max(s*, r) / 0.04));
+///   roughness = mix(1, the above, min(1, max(s*, r1) / 0.04));
 /// - only metals tint their highlight: with saturation t = (s* - min(s)) / s* and weight min(1, s*),
 ///   metalShare is their product; and only metals mirror more than 4 % head on:
-///   metallic = max(metalShare, (r - 0.04) / 0.96);
+///   metallic = max(metalShare, (r0 - 0.04) / 0.96);
 /// - base colour = mix(diffuse, s / s*, metalShare).
 PbrMaterial toMetallicRoughness(const MeshMaterial& material);
 

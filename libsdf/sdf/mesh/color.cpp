@@ -170,6 +170,8 @@ void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
                     mean(Attribute::SpecularBlue)};
     out.shininess = mean(Attribute::Shininess);
     out.reflectivity = mean(Attribute::Reflectivity);
+    out.fresnelPower = mean(Attribute::FresnelPower);
+    out.fresnelBias = mean(Attribute::FresnelBias);
     out.emission = {mean(Attribute::EmissionRed), mean(Attribute::EmissionGreen),
                     mean(Attribute::EmissionBlue)};
   }

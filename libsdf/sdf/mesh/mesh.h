@@ -14,7 +14,9 @@ struct MeshMaterial {
   glm::vec3 color{0.8f};
   glm::vec3 specular{0.0f};
   float shininess = 32.0f;
-  float reflectivity = 0.0f;
+  float reflectivity = 0.0f;  ///< with the next two as in shape.h
+  float fresnelPower = 0.0f;
+  float fresnelBias = 0.0f;
   glm::vec3 emission{0.0f};
 };
 

@@ -64,11 +64,7 @@ class Mesher {
     const BandField field(*sampled, std::move(whole));
     begin("extraction");
     RawSurface raw = sampled->extract();
-    if (raw.triangles.empty())
-      return sceneError(
-          name_,
-          "no surface inside the bounds at this voxel size; check the bounds and the shape's position, "
-          "or take a smaller voxel size");
+    if (raw.triangles.empty()) return noSurface(h);
     Mesh& mesh = result_.mesh;
     mesh.positions = std::move(raw.points);
     mesh.triangles = std::move(raw.triangles);
@@ -117,6 +113,17 @@ class Mesher {
     auto result = sampleNarrowBand(model, band, progress_);
     if (result) findUnresolved(*result, BandField(*result, whole), progress_, result_.stats);
     return result;
+  }
+
+  Error noSurface(double voxel) const {
+    const MeshStats& stats = result_.stats;
+    const std::string size = " at a voxel size of " + shown(voxel);
+    if (stats.unresolved > 0)
+      return sceneError(name_, "too thin to be seen" + size + "; take " +
+                                   (stats.resolvingVoxel > 0.0 ? "one of " + shown(stats.resolvingVoxel)
+                                                               : std::string("a smaller one")));
+    return sceneError(name_, "no surface inside the bounds" + size +
+                                 "; check the bounds and the shape's position, or take a smaller voxel size");
   }
 
   // Refuses a mesh that contradicts the bounds and the slope that the shape claims. `distances` are the
