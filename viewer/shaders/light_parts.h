@@ -88,12 +88,27 @@ float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
   if (light == 0.0) return 0.0;
   clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
+  // Of the reading before: t, f / t, the step to it and how f * f rose along it; and f / t of the one before that.
+  float far = 0.0, least = 0.0, stepBefore = 0.0, riseBefore = 0.0, before = 0.0;
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l);
     COUNT_SHADOW
     if (max(g.x, g.y) <= shadowHit) return 0.0;
-    light = min(light, sharpness * g.y / t);
-    t += g.x;
+    float ratio = g.y / t, step = t - far, rise = (g.y * g.y - least * least * far * far) / step;
+    light = min(light, sharpness * ratio);
+    if (i > 1 && least < 0.998 * min(before, ratio)) {  // the least f / t is around the reading before
+      float bend = (rise - riseBefore) / (stepBefore + step), slope = riseBefore + bend * stepBefore;
+      float square = least * least * far * far, steep = 2.0 * bend * far - slope;
+      float x = clamp((2.0 * square - slope * far) / (steep == 0.0 ? 1.0 : steep), -stepBefore, step);
+      float there = (square + (slope + bend * x) * x) / ((far + x) * (far + x));
+      light = min(light, sharpness * sqrt(max(there, 0.75 * least * least)));
+    }
+    before = least;
+    least = ratio;
+    stepBefore = step;
+    riseBefore = rise;
+    far = t;
+    t += (sharpness * ratio < 1.0 ? 0.6 : 1.0) * g.x;
   }
   return ended(t, reach, light);
 }
