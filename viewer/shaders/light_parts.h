@@ -294,12 +294,13 @@ void main() {
 inline constexpr const char* kResolve = R"(
 uniform sampler2D sums;
 uniform float weight;
+uniform float drawn;  // the share of all samples that is in the sums
 layout(location = 0) out vec4 color;
 
 void main() {
   vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
   float shaded = floor(0.5 * (sum.a + 0.5 * weight)), unspent = sum.a - 2.0 * shaded;
-  color = vec4(ENCODE(sum.rgb), unspent < 1.0 - 0.5 * weight ? 0.0 : shaded > 0.0 ? 0.5 : 1.0);
+  color = vec4(ENCODE(sum.rgb / drawn), unspent < drawn - 0.5 * weight ? 0.0 : shaded > 0.0 ? 0.5 : 1.0);
 }
 )";
 
