@@ -114,6 +114,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
   if (plan.occlusion != AmbientOcclusion::Kind::None) program.set("tapStrength", look.occlusionStrength);
   if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", lengths.tapSpacing);
   if (plan.filters) program.set("footprint", shot.footprint());
+  if (plan.glossy) program.set("lobe", shot.lobe());
   if (view == View::Slice) {
     program.set("slicePoint", glm::vec3(look.eye.to));
     program.set("sliceNormal", axisOf(look.eye));
