@@ -137,10 +137,10 @@ TEST(Shadows, ImprovedLightsWhatLeavesASurfaceSteeperThanADistance) {
   for (const double light : shade(field, rays, {ShadowMethod::Improved, 4.0}).light) EXPECT_GT(light, 0.9);
 }
 
-// The least k g / t along rays past a box's edges. Soft reads g only now and then, and is too light between
-// the readings. Improved supposes the worst between two balls: most where they are of one size, which makes d
-// the height of a triangle with three equal sides.
-TEST(Shadows, SoftErrToTheLightAndImprovedToTheDark) {
+// The least k g / t along rays past a box's edges. Soft supposes one edge, corner or face where a box has
+// several, and sees nothing before its first two readings. Improved supposes the worst between two balls:
+// most where they are of one size, which makes d the height of a triangle with three equal sides.
+TEST(Shadows, SoftErrLessThanImprovedToTheDark) {
   const unsigned seed = 3;
   const double step = 1e-3;
   Rays rays = raysInward(500, 3.0, 6.0, seed);
@@ -150,20 +150,47 @@ TEST(Shadows, SoftErrToTheLightAndImprovedToTheDark) {
   const double k = 8.0;
   const std::vector<double> soft = shade(field, rays, {ShadowMethod::Soft, k}).light;
   const std::vector<double> improved = shade(field, rays, {ShadowMethod::Improved, k}).light;
-  double softLight = 0.0, improvedLight = 0.0, improvedDark = 0.0;
+  double softLight = 0.0, softDark = 0.0, improvedLight = 0.0, improvedDark = 0.0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     double least = 1.0;
     for (double t = rays.tMin[i]; t < rays.tMax[i]; t += step)
       least = std::clamp(k * scene.distance(rays.at(i, t)) / t, 0.0, least);
-    EXPECT_GE(soft[i], least - k * step / rays.tMin[i]) << test::describe(rays, i);
+    softDark = std::max(softDark, least - soft[i]);
     softLight = std::max(softLight, soft[i] - least);
     improvedLight = std::max(improvedLight, improved[i] - least);
     improvedDark = std::max(improvedDark, least - improved[i]);
   }
-  std::printf("past a box, k 8: soft up to %.3f too light; improved %.3f, and %.3f too dark\n", softLight,
-              improvedLight, improvedDark);
+  std::printf("past a box, k 8: soft up to %.3f too light, %.3f too dark; improved %.3f and %.3f\n",
+              softLight, softDark, improvedLight, improvedDark);
+  EXPECT_LT(softDark, 0.25 * improvedDark);
   EXPECT_LE(improvedDark, 1.0 - std::sqrt(3.0) / 2.0);
   EXPECT_LT(improvedLight, 0.25 * softLight);
+}
+
+// Beside a wire the least k f / t is known: k times the sine of the angle between the ray and the way to it.
+// Readings alone miss it, here more and there less: bands. The parabola through three of them finds it.
+TEST(Shadows, SoftHaveNoBandsBesideAWire) {
+  const double k = 6.0, start = 0.02, reach = 20.0, half = 1e-5;
+  const glm::dvec3 light = glm::normalize(glm::dvec3(1.0, 2.0, 0.0)), wire(1.5, 3.0, 0.0);
+  const MarchField field = marchField(translate(box(Vec3E(half, half, 50.0)), Vec3E(wire))).value();
+  Vectors points;
+  for (double x = -1.0; x < 1.0; x += 1.0 / 256.0) points.add({x, 0.0, 0.0});
+  const std::vector<double> soft =
+      shade(field, raysTowards(points, light, start, reach), {ShadowMethod::Soft, k}).light;
+  double naiveError = 0.0, error = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 way = wire - points[i];
+    const double truth = k * glm::length(glm::cross(glm::normalize(way), light));
+    if (!(truth > 0.1 && truth < 1.0)) continue;
+    double naive = 1.0;
+    for (double t = start; t < reach; t += glm::length(t * light - way))
+      naive = std::min(naive, k * glm::length(t * light - way) / t);
+    naiveError = std::max(naiveError, naive / truth - 1.0);
+    error = std::max(error, std::abs(soft[i] / truth - 1.0));
+  }
+  std::printf("beside a wire: readings alone up to %.4f too light, soft %.4f off\n", naiveError, error);
+  EXPECT_GT(naiveError, 0.003);
+  EXPECT_LT(error, 0.1 * naiveError);
 }
 
 TEST(Shadows, SignedLeakThroughThinSolids) {

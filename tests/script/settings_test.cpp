@@ -95,7 +95,7 @@ TEST(Settings, TheRestArrives) {
     fog{color = 0.5, density = 0.25}
     shadows{kind = "improved", sharpness = 16, start = 0.1, reach = 5, steps = 7}
     ambient_occlusion{kind = "steps", spacing = 0.5, count = 3, strength = 0.005}
-    reflections{bounces = 2}
+    reflections{bounces = 2, glossy = true}
     max_distance(40)
     gamma(2.2)
     bounds({-1, -2, -3}, {1, 2, 3}))");
@@ -112,6 +112,7 @@ TEST(Settings, TheRestArrives) {
   EXPECT_EQ(scene.ambientOcclusion.count, 3);
   EXPECT_TRUE(scene.ambientOcclusion.strength.isConstant(0.005));
   EXPECT_EQ(scene.reflectionBounces, 2);
+  EXPECT_TRUE(scene.glossyReflections);
   EXPECT_EQ(scene.maxDistance, 40.0);
   EXPECT_EQ(scene.gamma, 2.2);
   ASSERT_TRUE(scene.bounds);

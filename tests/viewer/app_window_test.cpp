@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <set>
 #include <thread>
 
 #include "support/folder.h"
@@ -96,7 +97,7 @@ class WindowTest : public testing::Test {
       glfwPostEmptyEvent();  // no need to wait for more
       ASSERT_TRUE(window->turn());
     }
-    ASSERT_TRUE(until([&] { return window->canvas().whole(); }));
+    ASSERT_TRUE(until([&] { return window->canvas().resting(); }));
   }
 
   void keys(const std::string& names) { ASSERT_TRUE(xdotool("key --delay 60 " + names)); }
@@ -322,6 +323,27 @@ TEST_F(BareWindowTest, SleepsWhileNothingChanges) {
   int turns = 0;
   for (; std::chrono::steady_clock::now() < end; ++turns) ASSERT_TRUE(window->turn());
   EXPECT_LE(turns, 10) << "a look at the file each quarter of a second, and some events";
+}
+
+// Over the ball's rim the mean of all samples has shades that a pixel's own few do not.
+TEST_F(BareWindowTest, RefinesAStillPictureAndRestsUntilItMoves) {
+  const int all = Canvas::kRefined * Canvas::kRefined;
+  EXPECT_EQ(window->canvas().statistics().refined, all);
+  std::set<int> shades;
+  const Screenshot still = screenshot();
+  for (int i = 0; i < kWidth * kHeight; ++i) shades.insert(still.pixel(i % kWidth, i / kWidth).x);
+  EXPECT_GT(shades.size(), 12u);
+
+  keys("3");
+  ASSERT_TRUE(until([&] { return window->canvas().statistics().refined < all; })) << "begins anew";
+  int least = all, most = 0;
+  ASSERT_TRUE(until([&] {
+    const int refined = window->canvas().statistics().refined;
+    least = std::min(least, refined), most = std::max(most, refined);
+    return window->canvas().resting();
+  }));
+  EXPECT_EQ(least, 0);
+  EXPECT_EQ(most, all);
 }
 
 TEST_F(BareWindowTest, MovesAtTwentyFramesASecond) {

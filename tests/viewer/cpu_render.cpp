@@ -4,7 +4,10 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <numbers>
 #include <stdexcept>
 #include <thread>
 
@@ -76,6 +79,9 @@ struct Surface {
   }
 };
 
+// Of each ray the place in the unit square that chooses a direction of a glossy mirror's lobe.
+using Lobes = std::vector<glm::dvec2>;
+
 struct Seen {
   std::vector<glm::dvec3> radiance, normal;
   Hits hits;
@@ -90,12 +96,12 @@ class Eye {
         now_(present),
         marcher_(take(Marcher::make(present.field, present.march))) {}
 
-  Seen look(const Rays& rays, int bouncesLeft) {
+  Seen look(const Rays& rays, const Lobes& lobes, int bouncesLeft) {
     Seen seen{{}, std::vector<glm::dvec3>(rays.size(), glm::dvec3(0.0)), take(marcher_.trace(rays))};
     for (std::size_t i = 0; i < rays.size(); ++i) seen.radiance.push_back(background(rays.direction[i]));
     const Surface surface = surfaceAt(rays, seen.hits);
     std::vector<glm::dvec3> color = local(rays, surface, seen.hits);
-    if (bouncesLeft > 0) addMirrored(rays, surface, bouncesLeft, color);
+    if (bouncesLeft > 0) addMirrored(rays, lobes, surface, bouncesLeft, color);
     for (std::size_t i = 0; i < surface.ray.size(); ++i) {
       const std::size_t ray = surface.ray[i];
       const double kept = std::exp(-now_.fogDensity * seen.hits.t[ray]);
@@ -186,28 +192,51 @@ class Eye {
     return take(shadows(now_.shadeField, way, options)).light;
   }
 
-  void addMirrored(const Rays& rays, const Surface& s, int bouncesLeft, std::vector<glm::dvec3>& color) {
+  void addMirrored(const Rays& rays, const Lobes& lobes, const Surface& s, int bouncesLeft,
+                   std::vector<glm::dvec3>& color) {
     Rays mirrored;
+    Lobes theirs;
     std::vector<std::size_t> of;
-    std::vector<double> weight;
+    std::vector<glm::dvec3> weight;
     for (std::size_t i = 0; i < s.ray.size(); ++i) {
       const glm::dvec3 n = s.normals[i], d = rays.direction[s.ray[i]];
-      const double w = mirrorWeight(s, i, std::max(glm::dot(-d, n), 0.0));
-      if (w <= 0.0) continue;
+      const glm::dvec3 w = mirrorWeight(s, i, std::max(glm::dot(-d, n), 0.0));
+      if (w == glm::dvec3(0.0)) continue;
       of.push_back(i);
       weight.push_back(w);
-      mirrored.add(s.points[i], glm::normalize(glm::reflect(d, n)), kMirrorStart, lengths_.maxDistance);
+      const glm::dvec3 m = glm::normalize(glm::reflect(d, n)), u(lobes[s.ray[i]], 0.0);
+      const double exponent = s.get(i, Attribute::Shininess);
+      theirs.push_back(lobes[s.ray[i]]);
+      mirrored.add(s.points[i], scene_.glossyReflections ? inLobe(m, n, exponent, u) : m, kMirrorStart,
+                   lengths_.maxDistance);
     }
     if (of.empty()) return;
-    const Seen seen = look(mirrored, bouncesLeft - 1);
+    const Seen seen = look(mirrored, theirs, bouncesLeft - 1);
     for (std::size_t k = 0; k < of.size(); ++k)
       color[of[k]] = glm::mix(color[of[k]], seen.radiance[k], weight[k]);
   }
 
+  // Around m, with the cosine's density (exponent + 1) / (2 pi) cos^exponent; mirrored at the surface if it
+  // is behind.
+  static glm::dvec3 inLobe(const glm::dvec3& m, const glm::dvec3& n, double exponent, const glm::dvec3& u) {
+    const glm::dvec3 aside = std::abs(m.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 across = glm::normalize(glm::cross(m, aside)), up = glm::cross(m, across);
+    const double cosine = std::pow(u.x, 1.0 / (exponent + 1.0)), sine = std::sqrt(1.0 - cosine * cosine);
+    const double turn = 2.0 * std::numbers::pi * u.y;
+    const glm::dvec3 way = cosine * m + sine * (std::cos(turn) * across + std::sin(turn) * up);
+    return glm::normalize(way - std::min(2.0 * glm::dot(way, n), 0.0) * n);
+  }
+
   // Schlick, "An inexpensive BRDF model for physically-based rendering", 1994, with power and bias free.
-  static double mirrorWeight(const Surface& s, std::size_t i, double cosine) {
-    const double grazing = std::pow(1.0 - cosine, s.get(i, Attribute::FresnelPower));
-    return std::min(s.get(i, Attribute::Reflectivity) * (s.get(i, Attribute::FresnelBias) + grazing), 1.0);
+  // Straight on a mirror has the highlight's tint.
+  static glm::dvec3 mirrorWeight(const Surface& s, std::size_t i, double cosine) {
+    const double power = s.get(i, Attribute::FresnelPower);
+    const glm::dvec3 specular = s.color(i, Attribute::SpecularRed);
+    const double peak = std::max({specular.x, specular.y, specular.z});
+    const glm::dvec3 tint = peak > 0.0 ? specular / peak : glm::dvec3(1.0);
+    const glm::dvec3 grazing = power == 0.0 ? tint : glm::dvec3(std::pow(1.0 - cosine, power));
+    return glm::min(s.get(i, Attribute::Reflectivity) * (s.get(i, Attribute::FresnelBias) * tint + grazing),
+                    1.0);
   }
 
   const Scene& scene_;
@@ -241,10 +270,29 @@ Rays raysOfRow(const Scene& scene, const CpuRenderOptions& o, int row) {
   return rays;
 }
 
+// Bayer's pattern of 8 by 8, counted from the lower left as OpenGL does.
+unsigned bayer(unsigned x, unsigned y) {
+  x ^= y;
+  return (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
+}
+
+// Those of raysOfRow: the samples' places by Roberts's sequence, shifted in each pixel.
+Lobes lobesOfRow(const CpuRenderOptions& o, int row) {
+  Lobes lobes;
+  for (int column = 0; column < o.width; ++column) {
+    const unsigned place = bayer(static_cast<unsigned>(column), static_cast<unsigned>(o.height - 1 - row));
+    const glm::dvec2 shift((place + 0.5) / 64.0, (place * 29 % 64 + 0.5) / 64.0);
+    for (int sample = 0; sample < o.samples * o.samples; ++sample)
+      lobes.push_back(
+          glm::fract(shift + double(sample) * glm::dvec2(0.7548776662466927, 0.5698402909980532)));
+  }
+  return lobes;
+}
+
 void drawRow(const Scene& scene, const CpuRenderOptions& o, Eye& eye, int row, Picture& picture) {
   const std::size_t each = static_cast<std::size_t>(o.samples) * o.samples;
   const std::size_t middle = static_cast<std::size_t>(o.samples / 2) * (o.samples + 1);
-  const Seen seen = eye.look(raysOfRow(scene, o, row), scene.reflectionBounces);
+  const Seen seen = eye.look(raysOfRow(scene, o, row), lobesOfRow(o, row), scene.reflectionBounces);
   for (int column = 0; column < o.width; ++column) {
     const std::size_t pixel = picture.at(column, row), first = each * column;
     for (std::size_t k = 0; k < each; ++k)

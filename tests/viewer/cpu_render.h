@@ -28,7 +28,8 @@ struct CpuRenderOptions {
   int width = 160, height = 90;
   int samples = 1;  ///< samples x samples rays a pixel, > 0
   /// How rays march; Plain where occlusion counts their steps, Bisection where the slope is unknown.
-  MarchOptions march{.method = MarchMethod::AutoRelaxed, .epsilon = 1e-6, .maxSteps = 100'000};
+  MarchOptions march{
+      .method = MarchMethod::AutoRelaxed, .epsilon = 1e-6, .maxSteps = 100'000, .lookBehind = true};
 };
 
 /// The picture, with the lighting that viewer/shaders draw. Parameters and time stand at their present

@@ -59,11 +59,11 @@ TEST(CpuRender, DarkensAllLightByTheStepsOfAPlainMarch) {
   scene.add("", wall({.color = Vec3E(0.0), .emission = Vec3E(1.0)}));
   scene.ambientOcclusion = {.kind = AmbientOcclusion::Kind::Steps, .strength = kStrength};
   const Picture picture = draw(scene);
-  // Straight ahead the first step ends on the wall, and the second reading says so.
-  EXPECT_EQ(picture.color[picture.at(kWidth / 2, kHeight / 2)].x, 1.0 - 2.0 * kStrength);
-  // Elsewhere the height is multiplied by 1 - cos each step.
+  // Straight ahead the first step ends on the wall, the second reading says so, and the third is behind it.
+  EXPECT_EQ(picture.color[picture.at(kWidth / 2, kHeight / 2)].x, 1.0 - 3.0 * kStrength);
+  // Elsewhere the height is multiplied by 1 - cos each step, down to two epsilons, and one reading is behind.
   const double cosine = -rayThrough(0, 0).z, epsilon = CpuRenderOptions{}.march.epsilon;
-  const double steps = 1.0 + std::ceil(std::log(epsilon / kAway) / std::log(1.0 - cosine));
+  const double steps = 2.0 + std::ceil(std::log(2.0 * epsilon / kAway) / std::log(1.0 - cosine));
   EXPECT_EQ(picture.color[picture.at(0, 0)].x, 1.0 - steps * kStrength);
 }
 

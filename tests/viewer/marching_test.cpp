@@ -144,7 +144,8 @@ Scene wires() {
 }
 
 // Tiles start where their whole cone is free: what a plain ray hits from the eye, a ray from its tile's start
-// hits, too. The last reading decides whether a ray beside a wire hits it, hence the neighbours.
+// hits, too. Rounding decides whether a ray along a wire's rim hits it, hence the neighbours. A wire is 0.3
+// pixels wide, and 110 pixels long or cut off at the picture's edge.
 TEST(Cones, SkipNothing) {
   const Scene scene = wires();
   const auto cones = renderOnGpu(scene, materials(Method::AutoRelaxed, kWidth, kHeight));
@@ -164,7 +165,7 @@ TEST(Cones, SkipNothing) {
       EXPECT_TRUE(!isHit(plain[i]) || near(cones, column, row)) << column << ", " << row;
       EXPECT_TRUE(!isHit(cones[i]) || near(plain, column, row)) << column << ", " << row;
     }
-  EXPECT_GT(hits, 200);
+  EXPECT_GT(hits, 150);
   EXPECT_LE(apart, hits / 50);
 }
 

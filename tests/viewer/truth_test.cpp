@@ -4,6 +4,7 @@
 #include "sdf/scene/fit.h"
 #include "sdf/scene/patterns.h"
 #include "sdf/shape/booleans.h"
+#include "viewer/gpu_render.h"
 #include "viewer/truth.h"
 
 namespace sdf::test {
@@ -223,6 +224,49 @@ TEST_P(Truth, MirrorsFacingEachOtherShowAsManyBouncesAsAsked) {
     for (int k = bounces - 1; k >= 0; --k) expected = (1.0 - weight) * glow[k % 2] + weight * expected;
     EXPECT_LE(farthest(middle(draw(scene)), expected), rounding()) << bounces << " bounces";
   }
+}
+
+// Straight on a metal's mirror has the tint of its highlight; what it mirrors more at grazing angles is
+// white.
+TEST_P(Truth, AMirrorIsTintedByTheHighlightButAtItsRim) {
+  Scene scene = darkScene();
+  const glm::dvec3 gold(0.8, 0.4, 0.2);
+  scene.add("", ball(glm::dvec3(0.0), 1.0,
+                     {.color = Vec3E(0.0),
+                      .specular = Vec3E(gold),
+                      .reflectivity = 0.5,
+                      .fresnelPower = 5.0,
+                      .fresnelBias = 1.0}));
+  scene.background = Vec3E(1.0);
+  const Picture picture = draw(scene);
+  EXPECT_LE(farthest(middle(picture), 0.5 * gold / 0.8), rounding());
+  const int column = static_cast<int>(kWidth / 2 + 0.97 * kHeight / std::sqrt(kAway * kAway - 1.0));
+  const glm::dvec3 rim = picture.color[picture.at(column, kHeight / 2)];
+  const glm::dvec3 more = rim - middle(picture);
+  const double miss = approach(kEye, rayThrough(column, kHeight / 2), glm::dvec3(0.0));
+  const double cosine = std::sqrt(1.0 - miss * miss), slope = 2.5 * std::pow(1.0 - cosine, 4.0);
+  EXPECT_NEAR(more.x, 0.5 * std::pow(1.0 - cosine, 5.0), rounding() + slope * offset() / cosine);
+  EXPECT_LE(farthest(more, glm::dvec3(more.x)), 2.0 * rounding());
+}
+
+// Phong's lobe of exponent n about the way straight up: where the sky is white for cosines above c and black
+// below, a mirror seen straight on shows 1 - c^(n + 1) of it. The samples' places fill the square evenly, and
+// n samples miss a share by a few times log(n) / n.
+TEST(Glossy, AMirrorShowsTheShareOfItsLobe) {
+  Scene scene = darkScene();
+  const double exponent = 20.0, cosine = 0.95;
+  scene.add("", wall({.color = Vec3E(0.0), .shininess = exponent, .reflectivity = 1.0}));
+  const Vec3E d = position();
+  scene.background = Vec3E(select(less(cosine, d.z), 1.0, 0.0));
+  scene.camera.fov = 0.1;  // all rays go straight on
+  scene.glossyReflections = true;
+  GpuRenderOptions options;
+  options.width = options.height = 8;
+  options.samples = 16;
+  const double expected = 1.0 - std::pow(cosine, exponent + 1.0);
+  for (const glm::vec4& pixel : renderOnGpu(scene, options)) ASSERT_NEAR(pixel.x, expected, 6.0 / 256.0);
+  scene.glossyReflections = false;
+  for (const glm::vec4& pixel : renderOnGpu(scene, options)) ASSERT_NEAR(pixel.x, 1.0, 1e-3);
 }
 
 // Under a white sky a black mirror is as bright as its weight.

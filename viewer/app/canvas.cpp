@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "viewer/gpu/context.h"
 
@@ -46,7 +47,13 @@ Result<bool> Canvas::update(Session& session, int width, int height, double now)
   const Shown wanted{session.controls, session.compilations(), width, height};
   const bool first = !shown_, changed = shown_ != wanted;
   if (changed) lastChange_ = now;
-  if (!changed && (whole_ || now - lastChange_ < kStill)) return false;
+  if (!changed && now - lastChange_ < kStill) return false;
+  if (!changed && whole_) {
+    const int before = statistics_.refined;
+    for (const double start = secondsNow(); !resting() && secondsNow() - start < kRefining;)
+      if (const Status refined = refine(session); !refined) return refined.error();
+    return statistics_.refined > before;
+  }
   const bool moving = changed && !first;
   shown_ = wanted;
   if (const Status drawn = draw(session, moving ? pace_.scale() : 1.0, moving ? 1 : session.controls.samples);
@@ -63,7 +70,9 @@ Status Canvas::draw(Session& session, double scale, int samples) {
   const double start = secondsNow();
   if (const Status drawn = session.renderer().draw(frame, *target_); !drawn) return drawn;
   glFinish();
-  statistics_ = {width, height, samples, secondsNow() - start, {}, {}};
+  statistics_ = {width, height, samples, secondsNow() - start, 0, {}, {}};
+  const int atRest = std::max(session.controls.samples, kRefined);
+  samplesAtRest_ = atRest * atRest;
   const double rays = double(width) * height * samples * samples;
   pace_.drew(statistics_.seconds, rays / (double(shown_->width) * shown_->height));
   whole_ = scale == 1.0 && samples == session.controls.samples;
@@ -77,6 +86,19 @@ Status Canvas::draw(Session& session, double scale, int samples) {
   return okStatus();
 }
 
+Status Canvas::refine(Session& session) {
+  if (const Status made = ensure(refined_, target_->width(), target_->height(), {PixelFormat::Rgba8}); !made)
+    return made;
+  Frame frame = session.frame();
+  frame.samples = std::max(session.controls.samples, kRefined);
+  if (const Status drawn = session.renderer().refine(frame, statistics_.refined, *refined_); !drawn)
+    return drawn;
+  glFinish();
+  ++statistics_.refined;
+  if (statistics_.refined > statistics_.samples * statistics_.samples) std::swap(target_, refined_);
+  return okStatus();
+}
+
 void Canvas::show() const {
   if (target_) target_->show(shown_->width, shown_->height);
 }
@@ -85,6 +107,8 @@ Result<Picture> Canvas::picture(Session& session) {
   if (!shown_) return Error{ErrorKind::Limits, "there is no picture yet"};
   if (!whole_)
     if (const Status drawn = draw(session, 1.0, session.controls.samples); !drawn) return drawn.error();
+  while (!resting())
+    if (const Status refined = refine(session); !refined) return refined.error();
   const auto picture = target_->picture();
   if (!picture) return picture.error();
   return withoutAlpha(*picture);

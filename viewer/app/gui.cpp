@@ -193,6 +193,10 @@ void Gui::statistics(const Session& session, const Canvas& canvas, Requests& req
   const FrameStatistics& frame = canvas.statistics();
   ImGui::Text("%.1f ms a frame, %d x %d, %d samples", 1e3 * frame.seconds, frame.width, frame.height,
               frame.samples * frame.samples);
+  if (canvas.resting())
+    ImGui::Text("refined to %d samples", frame.refined);
+  else
+    ImGui::Text("refined: %d of %d samples", frame.refined, canvas.samplesAtRest());
   const Renderer& renderer = session.renderer();
   ImGui::Text("shaders: %zu bytes, compiled in %.0f ms", renderer.shaders().bytes(),
               1e3 * renderer.compileSeconds());

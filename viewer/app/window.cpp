@@ -131,8 +131,10 @@ void Window::wait() const {
   const bool moving = session_.playing || input_.flying() || repaints_ > 0;
   if (visible && moving)
     glfwPollEvents();
+  else if (visible && refining_)
+    glfwPollEvents();
   else
-    glfwWaitEventsTimeout(visible && !canvas_.whole() ? 0.5 * Canvas::kStill : kLookEvery);
+    glfwWaitEventsTimeout(visible && !canvas_.resting() ? 0.5 * Canvas::kStill : kLookEvery);
 }
 
 Result<bool> Window::turn() {
@@ -153,7 +155,8 @@ Result<bool> Window::turn() {
 
   const auto drawn = canvas_.update(session_, size.x, size.y, now);
   if (!drawn) return drawn.error();
-  if (*drawn) gui_.readings.reset();  // they were another picture's
+  refining_ = *drawn && canvas_.statistics().refined > 0 && !canvas_.resting();
+  if (*drawn && canvas_.statistics().refined == 0) gui_.readings.reset();  // they were another picture's
   if (*drawn || repaints_ > 0) {
     repaints_ = std::max(repaints_ - 1, 0);
     if (const Status shown = show(); !shown) return shown.error();

@@ -55,6 +55,7 @@ class Window {
   Requests requests_;
   double lastTurn_ = 0.0, lastLook_ = 0.0;  // at the clock, at the file
   int repaints_ = 0;                        // still due to the panels
+  bool refining_ = false;                   // the picture was refined at the last turn, and is to be further
 };
 
 }  // namespace sdf::viewer

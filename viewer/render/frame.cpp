@@ -75,6 +75,12 @@ double Shot::pixelRadius() const { return std::tan(0.5 * glm::radians(frame_.loo
 
 double Shot::footprint() const { return frame_.filter ? 2.0 * pixelRadius() / frame_.samples : 0.0; }
 
+// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: steps by powers of 1 / 1.3247…
+glm::vec2 Shot::lobe() const {
+  const glm::dvec2 place = static_cast<double>(sample_) * glm::dvec2(0.7548776662466927, 0.5698402909980532);
+  return {place.x - std::floor(place.x), place.y - std::floor(place.y)};
+}
+
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
   const Eye& eye = frame_.look.eye;
   program.set("size", glm::vec2(width_, height_));

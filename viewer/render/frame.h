@@ -75,6 +75,8 @@ class Shot {
   /// Returns the width of a sample's cone at distance 1 over which patterns are averaged; 0 leaves them
   /// sharp.
   double footprint() const;
+  /// Returns the sample's place in the unit square, of places that fill it evenly.
+  glm::vec2 lobe() const;
   /// Draws the rays of the i-th sample from now on.
   void chooseSample(int i) { sample_ = i; }
 

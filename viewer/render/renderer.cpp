@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "viewer/gpu/context.h"
@@ -22,6 +24,15 @@ glm::vec3 axisOf(const Eye& eye) {
   glm::vec3 axis(0.0f);
   axis[way.x >= way.y && way.x >= way.z ? 0 : way.y >= way.z ? 1 : 2] = 1.0f;
   return axis;
+}
+
+// The i-th of so many samples in an order in which the first ones lie all over the pixel: by steps of about
+// the golden section.
+int scattered(int i, int count) {
+  int step = static_cast<int>(0.618 * count);
+  while (std::gcd(++step, count) != 1) {
+  }
+  return static_cast<int>(std::int64_t{i} * step % count);
 }
 
 // What alpha says is told apart however it was rounded.
@@ -103,6 +114,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
   if (plan.occlusion != AmbientOcclusion::Kind::None) program.set("tapStrength", look.occlusionStrength);
   if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", lengths.tapSpacing);
   if (plan.filters) program.set("footprint", shot.footprint());
+  if (plan.glossy) program.set("lobe", shot.lobe());
   if (view == View::Slice) {
     program.set("slicePoint", glm::vec3(look.eye.to));
     program.set("sliceNormal", axisOf(look.eye));
@@ -128,28 +140,35 @@ void Renderer::drawBackground(const Shot& shot) const {
   background_->draw();
 }
 
-// One after the other, so that one program serves any number of samples, and hit passes do, too. A loop in
-// the shader takes up to a fifth less time.
-Status Renderer::drawSamples(const Frame& frame, Shot& shot, const Target& target) {
-  if (!resolve_)
-    if (auto s = keep(Program::overScreen(shaders_.resolve), resolve_); !s) return s;
+Status Renderer::clearSums(const Shot& shot) {
   const std::vector layers(shaders_.plan.options.countReadings ? 2 : 1, PixelFormat::Rgba32f);
   if (auto s = ensure(sums_, shot.width(), shot.height(), layers, true); !s) return s;
   for (std::size_t i = 0; i < layers.size(); ++i) sums_->clear(static_cast<int>(i), glm::vec4(0.0f));
-  for (int i = 0; i < shot.samples(); ++i) {
-    shot.chooseSample(i);
-    if (hits_)
-      if (auto s = hits_->drawSample(shot); !s) return s;
-    sums_->clearDepth();
-    const DrawingMode sum = sumOfAll();
-    const DrawingMode keep = nearestWins();  // the tiles' pixels from the background, which is as far away
-    drawPicture(frame, shot);
-    drawBackground(shot);
-  }
+  return okStatus();
+}
+
+// One after the other, so that one program serves any number of samples, and hit passes do, too. A loop in
+// the shader takes up to a fifth less time.
+Status Renderer::addSample(const Frame& frame, Shot& shot, int i) {
+  shot.chooseSample(i);
+  if (hits_)
+    if (auto s = hits_->drawSample(shot); !s) return s;
+  sums_->clearDepth();
+  const DrawingMode sum = sumOfAll();
+  const DrawingMode keep = nearestWins();  // the tiles' pixels from the background, which is as far away
+  drawPicture(frame, shot);
+  drawBackground(shot);
+  return okStatus();
+}
+
+Status Renderer::resolve(const Shot& shot, const Target& target, double drawn) {
+  if (!resolve_)
+    if (auto s = keep(Program::overScreen(shaders_.resolve), resolve_); !s) return s;
   target.bind();
   sums_->bindTexture(0);
   resolve_->set("sums", 0);
   resolve_->set("weight", shot.weight());
+  resolve_->set("drawn", drawn);
   if (shaders_.plan.options.view == View::Picture) resolve_->set("grain", grain_);
   resolve_->draw();
   return okStatus();
@@ -169,16 +188,22 @@ void Renderer::giveRows() {
   rows_->bind(kRowsUnit);
 }
 
-Status Renderer::draw(const Frame& frame, const Target& target) {
+Status Renderer::begin(const Frame& frame, const Shot& shot, const Target& target) {
   prepare(frame);
-  Shot shot(frame, target.width(), target.height(), extent_);
   samples_ = shot.samples();
   giveRows();
   grain_ = target.step();
-  if (hits_)
-    if (auto s = hits_->begin(shot, rowValues_.vectors()); !s) return s;
+  return hits_ ? hits_->begin(shot, rowValues_.vectors()) : okStatus();
+}
+
+Status Renderer::draw(const Frame& frame, const Target& target) {
+  Shot shot(frame, target.width(), target.height(), extent_);
+  if (auto s = begin(frame, shot, target); !s) return s;
   if (samples_ > 1) {
-    if (auto s = drawSamples(frame, shot, target); !s) return s;
+    if (auto s = clearSums(shot); !s) return s;
+    for (int i = 0; i < samples_; ++i)
+      if (auto s = addSample(frame, shot, i); !s) return s;
+    if (auto s = resolve(shot, target, 1.0); !s) return s;
   } else {
     if (hits_)
       if (auto s = hits_->drawSample(shot); !s) return s;
@@ -187,6 +212,16 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
     drawPicture(frame, shot);
   }
   return check("draw the scene");
+}
+
+Status Renderer::refine(const Frame& frame, int drawn, const Target& target) {
+  Shot shot(frame, target.width(), target.height(), extent_);
+  if (auto s = begin(frame, shot, target); !s) return s;
+  if (drawn == 0)
+    if (auto s = clearSums(shot); !s) return s;
+  if (auto s = addSample(frame, shot, scattered(drawn, samples_)); !s) return s;
+  if (auto s = resolve(shot, target, (drawn + 1.0) / samples_); !s) return s;
+  return check("refine the scene's picture");
 }
 
 Result<Readings> Renderer::readings(const Target& target) const {

@@ -39,6 +39,11 @@ class Renderer {
   /// holds what readings(target) then sums up. Errors: Limits, Graphics.
   Status draw(const Frame& frame, const Target& target);
 
+  /// Draws one more of the frame's samples, of which `drawn` have been drawn, of the same frame and into a
+  /// target of the same size; 0 begins anew. The target shows their mean, and after the last one what draw()
+  /// does but for the order of the sum. Errors: as draw.
+  Status refine(const Frame& frame, int drawn, const Target& target);
+
   /// Returns the readings that the last picture, in this target, took. Errors: as Target::pixels.
   Result<Readings> readings(const Target& target) const;
 
@@ -52,7 +57,10 @@ class Renderer {
   void giveRows();  // those of the frame, to all shaders
   void drawPicture(const Frame& frame, const Shot& shot) const;
   void drawBackground(const Shot& shot) const;
-  Status drawSamples(const Frame& frame, Shot& shot, const Target& target);
+  Status begin(const Frame& frame, const Shot& shot, const Target& target);
+  Status clearSums(const Shot& shot);
+  Status addSample(const Frame& frame, Shot& shot, int i);
+  Status resolve(const Shot& shot, const Target& target, double drawn);
 
   SceneShaders shaders_;
   std::optional<PrimaryHits> hits_;

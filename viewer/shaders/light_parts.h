@@ -88,12 +88,27 @@ float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
   if (light == 0.0) return 0.0;
   clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
+  // Of the reading before: t, f / t, the step to it and how f * f rose along it; and f / t of the one before that.
+  float far = 0.0, least = 0.0, stepBefore = 0.0, riseBefore = 0.0, before = 0.0;
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l);
     COUNT_SHADOW
     if (max(g.x, g.y) <= shadowHit) return 0.0;
-    light = min(light, sharpness * g.y / t);
-    t += g.x;
+    float ratio = g.y / t, step = t - far, rise = (g.y * g.y - least * least * far * far) / step;
+    light = min(light, sharpness * ratio);
+    if (i > 1 && least < 0.998 * min(before, ratio)) {  // the least f / t is around the reading before
+      float bend = (rise - riseBefore) / (stepBefore + step), slope = riseBefore + bend * stepBefore;
+      float square = least * least * far * far, steep = 2.0 * bend * far - slope;
+      float x = clamp((2.0 * square - slope * far) / (steep == 0.0 ? 1.0 : steep), -stepBefore, step);
+      float there = (square + (slope + bend * x) * x) / ((far + x) * (far + x));
+      light = min(light, sharpness * sqrt(max(there, 0.75 * least * least)));
+    }
+    before = least;
+    least = ratio;
+    stepBefore = step;
+    riseBefore = rise;
+    far = t;
+    t += (sharpness * ratio < 1.0 ? 0.6 : 1.0) * g.x;
   }
   return ended(t, reach, light);
 }
@@ -179,6 +194,25 @@ vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
 }
 )";
 
+/// Defines glossy(d, n, exponent), a mirrored direction within the lobe of Phong's highlight: its cosine to
+/// the mirror image of d is u^(1 / (exponent + 1)) (Lafortune, Willems 1994). Which one follows from the
+/// sample, and from the pixel by Bayer's pattern (Cranley, Patterson 1976: a shift of all samples), so that
+/// pictures are the same each time.
+inline constexpr const char* kGlossy = R"(
+uniform vec2 lobe;  // the sample's place in the unit square
+
+vec3 glossy(vec3 d, vec3 n, float exponent) {
+  uint y = uint(gl_FragCoord.y), x = uint(gl_FragCoord.x) ^ y;
+  uint place = (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
+  vec2 u = fract(lobe + vec2(float(place) + 0.5, float(place * 29u & 63u) + 0.5) / 64.0);
+  vec3 m = reflect(d, n);
+  vec3 across = normalize(cross(m, abs(m.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+  float cosine = pow(u.x, 1.0 / (exponent + 1.0)), turn = 6.2831853 * u.y;
+  vec3 way = cosine * m + sqrt(1.0 - cosine * cosine) * (cos(turn) * across + sin(turn) * cross(m, across));
+  return way - min(2.0 * dot(way, n), 0.0) * n;  // none goes into the surface
+}
+)";
+
 /// Defines colorOf(ray, spent), what a pixel shows, and whether a ray ran out of steps: the whole stack along
 /// a ray and its reflections.
 inline constexpr const char* kRadiance = R"(
@@ -208,19 +242,23 @@ vec3 colorOf(Ray ray, out bool spent) {
     vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;
-    float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t)), mirror = 0.0;
+    float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t));
+    vec3 mirror = vec3(0.0);
 #if BOUNCES > 0
     if (bounce < BOUNCES && s[REFLECTIVITY] > 0.0) {
       float edge = 1.0 - max(dot(-d, n), 0.0);
-      float rim = s[FRESNEL_POWER] == 0.0 ? 1.0 : pow(edge, s[FRESNEL_POWER]);
-      mirror = min(s[REFLECTIVITY] * (s[FRESNEL_BIAS] + rim), 1.0);
+      vec3 tint = vec3(s[SPECULAR_RED], s[SPECULAR_GREEN], s[SPECULAR_BLUE]);
+      float peak = max(tint.r, max(tint.g, tint.b));
+      tint = peak > 0.0 ? tint / peak : vec3(1.0);
+      vec3 rim = s[FRESNEL_POWER] == 0.0 ? tint : vec3(pow(edge, s[FRESNEL_POWER]));
+      mirror = min(s[REFLECTIVITY] * (s[FRESNEL_BIAS] * tint + rim), 1.0);
     }
 #endif
     total += through * mix(fogColor, (1.0 - mirror) * local, clear);
     through *= clear * mirror;
     if (max(through.r, max(through.g, through.b)) < 1.0 / 1024.0) break;
     float off = 2.0 * hitDistance(ray, t);
-    ray = Ray(p + off * n, reflect(d, n), ray.before + t, 0.0, 1e30, maxDistance);
+    ray = Ray(p + off * n, MIRRORED, ray.before + t, 0.0, 1e30, maxDistance);
   }
   return total;
 }
@@ -279,12 +317,13 @@ void main() {
 inline constexpr const char* kResolve = R"(
 uniform sampler2D sums;
 uniform float weight;
+uniform float drawn;  // the share of all samples that is in the sums
 layout(location = 0) out vec4 color;
 
 void main() {
   vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
   float shaded = floor(0.5 * (sum.a + 0.5 * weight)), unspent = sum.a - 2.0 * shaded;
-  color = vec4(ENCODE(sum.rgb), unspent < 1.0 - 0.5 * weight ? 0.0 : shaded > 0.0 ? 0.5 : 1.0);
+  color = vec4(ENCODE(sum.rgb / drawn), unspent < drawn - 0.5 * weight ? 0.0 : shaded > 0.0 ? 0.5 : 1.0);
 }
 )";
 

@@ -108,6 +108,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (plan.lights) plan.shadow = scene.shadow.kind;
   if (isPicture || view == View::Occlusion) plan.occlusion = scene.ambientOcclusion.kind;
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
+  plan.glossy = plan.bounces > 0 && scene.glossyReflections;
   if (isPicture || view == View::Material) planSurface(whole, plan);
   // A group is read without what marchable() adds where a slope is known near the bounds only.
   if (options.sharing && slopeOf(whole) < kInfinity)

@@ -70,6 +70,7 @@ struct Plan {
   bool lights = false;        ///< light is shown, and there is some
   bool filters = false;       ///< the surface has patterns that are averaged over what a pixel covers
   int bounces = 0;            ///< reflections that are followed
+  bool glossy = false;        ///< and spread over the lobe of the highlight
   Shadow::Kind shadow = Shadow::Kind::None;
   AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;
 };

@@ -95,11 +95,17 @@ float planesFrom(Ray ray) { return 1e30; }
 )";
 
 /// Defines march(ray, status, readings), the t at which a ray hits the rest or a half space.
+/// Near the surface the last slope says where it is. The ray hits if a reading behind that place lies in the
+/// solid: then it passes neither by an edge nor through a film of no thickness, where a cut ends in a face.
 inline constexpr const char* kMarch = R"(
+const int MOST_CLOSE = 24;  // readings near the surface, with which a ray hits: it goes along a face or an edge
+const int FREE = 0, BEHIND = 1, ONTO = 2;  // where the next reading is to be: behind the surface, or on it
+
 float march(Ray ray, out int status, out int readings) {
-  float r = 0.0, z = 0.0, slope = -1.0, t = ray.start, plane = planesFrom(ray);
+  float r = 0.0, z = 0.0, slope = -1.0, fall = 1.0, near = 0.0, t = ray.start, plane = planesFrom(ray);
   bool ends = plane < ray.reach;  // in a plane
   float tMax = min(plane, ray.reach);
+  int step = FREE, close = 0;
   status = BUDGET;
   readings = 0;
   if (t >= tMax) {  // the cone pass saw nothing
@@ -110,25 +116,36 @@ float march(Ray ray, out int status, out int readings) {
     vec2 both = rest(ray.origin + (t + z) * ray.direction);
     float next = both.x;
     ++readings;
-    if (z > r && z > r + next) {  // the balls do not overlap: something may lie between
-      z = r;
+    bool inside = step == BEHIND && next <= 0.0;
+    if (inside && z <= 8.0 * near) {
+      status = HIT;
+      // As near as the slopes on both sides place it, and a hair nearer: on it some distances have no gradient.
+      return min(t + max(0.0, 63.0 / 64.0 * min(0.8 * z, z * r / (r - next))), tMax);
+    }
+    // The balls do not overlap: something may lie between. A film is looked for where it must be.
+    if (inside || z > r && z > r + next && !(step == BEHIND && r <= epsilon) && !(step == ONTO && next < r)) {
+      step = step == BEHIND ? ONTO : FREE;
+      z = step == ONTO ? r / fall : r;
       slope = -1.0;
       continue;
     }
-    if (z > 0.0) slope += 0.3 * ((next - r) / z - slope);
+    float rise = z > 0.0 ? (next - r) / z : -1.0;
+    if (z > 0.0) slope += 0.3 * (rise - slope);
     t += z;
-    float near = hitDistance(ray, t);
-    if (max(next, both.y) <= near) {
-      if (z > 0.0 && next < r) t += clamp(next * z / (r - next), -z, 4.0 * near);  // where the secant meets 0
+    r = next;
+    float far = max(r, both.y);
+    near = hitDistance(ray, t);
+    if (r < -near || far <= near && rise <= 0.0 && ++close > MOST_CLOSE) {
       status = HIT;
       return t;
     }
-    r = next;
     if (t + r >= min(tMax, ray.end)) {
       status = ends ? HIT : MISS;
       return tMax;
     }
-    z = STEP;
+    step = far <= 2.0 * near && rise < 0.0 ? BEHIND : FREE;
+    fall = max(-rise, 0.0625);
+    z = step == BEHIND ? 1.25 * max(r, epsilon) / fall : STEP;
   }
   return t;
 }

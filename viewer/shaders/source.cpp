@@ -87,7 +87,7 @@ std::vector<std::string> deadMacros(const Macros& macros) {
       kCamera, kHit, kField, kRest, kRestByBox, kPlanes, kNoPlanes, kMarch, kGradient, kGradientByTaps, kNormal, kMeet,
       kStarts, kHitCounts, kPictureCounts, kCones, kHits, kHitFromLayers, kFootprint, kShadowSpan,
       kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kHardShadow, kSoftShadow,
-      kImprovedShadow, kSignedShadow, kOcclusionTaps, kOcclusionSteps, kLightSettings, kLights, kRadiance,
+      kImprovedShadow, kSignedShadow, kOcclusionTaps, kOcclusionSteps, kLightSettings, kLights, kGlossy, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
       kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kDither, kPicture, kResolve};
   // clang-format on

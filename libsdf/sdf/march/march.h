@@ -15,7 +15,15 @@
 //         }
 //         t += z; r = R;
 //
-// and differ in the relaxed step, r' and z' being the radius and the step before:
+// With `lookBehind` a ray hits where it reads g <= 0 behind the surface. The last slope places the surface:
+// from 2 threshold(t) on the ray steps to z = 5/4 max(g, epsilon) / fall, the fall at least 1/16, and hits
+// between. Where that step is longer than 8 threshold(t), or the reading is positive and its ball does not
+// overlap the one before, the ray steps to max(g, epsilon) / fall first. So a ray that passes beside an edge
+// misses, and one through a film of no thickness (a cut that ends in a face leaves one, f = 0 between two of
+// one sign) goes on, as meshes have it: what is thinner than about epsilon along the ray is no part of the
+// solid. After 24 readings within the threshold that do not rise a ray hits: it goes along the surface.
+//
+// The four differ in the relaxed step, r' and z' being the radius and the step before:
 //
 //   Plain        r (Hart 1996)
 //   OverRelaxed  overRelaxation * r; after the first failure r (Keinert, Schaefer, Korndoerfer, Ganse,
@@ -48,9 +56,9 @@ enum class MarchMethod { Plain, OverRelaxed, Accelerated, AutoRelaxed, Segment, 
 /// How a ray ended. Up to t (before refinements) no solid was passed, unless it is thinner than float
 /// rounding or, by Segment where g may jump, than epsilon.
 enum class RayStatus : std::uint8_t {
-  Hit,   ///< max(f(t), g(t)) <= threshold(t); Bisection: the solid begins in [t, t + threshold(t)], or comes
-         ///< so near to it that intervals cannot tell
-  Miss,  ///< no solid up to t = tMax
+  Hit,  ///< max(f(t), g(t)) <= threshold(t), or with `lookBehind` the solid begins at t; Bisection: the solid
+        ///< begins in [t, t + threshold(t)], or comes so near to it that intervals cannot tell
+  Miss,      ///< no solid up to t = tMax
   Budget,    ///< maxSteps were not enough; t is how far it came
   Undefined  ///< f is not a number at t
 };
@@ -60,6 +68,7 @@ struct MarchOptions {
   double epsilon = 1e-4;   ///< a hit where f and g <= epsilon + footprint * t; scene units, > 0
   double footprint = 0.0;  ///< radius of a pixel's cone at t = 1, >= 0: tan(fov / 2) / rows of pixels
   int maxSteps = 512;  ///< readings of the field a ray may take, > 0; Segment and Bisection may take two more
+  bool lookBehind = false;      ///< the first four: only what is read to be solid is hit, as stated above
   int refinements = 0;          ///< secant steps after a hit, >= 0; they move t on by at most 4 threshold(t)
   double overRelaxation = 1.6;  ///< OverRelaxed: in [1, 2)
   double acceleration = 0.9;    ///< Accelerated: in [0, 1]

@@ -10,6 +10,11 @@ namespace sdf {
 namespace {
 
 constexpr const char* kUser = "march";
+// Of `lookBehind`: how far behind the surface a ray looks, in ways to it by the last slope; the least that is
+// believed of that slope; from how many thresholds on; how many it may step at once; and after how many
+// readings within one it hits.
+constexpr double kBehind = 1.25, kLeastFall = 1.0 / 16, kCandidate = 2.0, kLongest = 8.0, kHair = 63.0 / 64;
+constexpr int kMostClose = 24;
 constexpr double kRefinedThresholds = 4.0;  // that a refined hit may move on: enough where g falls by 1/4
 
 Error wrongOption(const std::string& what) { return {ErrorKind::Usage, std::string(kUser) + ": " + what}; }
@@ -34,12 +39,16 @@ bool marchesBalls(MarchMethod m) { return m != MarchMethod::Segment && m != Marc
 // The methods that step by unbounding spheres, as march.h states them.
 class BallWalker {
  public:
+  enum class Aim : std::uint8_t { Free, Behind, Onto };  // where a step ends, of the surface
   struct State {
     double at;         // t + step: where g is read next
     double t, radius;  // the last point taken, and g there
     double step;       // from t to the next point
     double slope;      // of g along the ray, as the method estimates it
+    double fall;       // of g along the step before, a unit
     bool relaxed;      // OverRelaxed: no failure yet
+    Aim aim;
+    std::uint8_t close;  // readings within the threshold
     std::uint32_t steps;
     std::size_t ray;
   };
@@ -49,31 +58,58 @@ class BallWalker {
 
   State start(std::size_t ray) const {
     const double t = rays_.tMin[ray];
-    return {t, t, 0.0, 0.0, -1.0, true, 0, ray};
+    return {t, t, 0.0, 0.0, -1.0, 1.0, true, Aim::Free, 0, 0, ray};
   }
 
   bool advance(State& s, const Sample& sample) {
     const double g = sample.step;
     ++s.steps;
     if (std::isnan(sample.distance)) return finish(s, s.at, RayStatus::Undefined);
-    if (s.step > s.radius && s.step > s.radius + g) {
-      s.step = s.radius;
+    const bool inside = s.aim == Aim::Behind && g <= 0.0;
+    if (inside && s.step <= kLongest * threshold(options_, s.t)) return finishBetween(s, g);
+    if (inside || (s.step > s.radius && s.step > s.radius + g && !passesFilm(s, g))) {
+      s.aim = s.aim == Aim::Behind ? Aim::Onto : Aim::Free;
+      s.step = s.aim == Aim::Onto ? s.radius / s.fall : s.radius;
       s.slope = -1.0;
       s.relaxed = false;
     } else {
+      const double rise = s.step > 0.0 ? (g - s.radius) / s.step : -1.0;
       learnSlope(s, g);
       s.t = s.at;
       s.radius = g;
       const double left = rays_.tMax[s.ray] - s.t;
-      if (sample.toHit() <= threshold(options_, s.t)) return finish(s, s.t, RayStatus::Hit);
+      if (isHit(s, sample.toHit(), rise)) return finish(s, s.t, RayStatus::Hit);
       if (g >= left) return finish(s, rays_.tMax[s.ray], RayStatus::Miss);
-      s.step = std::min(relaxedStep(s), left);
+      const bool near = sample.toHit() <= kCandidate * threshold(options_, s.t);
+      s.aim = options_.lookBehind && near && rise < 0.0 ? Aim::Behind : Aim::Free;
+      s.fall = std::max(-rise, kLeastFall);
+      s.step = s.aim == Aim::Behind ? kBehind * std::max(g, options_.epsilon) / s.fall
+                                    : std::min(relaxedStep(s), left);
     }
     s.at = s.t + s.step;
     return s.steps < static_cast<std::uint32_t>(options_.maxSteps) || finish(s, s.t, RayStatus::Budget);
   }
 
  private:
+  bool isHit(State& s, double toHit, double rise) const {
+    const double near = threshold(options_, s.t);
+    if (toHit > near) return false;
+    return !options_.lookBehind || s.radius < -near || (rise <= 0.0 && ++s.close > kMostClose);
+  }
+
+  // Of a film nothing is known to lie between the readings on both sides of it.
+  bool passesFilm(const State& s, double g) const {
+    return (s.aim == Aim::Behind && s.radius <= options_.epsilon) || (s.aim == Aim::Onto && g < s.radius);
+  }
+
+  // Between t and a reading in the solid, no farther than the slopes before and after t place the surface,
+  // and a hair less: on it distances that are roots have no gradient.
+  bool finishBetween(const State& s, double g) {
+    const double secant = s.step * s.radius / (s.radius - g), end = rays_.tMax[s.ray];
+    const double t = s.t + std::max(0.0, kHair * std::min(s.step / kBehind, secant));
+    return t < end ? finish(s, t, RayStatus::Hit) : finish(s, end, RayStatus::Miss);
+  }
+
   void learnSlope(State& s, double g) const {
     if (s.step == 0.0) return;
     const double slope = (g - s.radius) / s.step;

@@ -11,6 +11,8 @@ namespace sdf {
 namespace {
 
 constexpr const char* kUser = "shadows";
+constexpr double kPenumbraStep = 0.6;
+constexpr double kDips = 0.998;  // less than that is rounding: away from a plane f / t stays
 
 Error wrong(const std::string& what) { return {ErrorKind::Usage, std::string(kUser) + ": " + what}; }
 
@@ -28,10 +30,12 @@ Status check(const Rays& rays, const ShadowOptions& o) {
 class ShadowWalker {
  public:
   struct State {
-    double at;      // where g is read next
-    double step;    // from the sample before, 0 at the first
-    double before;  // f at the sample before
-    double least;   // least k f / t so far
+    double at;                  // where g is read next
+    double step;                // from the sample before, 0 at the first
+    double before;              // f at the sample before
+    double stepBefore, rise;    // Soft: the step to that sample, and how fast f * f rose along it
+    double ratio, ratioBefore;  // Soft: f / t at that sample and at the one before
+    double least;               // least k f / t so far
     int steps;
     std::size_t ray;
   };
@@ -39,7 +43,7 @@ class ShadowWalker {
   ShadowWalker(const ShadowOptions& options, const Rays& rays, Shade& shade)
       : options_(options), rays_(rays), shade_(shade) {}
 
-  State start(std::size_t ray) const { return {rays_.tMin[ray], 0.0, 0.0, 1.0, 0, ray}; }
+  State start(std::size_t ray) const { return {rays_.tMin[ray], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0, ray}; }
 
   bool advance(State& s, const Sample& sample) {
     const double f = sample.distance;
@@ -49,7 +53,8 @@ class ShadowWalker {
     if (!crosses && sample.toHit() <= options_.epsilon) return finish(s, 0.0, RayStatus::Hit);
     s.least = std::min(s.least, ratio(s, f));
     if (s.least <= -1.0) return finish(s, 0.0, RayStatus::Hit);
-    s.step = crosses ? std::max(std::abs(sample.step), options_.epsilon) : sample.step;
+    if (options_.method == ShadowMethod::Soft) lookBetween(s, f);
+    s.step = stepFrom(s, sample);
     s.before = f;
     if (s.at + s.step >= rays_.tMax[s.ray]) return finish(s, lightOf(s), RayStatus::Miss);
     s.at += s.step;
@@ -64,6 +69,32 @@ class ShadowWalker {
     const double y = (s.step * s.step + f * f - s.before * s.before) / (2.0 * s.step);
     if (!(y > 0.0 && y < s.step)) return options_.sharpness * f / s.at;
     return options_.sharpness * std::sqrt(std::max(0.0, f * f - y * y)) / (s.at - y);
+  }
+
+  // Where the least f / t is around the sample before: that of the parabola through the squares of the last
+  // three f, x from that sample. It is at least sqrt(3) / 2 of what was read, since the balls around the
+  // samples are free.
+  void lookBetween(State& s, double f) const {
+    const double t = s.at - s.step, square = s.before * s.before, rise = (f * f - square) / s.step;
+    if (s.steps > 2 && s.ratio < kDips * std::min(s.ratioBefore, f / s.at)) {
+      const double bend = (rise - s.rise) / (s.stepBefore + s.step), slope = s.rise + bend * s.stepBefore;
+      const double steep = 2.0 * bend * t - slope;
+      const double x =
+          std::clamp((2.0 * square - slope * t) / (steep == 0.0 ? 1.0 : steep), -s.stepBefore, s.step);
+      const double there = (square + (slope + bend * x) * x) / ((t + x) * (t + x));
+      s.least = std::min(s.least, options_.sharpness * std::sqrt(std::max(there, 0.75 * s.ratio * s.ratio)));
+    }
+    s.stepBefore = s.step;
+    s.rise = rise;
+    s.ratioBefore = s.ratio;
+    s.ratio = f / s.at;
+  }
+
+  // Smaller in a penumbra, where what is between the samples counts.
+  double stepFrom(const State& s, const Sample& sample) const {
+    if (options_.method == ShadowMethod::Signed) return std::max(std::abs(sample.step), options_.epsilon);
+    const bool penumbra = options_.method == ShadowMethod::Soft && options_.sharpness * s.ratio < 1.0;
+    return penumbra ? kPenumbraStep * sample.step : sample.step;
   }
 
   double lightOf(const State& s) const {

@@ -12,14 +12,17 @@ namespace sdf {
 ///
 ///   Hard: 0 where the ray hits, else 1.
 ///
-///   Soft: least k f / t, at most 1; 0 where the ray hits (Quilez, "Soft shadows", 2010). Between two
-///   readings it is too light, which shows as bands behind edges.
+///   Soft: least k f / t, at most 1; 0 where the ray hits (Quilez, "Soft shadows", 2010). Between readings,
+///   where that is too light and shows as bands, it is the least of the parabola through the squares of three
+///   f in a row of which the middle one's f / t is the least, but at least sqrt(3) / 2 of that: exact where a
+///   point, a straight edge or a plane is nearest, whose squared distance along a ray is a parabola. Where k
+///   f / t < 1 steps are 0.6 g.
 ///
-///   Improved: the same with the closest approach estimated between two samples (Aaltonen 2018). The balls of
-///   radius f' and f around samples s apart meet y = (s^2 + f^2 - f'^2) / (2 s) before the second, at d =
-///   sqrt(max(0, f^2 - y^2)) from the ray; least k d / (t - y) where that is between the two, else k f / t,
-///   for a ray that leaves a surface steeper than 1 would meet none. Aaltonen writes f' for s. No bands, but
-///   up to 13 % too dark.
+///   Improved: at the readings the same, with the closest approach estimated between two samples (Aaltonen
+///   2018). The balls of radius f' and f around samples s apart meet y = (s^2 + f^2 - f'^2) / (2 s) before
+///   the second, at d = sqrt(max(0, f^2 - y^2)) from the ray; least k d / (t - y) where that is between the
+///   two, else k f / t, for a ray that leaves a surface steeper than 1 would meet none. Aaltonen writes f'
+///   for s. No bands, but up to 13 % too dark.
 ///
 ///   Signed: least x = k f / t, down to -1, the march going on through the solid; then (1 + x)^2 (2 - x) / 4
 ///   (Quilez 2010, later addition). At the edge of the solid half the light is seen, as of a disc. Light

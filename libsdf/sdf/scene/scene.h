@@ -80,6 +80,7 @@ struct Scene {
   Shadow shadow;
   AmbientOcclusion ambientOcclusion;
   int reflectionBounces = 1;
+  bool glossyReflections = false;       ///< mirrored rays are spread over the lobe of Phong's highlight
   std::optional<double> maxDistance{};  ///< how far the camera sees; none: see viewLengths
   std::optional<double> gamma;          ///< none: sRGB output; 1: raw values
 

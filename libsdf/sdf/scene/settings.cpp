@@ -197,7 +197,8 @@ const std::vector<Setting<Scene>>& sceneSettings() {
         field<&Scene::ambientOcclusion, &AmbientOcclusion::strength>("strength", Kind::Number, "taps: weight of each; steps: darkening of each step", Rule::NotNegative)},
        false, [](Scene& s) { s.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps; }},
       {"reflections", "reflections{bounces = 1}", "how often mirrored rays are followed",
-       {field<&Scene::reflectionBounces>("bounces", Kind::Integer, "0: no reflections", Rule::NotNegative)}},
+       {field<&Scene::reflectionBounces>("bounces", Kind::Integer, "0: no reflections", Rule::NotNegative),
+        field<&Scene::glossyReflections>("glossy", Kind::Flag, "mirrors blur as highlights do, by their shininess; it takes many samples a pixel")}},
       {"max_distance", "max_distance(80)", "how far the camera sees, at most 1e15",
        {field<&Scene::maxDistance>("distance", Kind::PlainNumber, "", Rule::Positive, "80; without a camera 40 radii of the scene")}, true, nullptr,
        [](const Scene& s) -> std::string {  // the squares of more are beyond a GPU's floats
@@ -237,7 +238,7 @@ const Setting<Material>& materialSetting() {
        field<&Material::ambient>("ambient", Kind::SurfaceColor, "answer to the ambient light", Rule::Any, "the colour"),
        field<&Material::specular>("specular", Kind::SurfaceColor, "colour of the highlight"),
        field<&Material::shininess>("shininess", Kind::SurfaceNumber, "Phong exponent; larger is tighter", Rule::Positive),
-       field<&Material::reflectivity>("reflectivity", Kind::SurfaceNumber, "mirrors reflectivity * (fresnel_bias + (1 - cos)^fresnel_power) of the light, at most all of it", Rule::NotNegative),
+       field<&Material::reflectivity>("reflectivity", Kind::SurfaceNumber, "mirrors reflectivity * (fresnel_bias + (1 - cos)^fresnel_power) of the light, at most all of it; what does not depend on the angle is tinted like `specular`", Rule::NotNegative),
        field<&Material::fresnelPower>("fresnel_power", Kind::SurfaceNumber, "larger: only grazing views mirror; cos is that of the angle between view and normal", Rule::NotNegative),
        field<&Material::fresnelBias>("fresnel_bias", Kind::SurfaceNumber, "what is mirrored straight on as well", Rule::NotNegative),
        field<&Material::emission>("emission", Kind::SurfaceColor, "light of its own")}};

@@ -46,7 +46,9 @@ enum class Attribute : std::uint8_t {
   AmbientRed, AmbientGreen, AmbientBlue,    // answers the scene's ambient light
   SpecularRed, SpecularGreen, SpecularBlue, // colour of the highlight
   Shininess,                                // Phong exponent
-  Reflectivity, FresnelPower, FresnelBias,  // mirror weight: reflectivity * (bias + (1 - cos)^power), at most 1
+  // Mirror weight: reflectivity * (bias + (1 - cos)^power), at most 1; what of it is the same from all angles is
+  // multiplied by specular / its greatest part.
+  Reflectivity, FresnelPower, FresnelBias,
   EmissionRed, EmissionGreen, EmissionBlue,
   MaterialId,                               // place in Shape::materials of the one that dominates here
   Count
