@@ -83,12 +83,14 @@ float shadow(vec3 p, vec3 l, float reach) {
 }
 )";
 
+/// Between readings by sdf/march/shadow.h's parabola: far, least, stepBefore and riseBefore are the t of the
+/// reading before, its f / t, the step to it and how f * f rose along that; before is the f / t of the one
+/// before that.
 inline constexpr const char* kSoftShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
   if (light == 0.0) return 0.0;
   clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
-  // Of the reading before: t, f / t, the step to it and how f * f rose along it; and f / t of the one before that.
   float far = 0.0, least = 0.0, stepBefore = 0.0, riseBefore = 0.0, before = 0.0;
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l);

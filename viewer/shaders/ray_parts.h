@@ -97,9 +97,12 @@ float planesFrom(Ray ray) { return 1e30; }
 /// Defines march(ray, status, readings), the t at which a ray hits the rest or a half space.
 /// Near the surface the last slope says where it is. The ray hits if a reading behind that place lies in the
 /// solid: then it passes neither by an edge nor through a film of no thickness, where a cut ends in a face.
+/// sdf/march/march.h states it in full. A hit is as near as the slopes on both sides place it, and a hair
+/// nearer, since on the surface some distances have no gradient. With MOST_CLOSE readings near the surface,
+/// of which rising ones count for an eighth, a ray hits, for it goes along a face or an edge.
 inline constexpr const char* kMarch = R"(
-const int MOST_CLOSE = 24;  // readings near the surface, with which a ray hits: it goes along a face or an edge
-const int FREE = 0, BEHIND = 1, ONTO = 2;  // where the next reading is to be: behind the surface, or on it
+const int MOST_CLOSE = 24;
+const int FREE = 0, BEHIND = 1, ONTO = 2;  // where the next reading is, of the surface
 
 float march(Ray ray, out int status, out int readings) {
   float r = 0.0, z = 0.0, slope = -1.0, fall = 1.0, near = 0.0, t = ray.start, plane = planesFrom(ray);
@@ -119,10 +122,9 @@ float march(Ray ray, out int status, out int readings) {
     bool inside = step == BEHIND && next <= 0.0;
     if (inside && z <= 8.0 * near) {
       status = HIT;
-      // As near as the slopes on both sides place it, and a hair nearer: on it some distances have no gradient.
-      return min(t + max(0.0, 63.0 / 64.0 * min(0.8 * z, z * r / (r - next))), tMax);
+      return min(t + max(0.0, 4095.0 / 4096.0 * min(0.8 * z, z * r / (r - next))), tMax);
     }
-    // The balls do not overlap: something may lie between. A film is looked for where it must be.
+    // The balls do not overlap: something may lie between.
     if (inside || z > r && z > r + next && !(step == BEHIND && r <= epsilon) && !(step == ONTO && next < r)) {
       step = step == BEHIND ? ONTO : FREE;
       z = step == ONTO ? r / fall : r;
@@ -135,7 +137,7 @@ float march(Ray ray, out int status, out int readings) {
     r = next;
     float far = max(r, both.y);
     near = hitDistance(ray, t);
-    if (r < -near || far <= near && rise <= 0.0 && ++close > MOST_CLOSE) {
+    if (r < (rise < 0.0 ? -near : 0.0) || far <= near && (close += rise <= 0.0 ? 8 : 1) > 8 * MOST_CLOSE) {
       status = HIT;
       return t;
     }
@@ -262,9 +264,9 @@ inline constexpr const char* kHits = R"(
 layout(location = 0) out vec4 hitSurface;   // the normal, and t
 layout(location = 1) out vec2 hitIdentity;  // the operand, and the status
 
-// Of two operands that are hit at once the later shows: t less a hair that grows with the operand's number, within a
-// quarter of how far off a ray may be when it hits.
-float favoured(Ray ray, Hit hit) { return hit.t - 0.25 * hitDistance(ray, hit.t) * (hit.operand + 1.0) / OPERANDS; }
+// Of two operands that are hit at once the later shows: t less a hair that grows with the operand's number, up to how
+// far off a ray may be when it hits.
+float favoured(Ray ray, Hit hit) { return hit.t - hitDistance(ray, hit.t) * (hit.operand + 1.0) / OPERANDS; }
 
 void main() {
   sdfTakeValues();

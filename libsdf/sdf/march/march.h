@@ -21,7 +21,8 @@
 // overlap the one before, the ray steps to max(g, epsilon) / fall first. So a ray that passes beside an edge
 // misses, and one through a film of no thickness (a cut that ends in a face leaves one, f = 0 between two of
 // one sign) goes on, as meshes have it: what is thinner than about epsilon along the ray is no part of the
-// solid. After 24 readings within the threshold that do not rise a ray hits: it goes along the surface.
+// solid. After 24 readings within the threshold, of which rising ones
+// count for an eighth, a ray hits: it goes along the surface.
 //
 // The four differ in the relaxed step, r' and z' being the radius and the step before:
 //

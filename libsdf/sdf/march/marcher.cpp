@@ -12,9 +12,10 @@ namespace {
 constexpr const char* kUser = "march";
 // Of `lookBehind`: how far behind the surface a ray looks, in ways to it by the last slope; the least that is
 // believed of that slope; from how many thresholds on; how many it may step at once; and after how many
-// readings within one it hits.
-constexpr double kBehind = 1.25, kLeastFall = 1.0 / 16, kCandidate = 2.0, kLongest = 8.0, kHair = 63.0 / 64;
-constexpr int kMostClose = 24;
+// readings within one it hits, of which those that rise count 1 / kFalling.
+constexpr double kBehind = 1.25, kLeastFall = 1.0 / 16, kCandidate = 2.0, kLongest = 8.0,
+                 kHair = 4095.0 / 4096;
+constexpr int kMostClose = 24, kFalling = 8;
 constexpr double kRefinedThresholds = 4.0;  // that a refined hit may move on: enough where g falls by 1/4
 
 Error wrongOption(const std::string& what) { return {ErrorKind::Usage, std::string(kUser) + ": " + what}; }
@@ -48,7 +49,7 @@ class BallWalker {
     double fall;       // of g along the step before, a unit
     bool relaxed;      // OverRelaxed: no failure yet
     Aim aim;
-    std::uint8_t close;  // readings within the threshold
+    int close;  // readings within the threshold, those that fall or stay kFalling times
     std::uint32_t steps;
     std::size_t ray;
   };
@@ -94,7 +95,9 @@ class BallWalker {
   bool isHit(State& s, double toHit, double rise) const {
     const double near = threshold(options_, s.t);
     if (toHit > near) return false;
-    return !options_.lookBehind || s.radius < -near || (rise <= 0.0 && ++s.close > kMostClose);
+    if (!options_.lookBehind || s.radius < (rise < 0.0 ? -near : 0.0)) return true;
+    s.close += rise <= 0.0 ? kFalling : 1;
+    return s.close > kMostClose * kFalling;
   }
 
   // Of a film nothing is known to lie between the readings on both sides of it.
