@@ -26,8 +26,8 @@ inline double degreesBetween(const glm::dvec3& unit, const glm::dvec3& unitToo) 
   return 360.0 / std::numbers::pi * std::asin(std::min(1.0, 0.5 * glm::length(unit - unitToo)));
 }
 
-/// Looks at the vertices that at least `fan` facets surround. Facets with sides below `resolved`, whose
-/// normals are rounding, are passed over.
+/// Looks at the vertices that at least `fan` facets surround, not counting those as small as `resolved`
+/// squared, whose normals are rounding.
 inline SmoothNormals smoothNormals(const std::vector<glm::vec3>& positions,
                                    const std::vector<glm::vec3>& normals,
                                    const std::vector<glm::uvec3>& triangles, int fan, double resolved) {
@@ -38,7 +38,7 @@ inline SmoothNormals smoothNormals(const std::vector<glm::vec3>& positions,
     const glm::dvec3 area = glm::cross(b - a, c - a);
     const bool counts = glm::length(area) > resolved * resolved;
     facets.push_back(counts ? area : glm::dvec3(0.0));
-    for (int i = 0; i < 3; ++i) sums[t[i]] += facets.back(), around[t[i]] += 1;
+    for (int i = 0; i < 3; ++i) sums[t[i]] += facets.back(), around[t[i]] += counts;
   }
   std::vector<double> worst(positions.size(), 0.0);
   const auto mean = [&](std::size_t v) { return glm::normalize(sums[v]); };

@@ -71,6 +71,7 @@ class Mesher {
     mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
     begin("projection");
     refineVertices(mesh.positions, mesh.normals, field, progress_);
+    fitNormals(mesh.positions, mesh.triangles, mesh.normals);
     begin("measuring");
     const std::vector<float> distances =
         measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);

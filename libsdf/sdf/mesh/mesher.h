@@ -35,7 +35,8 @@ Box findBounds(const Shape& shape);
 /// sides.
 Shape clipped(const Shape& shape, const Box& box);
 
-/// Meshes one shape. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the
+/// Meshes one shape. Normals are exact gradients where the mesh shows the surface that they belong to, else
+/// those of the facets. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the
 /// calling thread's oneTBB arena; the result does not depend on the number of threads. What is stated of a
 /// field, its bounds and its slope, is relied on, and found out where the mesh leaves the bounds, is not
 /// closed or is farther from the surface than a right one can be. Errors: Scene (failed shape, unbounded, no
