@@ -132,10 +132,15 @@ TEST(Bake, VerticesEmitTheAmbientLightThatReachesThem) {
   const test::Evaluator distance(scene.whole().distance);
   const glm::dvec3 answers[] = {{0.8, 0.6, 0.4}, {0.5, 0.5, 1.0}};
   double least = 1.0, most = 0.0;
+  std::size_t all = 0, compared = 0;
   for (int k = 0; k < 2; ++k) {
     const Emitter::Piece& piece = file.pieces[k];
     for (std::uint32_t v = 0; v < piece.positions.size(); ++v) {
       const glm::dvec3 n = glm::normalize(glm::dvec3(piece.normals[v]));
+      // Beside an edge the mesh leans over what it cuts off, and which face's normal counts is open.
+      ++all;
+      if (glm::distance(n, distance.gradient(glm::dvec3(piece.positions[v]), 1e-4)) > 1e-3) continue;
+      ++compared;
       const double open =
           occlusionByHand(distance, scene.ambientOcclusion, glm::dvec3(piece.positions[v]), n);
       least = std::min(least, open);
@@ -145,6 +150,7 @@ TEST(Bake, VerticesEmitTheAmbientLightThatReachesThem) {
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(emitted[c], meant[c], kWritten) << "vertex " << v;
     }
   }
+  EXPECT_GT(compared, all * 9 / 10);
   EXPECT_LT(least, 0.3) << "the corner is dark";
   EXPECT_EQ(most, 1.0);
 }

@@ -9,6 +9,7 @@
 
 #include "sdf/gltf/emission.h"
 #include "sdf/march/ambient_occlusion.h"
+#include "sdf/march/normals.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/scene/fit.h"
 
@@ -44,12 +45,15 @@ bool hasNormal(const Mesh& mesh, std::size_t vertex) { return isUnit(glm::dvec3(
 Status occlude(const MarchField& field, const TapOptions& taps, const Mesh& mesh, std::size_t first,
                std::vector<float>& occlusion) {
   const std::size_t end = std::min(first + kChunk, mesh.positions.size());
-  Vectors points, normals;
+  Vectors points, facing;
   for (std::size_t i = first; i < end; ++i) {
     points.add(glm::dvec3(mesh.positions[i]));
-    normals.add(hasNormal(mesh, i) ? glm::dvec3(mesh.normals[i]) : glm::dvec3(0.0, 1.0, 0.0));
+    facing.add(hasNormal(mesh, i) ? glm::dvec3(mesh.normals[i]) : glm::dvec3(0.0, 1.0, 0.0));
   }
-  const Result<std::vector<double>> open = occlusionByTaps(field, points, normals, taps);
+  // The surface's own, as a picture takes them: the mesh's lean over the edges that it cuts off.
+  const Result<Vectors> outward = normals(field, points, facing, {});
+  if (!outward) return outward.error();
+  const Result<std::vector<double>> open = occlusionByTaps(field, points, *outward, taps);
   if (!open) return open.error();
   for (std::size_t i = first; i < end; ++i)
     occlusion[i] = hasNormal(mesh, i) ? static_cast<float>((*open)[i - first]) : 1.0f;
