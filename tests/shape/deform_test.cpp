@@ -384,5 +384,18 @@ TEST(Deform, PassesOnAFailure) {
     EXPECT_EQ(*r.error, "bad");
 }
 
+// Balls beside each other, warped: operations for each.
+double operationsOfEach(int count) {
+  std::vector<Shape> balls;
+  for (int i = 0; i < count; ++i) balls.push_back(translate(sphere(0.1), Vec3E(0.3 * i, 0.1 * i, 0.0)));
+  const Expr distance = twist(unite(balls), 0.2).distance;
+  return static_cast<double>(topologicalOrder({&distance, 1}).size()) / count;
+}
+
+TEST(Warp, DozensOfBallsAreAsCheapAsTheirLengths) {
+  EXPECT_GT(operationsOfEach(8), 40.0) << "each is divided by its own slope";
+  EXPECT_LT(operationsOfEach(64), 20.0) << "a length, a radius, and what is taken of all";
+}
+
 }  // namespace
 }  // namespace sdf

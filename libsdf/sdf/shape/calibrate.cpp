@@ -35,16 +35,23 @@ class Calibration {
  public:
   // Curved parts have their own slope as far as `share` of what they could.
   Calibration(const Expr& distance, const Warp& warp, double share) : warp_(warp), share_(share) {
+    // Many, as of a thousand balls, cost too much: the least of their lengths alone takes one root.
+    constexpr std::ptrdiff_t kMostCurved = 32;
     of(distance, 0.0);
+    if (curved() > kMostCurved) {
+      clear();
+      share_ = 0.0;
+      of(distance, 0.0);
+    }
     slopes_ = bounds();
     if (slope() < kInfinity) return;
-    parts_.clear(), roots_.clear();
+    clear();
     turning(distance, 0.0);
     slopes_ = bounds();
   }
 
   double slope() const { return slopes_.back(); }
-  bool hasCurved() const { return std::ranges::count(parts_, Part::Kind::Curved, &Part::kind) > 0; }
+  std::ptrdiff_t curved() const { return std::ranges::count(parts_, Part::Kind::Curved, &Part::kind); }
 
   Expr built() const {
     std::vector<Expr> made;
@@ -54,6 +61,8 @@ class Calibration {
 
  private:
   using Kind = Part::Kind;
+
+  void clear() { parts_.clear(), roots_.clear(), done_.clear(); }
 
   // The place of e + offset, the offset being uniform.
   int of(const Expr& claimed, const Expr& offset) {
@@ -300,7 +309,7 @@ Expr Warp::climb(const Expr& s) const { return scaled(stretchAlong(gradientOf(s)
 Expr calibrated(const Expr& distance, const Warp& warp) {
   constexpr double kModerate = 6.0, kMuchSteeper = 2.0;
   const Calibration whole(distance, warp, 1.0);
-  if (whole.slope() <= kModerate || !whole.hasCurved()) return whole.built();
+  if (whole.slope() <= kModerate || whole.curved() == 0) return whole.built();
   const Calibration none(distance, warp, 0.0);
   const double most = std::max(kModerate, kMuchSteeper * none.slope());
   if (whole.slope() <= most) return whole.built();

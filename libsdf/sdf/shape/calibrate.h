@@ -30,9 +30,9 @@ struct Warp {
 /// a proven constant. Near a smooth zero the distance is f(T) / |J^T grad f| (Taubin 1994). To keep it
 /// continuous, f is taken apart where it is the least or greatest of functions, the distance to a box in
 /// them, or their length, and each is calibrated by itself: a linear one, such as a face's, by its own slope;
-/// a curved one, such as a sphere, by its own as far as its radius allows (curved.h); any other by the usual
-/// one, for which it may be off by the shear. The constant is bounded by intervals over cells of the region;
-/// it is infinite where the shape's own is.
+/// a curved one, such as a sphere, by its own as far as its radius allows (curved.h), unless there are
+/// dozens; any other by the usual one, for which it may be off by the shear. The constant is bounded by
+/// intervals over cells of the region; it is infinite where the shape's own is.
 Expr calibrated(const Expr& distance, const Warp& warp);
 
 }  // namespace sdf
