@@ -498,25 +498,28 @@ TEST(GroupedPicture, TakesNoMoreTextForMoreOperands) {
   }
 }
 
+void expectLitAlike(const Scene& scene) {
+  constexpr double kBar = 50.0;
+  GpuRenderOptions options;
+  options.threshold = 0.0;
+  options.samples = 2;
+  const Both both = drawn(scene, options);
+  EXPECT_GE(psnr(colors(both.grouped), colors(both.whole)), kBar) << static_cast<int>(scene.shadow.kind);
+}
+
 // What is read of the whole: shadows of every kind, occlusion and mirrors.
 TEST(GroupedPicture, LightsSharedOperandsAsThoseWrittenOut) {
-  constexpr double kBar = 50.0;
   for (const auto shadow : {Shadow::Kind::None, Shadow::Kind::Hard, Shadow::Kind::Soft,
                             Shadow::Kind::Improved, Shadow::Kind::Signed}) {
     Scene scene = furnished(3);
     scene.shadow.kind = shadow;
     scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
-    GpuRenderOptions options;
-    options.threshold = 0.0;
-    options.samples = 2;
-    const Both both = drawn(scene, options);
-    EXPECT_GE(psnr(colors(both.grouped), colors(both.whole)), kBar) << static_cast<int>(shadow);
+    expectLitAlike(scene);
   }
 }
 
 // The same of operands with a step of their own, beside some without and half spaces that are steep.
 TEST(GroupedPicture, LightsSteepSharedOperandsAsThoseWrittenOut) {
-  constexpr double kBar = 50.0;
   std::vector<Shape> all = scattered(carved(), 3, 14);
   for (int i = 0; i < 6; ++i) {
     const Shape column = twist(box(Vec3E(Expr(0.15), Expr(0.5), Expr(0.15))), Expr(0.5 + 0.4 * i));
@@ -534,11 +537,7 @@ TEST(GroupedPicture, LightsSteepSharedOperandsAsThoseWrittenOut) {
     ASSERT_EQ(shaders->plan.kinds->many.size(), 2u);
     const auto isSteep = [](const OperandKind& kind) { return kind.step != kind.distance; };
     EXPECT_EQ(std::ranges::count_if(shaders->plan.kinds->many, isSteep), 1);
-    GpuRenderOptions options;
-    options.threshold = 0.0;
-    options.samples = 2;
-    const Both both = drawn(scene, options);
-    EXPECT_GE(psnr(colors(both.grouped), colors(both.whole)), kBar) << static_cast<int>(shadow);
+    expectLitAlike(scene);
   }
 }
 
