@@ -1,0 +1,19 @@
+// A closed triangle mesh that knows its creases: what is handed from the finding of edges to remeshing.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace sdf {
+
+/// Triangles, counter-clockwise seen from outside, closed and manifold, and those of their edges along which
+/// the surface has an edge. A vertex without creases lies on one smooth piece of the surface, one with two of
+/// them on a crease, any other at a corner (or where a crease fades out).
+struct FeatureMesh {
+  std::vector<glm::vec3> positions;  ///< scene units
+  std::vector<glm::uvec3> triangles;
+  std::vector<std::array<std::uint32_t, 2>> creases;  ///< pairs of vertices, the lower first; sorted
+};
+
+}  // namespace sdf
