@@ -17,8 +17,8 @@
 namespace sdf::test {
 namespace {
 
-const std::vector<std::string> kStages{"bounds",     "sampling",  "extraction",
-                                       "projection", "measuring", "colouring"};
+const std::vector<std::string> kStages{"bounds",  "sampling",  "extraction", "projection",
+                                       "creases", "measuring", "normals",    "colouring"};
 
 Result<MeshedShape> tryMesh(const Shape& shape, const MeshOptions& options) {
   Progress progress;

@@ -92,7 +92,7 @@ struct BorderPoint {
 };
 
 // Gives each material its own copy of the vertices that it shares with an earlier one. Returns all vertices
-// of borders, originals included.
+// of borders, originals included; those on creases, which may be borders, too.
 std::vector<BorderPoint> splitBorders(Mesh& mesh) {
   // Of each vertex the first and the last material; the triangles are ordered by theirs.
   std::vector<std::uint32_t> first(mesh.positions.size(), ~0u), last(mesh.positions.size());
@@ -102,6 +102,8 @@ std::vector<BorderPoint> splitBorders(Mesh& mesh) {
       first[v] = std::min(first[v], mesh.triangleMaterial[t]);
       last[v] = mesh.triangleMaterial[t];
     }
+  std::vector<char> creased(mesh.positions.size(), 0);
+  for (std::size_t i = 0; i < mesh.copyOf.size(); ++i) creased[mesh.welded + i] = creased[mesh.copyOf[i]] = 1;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t>
       pointOf;  // (vertex, material) -> its border point
   std::vector<BorderPoint> points;
@@ -109,7 +111,7 @@ std::vector<BorderPoint> splitBorders(Mesh& mesh) {
     const glm::vec3 middle = centroid(mesh, mesh.triangles[t]);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[t][k], material = mesh.triangleMaterial[t];
-      if (first[v] == last[v]) continue;
+      if (first[v] == last[v] && !creased[v]) continue;
       const auto [it, fresh] = pointOf.try_emplace({v, material}, points.size());
       if (fresh) {
         std::uint32_t place = v;
@@ -117,7 +119,7 @@ std::vector<BorderPoint> splitBorders(Mesh& mesh) {
           place = static_cast<std::uint32_t>(mesh.positions.size());
           mesh.positions.push_back(glm::vec3(mesh.positions[v]));
           mesh.normals.push_back(glm::vec3(mesh.normals[v]));
-          mesh.copyOf.push_back(v);
+          mesh.copyOf.push_back(v < mesh.welded ? v : mesh.copyOf[v - mesh.welded]);
         }
         points.push_back({place, material, middle});
       }

@@ -17,10 +17,16 @@ constexpr double kSliver = 0.01;
 
 const double kCosine = std::cos(kFittingAngle);
 
-// Twice the area, along the facet's normal.
+// Of a facet's longest side: one that is less high is a needle, which may point anywhere.
+constexpr double kNeedle = 1e-3;
+
+// Twice the area, along the facet's normal; 0 of a needle.
 glm::dvec3 areaOf(const std::vector<glm::vec3>& positions, const glm::uvec3& t) {
-  const glm::dvec3 a(positions[t.x]), b(positions[t.y]), c(positions[t.z]);
-  return glm::cross(b - a, c - a);
+  const glm::dvec3 u = glm::dvec3(positions[t.y]) - glm::dvec3(positions[t.x]),
+                   v = glm::dvec3(positions[t.z]) - glm::dvec3(positions[t.x]), w = v - u;
+  const glm::dvec3 area = glm::cross(u, v);
+  const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+  return glm::dot(area, area) > kNeedle * kNeedle * longest * longest ? area : glm::dvec3(0.0);
 }
 
 bool isFar(const glm::dvec3& area, const glm::vec3& normal) {

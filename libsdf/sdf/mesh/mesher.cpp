@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/catalog.h"
@@ -65,19 +66,21 @@ class Mesher {
     begin("extraction");
     RawSurface raw = sampled->extract();
     if (raw.triangles.empty()) return noSurface(h);
-    Mesh& mesh = result_.mesh;
-    mesh.positions = std::move(raw.points);
-    mesh.triangles = std::move(raw.triangles);
-    mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
     begin("projection");
-    refineVertices(mesh.positions, mesh.normals, field, progress_);
-    fitNormals(mesh.positions, mesh.triangles, mesh.normals);
+    std::vector<glm::vec3> normals;
+    refineVertices(raw.points, normals, field, progress_);
+    begin("creases");
+    const FeatureMesh features =
+        sharpen(std::move(raw.points), std::move(normals), std::move(raw.triangles), field, progress_);
     begin("measuring");
     const std::vector<float> distances =
-        measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
-    measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
+        measureDistance(features.positions, features.triangles, field, progress_, result_.stats);
+    measureTopology(features.triangles, features.positions.size(), result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    if (Status s = checkClaims(*bounds, h, distances); !s) return s.error();
+    if (Status s = checkClaims(features, *bounds, h, distances); !s) return s.error();
+    begin("normals");
+    Mesh& mesh = result_.mesh;
+    splitAtCreases(features, field, progress_, mesh);
     begin("colouring");
     colorMesh(shape, options_.values, field, progress_, mesh);
     end();
@@ -129,8 +132,8 @@ class Mesher {
 
   // Refuses a mesh that contradicts the bounds and the slope that the shape claims. `distances` are the
   // vertices' to the surface.
-  Status checkClaims(const Box& bounds, double voxel, const std::vector<float>& distances) const {
-    const Mesh& mesh = result_.mesh;
+  Status checkClaims(const FeatureMesh& mesh, const Box& bounds, double voxel,
+                     const std::vector<float>& distances) const {
     const MeshStats& stats = result_.stats;
     // Refinement may move a vertex by a voxel, and the surface be as far from it.
     double farthest = voxel;

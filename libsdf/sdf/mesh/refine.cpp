@@ -55,4 +55,16 @@ void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& n
       [&](const PointRun& run) { refineRun(run, &positions[run.first], &normals[run.first]); });
 }
 
+void gradientNormals(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
+                     std::vector<glm::vec3>& normals) {
+  normals.assign(points.size(), glm::vec3(0.0f, 1.0f, 0.0f));
+  forEachRun(
+      points.size(), [&](std::size_t i) { return points[i]; }, field, progress, [&](const PointRun& run) {
+        RunGradients g;
+        g.evaluate(run, run.points);
+        for (std::size_t i = 0; i < run.count; ++i)
+          normals[run.first + i] = unit(g.gradient(i), normals[run.first + i]);
+      });
+}
+
 }  // namespace sdf

@@ -1,5 +1,6 @@
 // What a mesh goes through between its samples and the file.
 #pragma once
+#include "sdf/mesh/feature_mesh.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/narrow_band.h"
 #include "sdf/mesh/surface_points.h"
@@ -19,6 +20,15 @@ void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& p
 /// (exact derivatives).
 void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
                     const LocalField& field, Progress& progress);
+
+/// Unit gradients (exact derivatives) at the points; where there is none the y axis.
+void gradientNormals(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
+                     std::vector<glm::vec3>& normals);
+
+/// Fills positions, triangles, welded, copyOf and normals from a mesh with creases. A vertex on a crease is
+/// repeated for each of the fans of triangles that the creases leave around it, with the gradient a little
+/// inside the fan; any other has the gradient at its place. Normals are fitted (fitNormals).
+void splitAtCreases(const FeatureMesh& features, const LocalField& field, Progress& progress, Mesh& mesh);
 
 /// How far a vertex's normal may be from the mean of the facets around it, in radians: 30 degrees. A facet
 /// whose side is d long is asin(d / 2r) from the normal of a surface that bends as a ball of radius r does:

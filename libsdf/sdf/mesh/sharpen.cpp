@@ -1,0 +1,221 @@
+#include "sdf/mesh/sharpen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+#include "sdf/mesh/short_edges.h"
+#include "sdf/mesh/stages.h"
+
+namespace sdf {
+namespace {
+
+constexpr std::uint32_t kNone = ~0u;
+
+std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+// Rounds in which edges that one crossing does not explain are halved.
+constexpr int kHalvings = 3;
+// The side of a crossing is the piece of its edge's end if their normals are no more than 25 degrees apart.
+constexpr float kSamePiece = 0.9f;
+
+class Sharpener {
+ public:
+  Sharpener(std::vector<glm::vec3> positions, std::vector<glm::vec3> normals,
+            std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress)
+      : normals_(std::move(normals)), triangles_(std::move(triangles)), field_(field), progress_(progress) {
+    mesh_.positions = std::move(positions);
+  }
+
+  FeatureMesh run() {
+    find();
+    for (int round = 0; round < kHalvings && halveDoubtful(); ++round) find();
+    std::erase_if(crossings_, [](const Crossing& c) { return !c.point.placed; });
+    nameCrossings();
+    vertexOf_.assign(crossings_.size(), kNone);
+    findCorners();
+    for (const glm::uvec3& t : triangles_) cut(t);
+    std::ranges::sort(mesh_.creases);
+    collapseShortEdges(mesh_, pieceNormals_, anchors_,
+                       kShort * field_.finder()->at(mesh_.positions[0]).voxel);
+    return std::move(mesh_);
+  }
+
+ private:
+  void find() { crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_); }
+
+  void nameCrossings() {
+    crossingOf_.clear();
+    touched_.assign(mesh_.positions.size(), 0);
+    for (std::uint32_t i = 0; i < crossings_.size(); ++i) {
+      const auto [a, b] = crossings_[i].edge;
+      crossingOf_.emplace(keyOf(a, b), i);
+      touched_[a] = touched_[b] = 1;
+    }
+  }
+
+  // Is the crossing the only one of its edge?
+  bool isSure(const Crossing& c) const {
+    return c.point.placed && glm::dot(c.point.normal[0], normals_[c.edge[0]]) > kSamePiece &&
+           glm::dot(c.point.normal[1], normals_[c.edge[1]]) > kSamePiece;
+  }
+
+  // Halves the edges that a third piece seems to cross. Returns whether there were any.
+  bool halveDoubtful() {
+    if (std::ranges::all_of(crossings_, [&](const Crossing& c) { return isSure(c); })) return false;
+    std::erase_if(crossings_, [&](const Crossing& c) { return isSure(c); });
+    nameCrossings();
+    std::vector<glm::vec3> middles, normals;
+    for (const Crossing& c : crossings_)
+      middles.push_back(0.5f * (mesh_.positions[c.edge[0]] + mesh_.positions[c.edge[1]]));
+    refineVertices(middles, normals, field_, progress_);
+    const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+    mesh_.positions.insert(mesh_.positions.end(), middles.begin(), middles.end());
+    normals_.insert(normals_.end(), normals.begin(), normals.end());
+    std::vector<glm::uvec3> divided;
+    for (const glm::uvec3& t : triangles_) divide(t, crossingsOf(t), first, divided);
+    triangles_ = std::move(divided);
+    return true;
+  }
+
+  // The triangle, its edges with a crossing halved by the vertex `first` + crossing.
+  static void divide(const glm::uvec3& t, const std::array<std::uint32_t, 3>& x, std::uint32_t first,
+                     std::vector<glm::uvec3>& out) {
+    const int count = (x[0] != kNone) + (x[1] != kNone) + (x[2] != kNone);
+    int k = 0;  // turned so that the first edge is halved, and of two the last, too
+    while (count > 0 && (x[k] == kNone || (count == 2 && x[(k + 2) % 3] == kNone))) ++k;
+    const std::uint32_t a = t[k % 3], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+    const std::uint32_t ab = first + x[k % 3], bc = first + x[(k + 1) % 3], ca = first + x[(k + 2) % 3];
+    if (count == 0) out.insert(out.end(), t);
+    if (count == 1) out.insert(out.end(), {{a, ab, c}, {ab, b, c}});
+    if (count == 2) out.insert(out.end(), {{a, ab, ca}, {ab, b, ca}, {b, c, ca}});
+    if (count == 3) out.insert(out.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+
+  std::uint32_t crossingAt(std::uint32_t a, std::uint32_t b) const {
+    if (!touched_[a] || !touched_[b]) return kNone;
+    const auto it = crossingOf_.find(keyOf(a, b));
+    return it == crossingOf_.end() ? kNone : it->second;
+  }
+
+  std::array<std::uint32_t, 3> crossingsOf(const glm::uvec3& t) const {
+    return {crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
+  }
+
+  static bool isThreefold(const std::array<std::uint32_t, 3>& x) {
+    return x[0] != kNone && x[1] != kNone && x[2] != kNone;
+  }
+
+  std::uint32_t add(const glm::vec3& p) {
+    mesh_.positions.push_back(p);
+    return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+  }
+
+  // A triangle on the piece of a vertex of the uncut mesh.
+  void add(const glm::uvec3& triangle, std::uint32_t piece) {
+    mesh_.triangles.push_back(triangle);
+    pieceNormals_.push_back(normals_[piece]);
+  }
+
+  void addCrease(std::uint32_t a, std::uint32_t b) {
+    mesh_.creases.push_back({std::min(a, b), std::max(a, b)});
+  }
+
+  std::uint32_t vertexAt(std::uint32_t crossing) {
+    if (crossing == kNone) return kNone;
+    if (vertexOf_[crossing] == kNone) {
+      const CreasePoint& p = crossings_[crossing].point;
+      vertexOf_[crossing] = add(p.at);
+      if (p.corner) anchors_.push_back(vertexOf_[crossing]);
+    }
+    return vertexOf_[crossing];
+  }
+
+  // Corners of the triangles with three pieces, in their order.
+  void findCorners() {
+    std::vector<CornerPoint> corners;
+    for (const glm::uvec3& t : triangles_) {
+      const auto x = crossingsOf(t);
+      if (!isThreefold(x)) continue;
+      CornerPoint corner{};
+      for (int k = 0; k < 3; ++k) {
+        corner.normal[k] = normals_[t[k]];
+        corner.on[k] = mesh_.positions[t[k]];
+        corner.at += crossings_[x[k]].point.at / 3.0f;
+      }
+      corners.push_back(corner);
+    }
+    placeCorners(corners, field_, progress_);
+    corners_ = std::move(corners);
+  }
+
+  void cut(const glm::uvec3& t) {
+    const auto x = crossingsOf(t);
+    if (isThreefold(x)) return cutAroundCorner(t, x);
+    const int count = (x[0] != kNone) + (x[1] != kNone) + (x[2] != kNone);
+    if (count == 0) return add(t, t.x);
+    // Turned so that the first edge is cut, and of two the last, too.
+    int first = 0;
+    while (x[first] == kNone || (count == 2 && x[(first + 2) % 3] == kNone)) ++first;
+    const std::uint32_t a = t[first], b = t[(first + 1) % 3], c = t[(first + 2) % 3], ab = vertexAt(x[first]);
+    if (count == 1) {
+      add({a, ab, c}, a);
+      add({ab, b, c}, b);
+      return;
+    }
+    const std::uint32_t ca = vertexAt(x[(first + 2) % 3]);
+    add({a, ab, ca}, a);
+    addCrease(ab, ca);
+    const auto length = [&](std::uint32_t p, std::uint32_t q) {
+      return glm::distance(mesh_.positions[p], mesh_.positions[q]);
+    };
+    if (length(ab, c) <= length(b, ca)) {
+      add({ab, b, c}, b);
+      add({ab, c, ca}, c);
+    } else {
+      add({ab, b, ca}, b);
+      add({b, c, ca}, c);
+    }
+  }
+
+  void cutAroundCorner(const glm::uvec3& t, const std::array<std::uint32_t, 3>& x) {
+    const CornerPoint& found = corners_[nextCorner_++];
+    const std::uint32_t corner = add(found.at);
+    if (found.placed) anchors_.push_back(corner);
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t on = vertexAt(x[k]);
+      add({t[k], on, corner}, t[k]);
+      add({on, t[(k + 1) % 3], corner}, t[(k + 1) % 3]);
+      addCrease(on, corner);
+    }
+  }
+
+  static constexpr double kShort = 0.2;  // voxels
+
+  std::vector<glm::vec3> normals_;
+  std::vector<glm::uvec3> triangles_;
+  const LocalField& field_;
+  Progress& progress_;
+  FeatureMesh mesh_;
+  std::vector<glm::vec3> pieceNormals_;  // by triangle
+  std::vector<Crossing> crossings_;
+  std::unordered_map<std::uint64_t, std::uint32_t> crossingOf_;
+  std::vector<char> touched_;
+  std::vector<std::uint32_t> vertexOf_;
+  std::vector<CornerPoint> corners_;
+  std::vector<std::uint32_t> anchors_;  // vertices at corners that were placed
+  std::size_t nextCorner_ = 0;
+};
+
+}  // namespace
+
+FeatureMesh sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3> normals,
+                    std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress) {
+  return Sharpener(std::move(positions), std::move(normals), std::move(triangles), field, progress).run();
+}
+
+}  // namespace sdf

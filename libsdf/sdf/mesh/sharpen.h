@@ -1,0 +1,16 @@
+// Cutting a mesh along the creases of its surface.
+#pragma once
+#include "sdf/mesh/crease.h"
+#include "sdf/mesh/feature_mesh.h"
+
+namespace sdf {
+
+/// Cuts the triangles of a closed mesh, whose vertices are on the surface, along its creases: an edge that
+/// crosses one gets a vertex there, a triangle that three smooth pieces share gets their corner. Edges that
+/// more than two pieces share are halved before, up to three times over. Short edges at creases are taken out
+/// again, and triangles that are turned over, where that may be. `normals` are the gradients' at the
+/// vertices. The mesh stays closed, and as manifold as it was.
+FeatureMesh sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3> normals,
+                    std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress);
+
+}  // namespace sdf

@@ -1,0 +1,258 @@
+#include "sdf/mesh/short_edges.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <tuple>
+
+namespace sdf {
+namespace {
+
+// Corners that are this share of the shortest edge apart are one.
+constexpr double kSamePoint = 0.01;
+// Cosine of what a triangle may turn away from its piece: 75 degrees, or what it was turned by before.
+constexpr double kUpright = 0.25;
+// Of its longest side, the height of a triangle that points anywhere.
+constexpr double kNeedle = 1e-3;
+constexpr int kPasses = 4;
+
+class Collapser {
+ public:
+  Collapser(FeatureMesh& mesh, std::vector<glm::vec3>& pieceNormals,
+            const std::vector<std::uint32_t>& anchors, double shortest)
+      : mesh_(mesh), normals_(pieceNormals), shortest_(shortest), fans_(mesh.positions.size()) {
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const glm::uvec3& corners = mesh_.triangles[t];
+      for (int k = 0; k < 3; ++k) fans_[corners[k]].triangles.push_back(t);
+    }
+    for (const std::uint32_t v : anchors) fans_[v].anchored = true;
+    for (const auto& [a, b] : mesh_.creases) fans_[a].creases.push_back(b), fans_[b].creases.push_back(a);
+    for (std::uint32_t v = 0; v < fans_.size(); ++v)
+      if (!fans_[v].creases.empty()) centres_.push_back(v);
+  }
+
+  void run() {
+    for (int pass = 0; pass < kPasses; ++pass) {
+      std::vector<Edge> edges = shortEdges();
+      collapseAll(edges, false);
+      edges = edgesAtTurned();
+      if (edges.empty()) break;
+      collapseAll(edges, true);
+      for (const Edge& e : edges) tryFlip(e.gone, e.kept);
+    }
+    compact();
+  }
+
+ private:
+  struct Fan {
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint32_t> creases;  // neighbours
+    bool anchored = false;
+  };
+
+  struct Edge {
+    double length;
+    std::uint32_t gone, kept;
+    bool operator<(const Edge& o) const {
+      return std::tie(length, gone, kept) < std::tie(o.length, o.gone, o.kept);
+    }
+  };
+
+  std::vector<Edge> shortEdges() const {
+    std::vector<Edge> edges;
+    for (const std::uint32_t v : centres_)
+      for (const std::uint32_t t : fans_[v].triangles)
+        for (int k = 0; k < 3; ++k) {
+          const std::uint32_t w = mesh_.triangles[t][k];
+          if (w == v) continue;
+          if (const double d = length(v, w); d < shortest_) edges.push_back({d, w, v});
+        }
+    return edges;
+  }
+
+  // Those of the triangles around the corners of such as are turned.
+  std::vector<Edge> edgesAtTurned() const {
+    std::vector<Edge> edges;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const glm::uvec3& c = mesh_.triangles[t];
+      if (c.x == c.y || upright(t, c.x, c.x) >= kUpright) continue;
+      for (int k = 0; k < 3; ++k)
+        for (const std::uint32_t other : neighbours(c[k])) {
+          edges.push_back({length(c[k], other), c[k], other});
+          edges.push_back({length(c[k], other), other, c[k]});
+        }
+    }
+    return edges;
+  }
+
+  void collapseAll(std::vector<Edge>& edges, bool turned) {
+    std::sort(edges.begin(), edges.end());
+    for (const Edge& e : edges)
+      if (!fans_[e.gone].triangles.empty() && !fans_[e.kept].triangles.empty() && mayGo(e.gone, e.kept) &&
+          linked(e.gone, e.kept) && (turned ? turnsBack(e.gone, e.kept) : staysUpright(e.gone, e.kept)))
+        collapse(e.gone, e.kept);
+  }
+
+  // Are fewer triangles turned afterwards?
+  bool turnsBack(std::uint32_t gone, std::uint32_t kept) const {
+    int before = 0, after = 0;
+    for (const std::uint32_t t : fans_[gone].triangles) {
+      const bool was = upright(t, gone, gone) < kUpright;
+      const bool is = !contains(t, kept) && upright(t, gone, kept) < kUpright;
+      before += was, after += is;
+    }
+    return after < before;
+  }
+
+  // Turns the edge between two triangles, one of which is turned over, if then neither is.
+  void tryFlip(std::uint32_t a, std::uint32_t b) {
+    if (has(fans_[a].creases, b)) return;
+    std::uint32_t sides[2];
+    int count = 0;
+    for (const std::uint32_t t : fans_[a].triangles)
+      if (contains(t, b)) {
+        if (count == 2) return;
+        sides[count++] = t;
+      }
+    if (count != 2 || std::min(upright(sides[0], a, a), upright(sides[1], a, a)) >= kUpright) return;
+    const std::uint32_t c = third(sides[0], a, b), d = third(sides[1], a, b);
+    if (c == d || has(neighbours(c), d)) return;
+    const glm::uvec3 old[2] = {mesh_.triangles[sides[0]], mesh_.triangles[sides[1]]};
+    // Each loses one end of the edge for the other's third vertex.
+    replace(sides[0], b, d), replace(sides[1], a, c);
+    if (std::min(upright(sides[0], a, a), upright(sides[1], b, b)) >= kUpright) {
+      std::erase(fans_[b].triangles, sides[0]), std::erase(fans_[a].triangles, sides[1]);
+      fans_[d].triangles.push_back(sides[0]), fans_[c].triangles.push_back(sides[1]);
+      return;
+    }
+    mesh_.triangles[sides[0]] = old[0], mesh_.triangles[sides[1]] = old[1];
+  }
+
+  std::uint32_t third(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
+    const glm::uvec3& c = mesh_.triangles[t];
+    return c.x != a && c.x != b ? c.x : c.y != a && c.y != b ? c.y : c.z;
+  }
+  void replace(std::uint32_t t, std::uint32_t vertex, std::uint32_t by) {
+    for (int k = 0; k < 3; ++k)
+      if (mesh_.triangles[t][k] == vertex) mesh_.triangles[t][k] = by;
+  }
+
+  double length(std::uint32_t a, std::uint32_t b) const {
+    return glm::distance(mesh_.positions[a], mesh_.positions[b]);
+  }
+  static bool has(const std::vector<std::uint32_t>& list, std::uint32_t v) {
+    return std::find(list.begin(), list.end(), v) != list.end();
+  }
+  bool contains(std::uint32_t t, std::uint32_t v) const {
+    const glm::uvec3& c = mesh_.triangles[t];
+    return c.x == v || c.y == v || c.z == v;
+  }
+
+  bool mayGo(std::uint32_t gone, std::uint32_t kept) const {
+    const Fan& fan = fans_[gone];
+    if (fan.creases.empty()) return true;
+    return has(fan.creases, kept) && (!fan.anchored || length(gone, kept) < kSamePoint * shortest_);
+  }
+
+  std::vector<std::uint32_t> neighbours(std::uint32_t v) const {
+    std::vector<std::uint32_t> around;
+    for (const std::uint32_t t : fans_[v].triangles)
+      for (int k = 0; k < 3; ++k)
+        if (mesh_.triangles[t][k] != v) around.push_back(mesh_.triangles[t][k]);
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    return around;
+  }
+
+  bool linked(std::uint32_t gone, std::uint32_t kept) const {
+    const auto a = neighbours(gone), b = neighbours(kept);
+    std::vector<std::uint32_t> common;
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+    return common.size() == 2 && std::binary_search(a.begin(), a.end(), kept);
+  }
+
+  // The cosine between a triangle and its piece, with one of its vertices elsewhere; -1 of a needle, and 1 of
+  // one that will go with an edge of no length.
+  double upright(std::uint32_t t, std::uint32_t vertex, std::uint32_t elsewhere) const {
+    glm::dvec3 p[3];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh_.triangles[t][k];
+      p[k] = glm::dvec3(mesh_.positions[v == vertex ? elsewhere : v]);
+    }
+    const glm::dvec3 u = p[1] - p[0], v = p[2] - p[0], w = v - u, area = glm::cross(u, v);
+    const double size = glm::length(area),
+                 longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+    if (std::min({glm::length(u), glm::length(v), glm::length(w)}) < kSamePoint * shortest_) return 1.0;
+    return size > kNeedle * longest ? glm::dot(area, glm::dvec3(normals_[t])) / size : -1.0;
+  }
+
+  bool staysUpright(std::uint32_t gone, std::uint32_t kept) const {
+    for (const std::uint32_t t : fans_[gone].triangles)
+      if (!contains(t, kept) && upright(t, gone, kept) < std::min(kUpright, upright(t, gone, gone)))
+        return false;
+    return true;
+  }
+
+  void collapse(std::uint32_t gone, std::uint32_t kept) {
+    for (const std::uint32_t t : fans_[gone].triangles) {
+      if (contains(t, kept)) {
+        for (int k = 0; k < 3; ++k)
+          if (mesh_.triangles[t][k] != gone) std::erase(fans_[mesh_.triangles[t][k]].triangles, t);
+        mesh_.triangles[t] = glm::uvec3(0u);
+        continue;
+      }
+      replace(t, gone, kept);
+      fans_[kept].triangles.push_back(t);
+    }
+    for (const std::uint32_t other : fans_[gone].creases) {
+      auto& theirs = fans_[other].creases;
+      std::erase(theirs, gone);
+      if (other == kept || has(theirs, kept)) continue;
+      theirs.push_back(kept);
+      fans_[kept].creases.push_back(other);
+    }
+    fans_[gone] = {};
+  }
+
+  // Drops what is gone, keeping the order.
+  void compact() {
+    std::vector<std::uint32_t> place(mesh_.positions.size(), ~0u);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (mesh_.triangles[t].x == mesh_.triangles[t].y) continue;
+      mesh_.triangles[kept] = mesh_.triangles[t];
+      normals_[kept++] = normals_[t];
+    }
+    mesh_.triangles.resize(kept);
+    normals_.resize(kept);
+    for (const glm::uvec3& t : mesh_.triangles)
+      for (int k = 0; k < 3; ++k) place[t[k]] = 0;
+    std::uint32_t count = 0;
+    for (std::uint32_t v = 0; v < place.size(); ++v) {
+      if (place[v] != 0) continue;
+      mesh_.positions[count] = glm::vec3(mesh_.positions[v]);
+      place[v] = count++;
+    }
+    mesh_.positions.resize(count);
+    for (glm::uvec3& t : mesh_.triangles) t = {place[t.x], place[t.y], place[t.z]};
+    mesh_.creases.clear();
+    for (std::uint32_t v = 0; v < fans_.size(); ++v)
+      for (const std::uint32_t w : fans_[v].creases)
+        if (v < w) mesh_.creases.push_back({place[v], place[w]});
+    std::ranges::sort(mesh_.creases);
+  }
+
+  FeatureMesh& mesh_;
+  std::vector<glm::vec3>& normals_;
+  double shortest_;
+  std::vector<Fan> fans_;
+  std::vector<std::uint32_t> centres_;
+};
+
+}  // namespace
+
+void collapseShortEdges(FeatureMesh& mesh, std::vector<glm::vec3>& pieceNormals,
+                        const std::vector<std::uint32_t>& anchors, double shortest) {
+  Collapser(mesh, pieceNormals, anchors, shortest).run();
+}
+
+}  // namespace sdf
