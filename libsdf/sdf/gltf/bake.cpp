@@ -9,7 +9,6 @@
 
 #include "sdf/gltf/emission.h"
 #include "sdf/march/ambient_occlusion.h"
-#include "sdf/march/normals.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/scene/fit.h"
 
@@ -50,10 +49,7 @@ Status occlude(const MarchField& field, const TapOptions& taps, const Mesh& mesh
     points.add(glm::dvec3(mesh.positions[i]));
     facing.add(hasNormal(mesh, i) ? glm::dvec3(mesh.normals[i]) : glm::dvec3(0.0, 1.0, 0.0));
   }
-  // The surface's own, as a picture takes them: the mesh's lean over the edges that it cuts off.
-  const Result<Vectors> outward = normals(field, points, facing, {});
-  if (!outward) return outward.error();
-  const Result<std::vector<double>> open = occlusionByTaps(field, points, *outward, taps);
+  const Result<std::vector<double>> open = occlusionByTaps(field, points, facing, taps);
   if (!open) return open.error();
   for (std::size_t i = first; i < end; ++i)
     occlusion[i] = hasNormal(mesh, i) ? static_cast<float>((*open)[i - first]) : 1.0f;

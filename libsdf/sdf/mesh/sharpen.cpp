@@ -32,8 +32,10 @@ class Sharpener {
   }
 
   FeatureMesh run() {
-    find();
-    for (int round = 0; round < kHalvings && halveDoubtful(); ++round) find();
+    crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_);
+    nameCrossings();
+    for (int round = 0; round < kHalvings && halveDoubtful(); ++round) {
+    }
     std::erase_if(crossings_, [](const Crossing& c) { return !c.point.placed; });
     nameCrossings();
     vertexOf_.assign(crossings_.size(), kNone);
@@ -46,8 +48,6 @@ class Sharpener {
   }
 
  private:
-  void find() { crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_); }
-
   void nameCrossings() {
     crossingOf_.clear();
     touched_.assign(mesh_.positions.size(), 0);
@@ -66,7 +66,9 @@ class Sharpener {
 
   // Halves the edges that a third piece seems to cross. Returns whether there were any.
   bool halveDoubtful() {
-    if (std::ranges::all_of(crossings_, [&](const Crossing& c) { return isSure(c); })) return false;
+    std::vector<Crossing> sure;
+    std::ranges::copy_if(crossings_, std::back_inserter(sure), [&](const Crossing& c) { return isSure(c); });
+    if (sure.size() == crossings_.size()) return false;
     std::erase_if(crossings_, [&](const Crossing& c) { return isSure(c); });
     nameCrossings();
     std::vector<glm::vec3> middles, normals;
@@ -77,8 +79,18 @@ class Sharpener {
     mesh_.positions.insert(mesh_.positions.end(), middles.begin(), middles.end());
     normals_.insert(normals_.end(), normals.begin(), normals.end());
     std::vector<glm::uvec3> divided;
-    for (const glm::uvec3& t : triangles_) divide(t, crossingsOf(t), first, divided);
-    triangles_ = std::move(divided);
+    std::erase_if(triangles_, [&](const glm::uvec3& t) {
+      const auto x = crossingsOf(t);
+      if (x[0] == kNone && x[1] == kNone && x[2] == kNone) return false;
+      divide(t, x, first, divided);
+      return true;
+    });
+    // Edges that were there before have been looked at.
+    crossings_ = findCrossings(mesh_.positions, normals_, divided, field_, progress_);
+    std::erase_if(crossings_, [&](const Crossing& c) { return c.edge[1] < first; });
+    crossings_.insert(crossings_.begin(), sure.begin(), sure.end());
+    nameCrossings();
+    triangles_.insert(triangles_.end(), divided.begin(), divided.end());
     return true;
   }
 
@@ -87,10 +99,9 @@ class Sharpener {
                      std::vector<glm::uvec3>& out) {
     const int count = (x[0] != kNone) + (x[1] != kNone) + (x[2] != kNone);
     int k = 0;  // turned so that the first edge is halved, and of two the last, too
-    while (count > 0 && (x[k] == kNone || (count == 2 && x[(k + 2) % 3] == kNone))) ++k;
+    while (x[k] == kNone || (count == 2 && x[(k + 2) % 3] == kNone)) ++k;
     const std::uint32_t a = t[k % 3], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
     const std::uint32_t ab = first + x[k % 3], bc = first + x[(k + 1) % 3], ca = first + x[(k + 2) % 3];
-    if (count == 0) out.insert(out.end(), t);
     if (count == 1) out.insert(out.end(), {{a, ab, c}, {ab, b, c}});
     if (count == 2) out.insert(out.end(), {{a, ab, ca}, {ab, b, ca}, {b, c, ca}});
     if (count == 3) out.insert(out.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});

@@ -20,14 +20,11 @@ class Collapser {
   Collapser(FeatureMesh& mesh, std::vector<glm::vec3>& pieceNormals,
             const std::vector<std::uint32_t>& anchors, double shortest)
       : mesh_(mesh), normals_(pieceNormals), shortest_(shortest), fans_(mesh.positions.size()) {
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const glm::uvec3& corners = mesh_.triangles[t];
-      for (int k = 0; k < 3; ++k) fans_[corners[k]].triangles.push_back(t);
-    }
     for (const std::uint32_t v : anchors) fans_[v].anchored = true;
     for (const auto& [a, b] : mesh_.creases) fans_[a].creases.push_back(b), fans_[b].creases.push_back(a);
     for (std::uint32_t v = 0; v < fans_.size(); ++v)
       if (!fans_[v].creases.empty()) centres_.push_back(v);
+    listTriangles();
   }
 
   void run() {
@@ -47,6 +44,7 @@ class Collapser {
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint32_t> creases;  // neighbours
     bool anchored = false;
+    bool whole = false;  // all its triangles are listed
   };
 
   struct Edge {
@@ -56,6 +54,27 @@ class Collapser {
       return std::tie(length, gone, kept) < std::tie(o.length, o.gone, o.kept);
     }
   };
+
+  // Lists the triangles at creases, those that are turned, and those that touch them.
+  void listTriangles() {
+    std::vector<char> near(fans_.size(), 0);
+    const auto touch = [](const std::vector<char>& marks, const glm::uvec3& t) {
+      return marks[t.x] || marks[t.y] || marks[t.z];
+    };
+    std::vector<char> middle(fans_.size(), 0);
+    for (const std::uint32_t v : centres_) middle[v] = 1;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (const glm::uvec3& c = mesh_.triangles[t]; upright(t, c.x, c.x) < kUpright)
+        middle[c.x] = middle[c.y] = middle[c.z] = 1;
+    for (const glm::uvec3& t : mesh_.triangles)
+      if (touch(middle, t)) near[t.x] = near[t.y] = near[t.z] = 1;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!touch(near, mesh_.triangles[t])) continue;
+      listed_.push_back(t);
+      for (int k = 0; k < 3; ++k) fans_[mesh_.triangles[t][k]].triangles.push_back(t);
+    }
+    for (std::uint32_t v = 0; v < fans_.size(); ++v) fans_[v].whole = near[v];
+  }
 
   std::vector<Edge> shortEdges() const {
     std::vector<Edge> edges;
@@ -72,7 +91,7 @@ class Collapser {
   // Those of the triangles around the corners of such as are turned.
   std::vector<Edge> edgesAtTurned() const {
     std::vector<Edge> edges;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (const std::uint32_t t : listed_) {
       const glm::uvec3& c = mesh_.triangles[t];
       if (c.x == c.y || upright(t, c.x, c.x) >= kUpright) continue;
       for (int k = 0; k < 3; ++k)
@@ -87,8 +106,9 @@ class Collapser {
   void collapseAll(std::vector<Edge>& edges, bool turned) {
     std::sort(edges.begin(), edges.end());
     for (const Edge& e : edges)
-      if (!fans_[e.gone].triangles.empty() && !fans_[e.kept].triangles.empty() && mayGo(e.gone, e.kept) &&
-          linked(e.gone, e.kept) && (turned ? turnsBack(e.gone, e.kept) : staysUpright(e.gone, e.kept)))
+      if (fans_[e.gone].whole && fans_[e.kept].whole && !fans_[e.gone].triangles.empty() &&
+          !fans_[e.kept].triangles.empty() && mayGo(e.gone, e.kept) && linked(e.gone, e.kept) &&
+          (turned ? turnsBack(e.gone, e.kept) : staysUpright(e.gone, e.kept)))
         collapse(e.gone, e.kept);
   }
 
@@ -105,7 +125,7 @@ class Collapser {
 
   // Turns the edge between two triangles, one of which is turned over, if then neither is.
   void tryFlip(std::uint32_t a, std::uint32_t b) {
-    if (has(fans_[a].creases, b)) return;
+    if (!fans_[a].whole || !fans_[b].whole || has(fans_[a].creases, b)) return;
     std::uint32_t sides[2];
     int count = 0;
     for (const std::uint32_t t : fans_[a].triangles)
@@ -115,7 +135,7 @@ class Collapser {
       }
     if (count != 2 || std::min(upright(sides[0], a, a), upright(sides[1], a, a)) >= kUpright) return;
     const std::uint32_t c = third(sides[0], a, b), d = third(sides[1], a, b);
-    if (c == d || has(neighbours(c), d)) return;
+    if (c == d || !fans_[c].whole || !fans_[d].whole || has(neighbours(c), d)) return;
     const glm::uvec3 old[2] = {mesh_.triangles[sides[0]], mesh_.triangles[sides[1]]};
     // Each loses one end of the edge for the other's third vertex.
     replace(sides[0], b, d), replace(sides[1], a, c);
@@ -245,7 +265,8 @@ class Collapser {
   std::vector<glm::vec3>& normals_;
   double shortest_;
   std::vector<Fan> fans_;
-  std::vector<std::uint32_t> centres_;
+  std::vector<std::uint32_t> centres_;  // vertices on creases
+  std::vector<std::uint32_t> listed_;   // triangles
 };
 
 }  // namespace
