@@ -274,32 +274,66 @@ void placeCorners(std::span<CornerPoint> corners, const LocalField& field, Progr
       [&](const PointRun& run) { placeCornersOf(run, &corners[run.first]); });
 }
 
-std::vector<Crossing> findCrossings(const std::vector<glm::vec3>& positions,
-                                    const std::vector<glm::vec3>& normals,
-                                    const std::vector<glm::uvec3>& triangles, const LocalField& field,
-                                    Progress& progress) {
+namespace {
+
+using Edges = std::vector<std::array<std::uint32_t, 2>>;
+
+// Each edge whose ends have different normals, once.
+Edges edgesThatTurn(const std::vector<glm::vec3>& normals, const std::vector<glm::uvec3>& triangles) {
   constexpr std::size_t kChunk = 8192;
-  std::vector<std::vector<Crossing>> pieces((triangles.size() + kChunk - 1) / kChunk);
+  std::vector<Edges> pieces((triangles.size() + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
     const std::size_t end = std::min(triangles.size(), (piece + 1) * kChunk);
     for (std::size_t t = piece * kChunk; t < end; ++t)
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-        if (a < b && glm::dot(normals[a], normals[b]) < kSmooth)
-          pieces[piece].push_back({{a, b}, {{}, {}, positions[a] - positions[b]}});
+        if (a < b && glm::dot(normals[a], normals[b]) < kSmooth) pieces[piece].push_back({a, b});
       }
   });
+  Edges all;
+  for (const Edges& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+  return all;
+}
+
+// Where both halves of an edge turn by nearly as much, the surface bends and has no crease there.
+bool turnsEvenly(const glm::vec3& from, const glm::vec3& middle, const glm::vec3& to) {
+  constexpr float kEven = 0.6f;  // of the whole, the larger half at most; angles by their chords
+  const float whole = glm::distance(from, to);
+  return std::max(glm::distance(from, middle), glm::distance(middle, to)) < kEven * whole;
+}
+
+}  // namespace
+
+std::vector<Crossing> findCrossings(const std::vector<glm::vec3>& positions,
+                                    const std::vector<glm::vec3>& normals,
+                                    const std::vector<glm::uvec3>& triangles, const LocalField& field,
+                                    Progress& progress) {
+  const Edges edges = edgesThatTurn(normals, triangles);
+  const auto middle = [&](const std::array<std::uint32_t, 2>& e) {
+    return 0.5f * (positions[e[0]] + positions[e[1]]);
+  };
+  std::vector<char> jumps(edges.size(), 0);
+  forEachRun(
+      edges.size(), [&](std::size_t i) { return middle(edges[i]); }, field, progress,
+      [&](const PointRun& run) {
+        if (isInterpolated(*run.tapes.distance)) return;
+        RunGradients g;
+        g.evaluate(run, run.points);
+        for (std::size_t i = 0; i < run.count; ++i) {
+          const auto [a, b] = edges[run.first + i];
+          jumps[run.first + i] = !turnsEvenly(normals[a], glm::normalize(g.gradient(i)), normals[b]);
+        }
+      });
   std::vector<Crossing> found;
-  for (const auto& piece : pieces) found.insert(found.end(), piece.begin(), piece.end());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (const auto [a, b] = edges[i]; jumps[i])
+      found.push_back({edges[i], {{}, {}, positions[a] - positions[b]}});
   const auto plane = [&](std::uint32_t v) {
     return Plane{glm::dvec3(normals[v]), -glm::dot(glm::dvec3(normals[v]), glm::dvec3(positions[v]))};
   };
   forEachRun(
-      found.size(),
-      [&](std::size_t i) { return 0.5f * (positions[found[i].edge[0]] + positions[found[i].edge[1]]); },
-      field, progress,
+      found.size(), [&](std::size_t i) { return middle(found[i].edge); }, field, progress,
       [&](const PointRun& run) {
-        if (isInterpolated(*run.tapes.distance)) return;
         std::vector<Bend> bends;
         for (std::size_t i = 0; i < run.count; ++i) {
           const auto [a, b] = found[run.first + i].edge;

@@ -20,6 +20,11 @@ glm::vec3 unit(const glm::vec3& g, const glm::vec3& before) {
   return scaled / glm::length(scaled);
 }
 
+// Of a point's coordinates: steps that are shorter are their rounding and the reading's.
+constexpr float kSettled = 0x1p-21f;
+
+float largest(const glm::vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
 void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
   const float reach = static_cast<float>(run.voxel);
   PointRows trial = run.points;
@@ -36,9 +41,10 @@ void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
         positions[i] = trial.at(i);
         normals[i] = unit(g.gradient(i), normals[i]);
       }
-      const glm::vec3 target = trial.at(i) + g.step(i);
+      const glm::vec3 way = g.step(i), target = trial.at(i) + way;
       if (!(glm::distance(target, run.points.at(i)) <= reach)) continue;
-      moved = moved || target != trial.at(i);
+      if (glm::length(way) <= kSettled * largest(target)) continue;
+      moved = true;
       trial.set(i, target);
     }
     if (!moved) break;
@@ -59,7 +65,8 @@ void gradientNormals(const std::vector<glm::vec3>& points, const LocalField& fie
                      std::vector<glm::vec3>& normals) {
   normals.assign(points.size(), glm::vec3(0.0f, 1.0f, 0.0f));
   forEachRun(
-      points.size(), [&](std::size_t i) { return points[i]; }, field, progress, [&](const PointRun& run) {
+      points.size(), [&](std::size_t i) { return points[i]; }, field, progress,
+      [&](const PointRun& run) {
         RunGradients g;
         g.evaluate(run, run.points);
         for (std::size_t i = 0; i < run.count; ++i)

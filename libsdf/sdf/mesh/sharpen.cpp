@@ -37,6 +37,10 @@ class Sharpener {
     for (int round = 0; round < kHalvings && halveDoubtful(); ++round) {
     }
     std::erase_if(crossings_, [](const Crossing& c) { return !c.point.placed; });
+    if (crossings_.empty()) {
+      mesh_.triangles = std::move(triangles_);
+      return std::move(mesh_);
+    }
     nameCrossings();
     vertexOf_.assign(crossings_.size(), kNone);
     findCorners();
