@@ -33,10 +33,12 @@ struct GltfModel : tinygltf::Model {
   int addNode(tinygltf::Node node, int parent);
   void useExtension(const std::string& name);
 
-  /// Appends elementAt(0) … elementAt(count - 1) and returns the index of an accessor for them. Their sizes
-  /// are multiples of four except for 16-bit indices, so the next view is aligned by padding.
+  /// Appends elementAt(0) … elementAt(count - 1) and returns the index of a view of them. The next view
+  /// begins at a multiple of four.
   template <class ElementAt>
-  int addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt);
+  int addView(std::size_t count, int target, ElementAt elementAt);
+  /// Index of an accessor of `count` elements from this byte of a view on.
+  int addAccessor(int view, std::size_t count, int componentType, int type, std::size_t byteOffset = 0);
 
   /// Index of a square picture of these texels, sRGB, by rows; the same one is held once.
   int addImage(int side, std::span<const Texel> texels);
@@ -62,8 +64,8 @@ int placeOf(T value, std::vector<T>& list) {
 tinygltf::Node placed(const std::string& name, const Placement& placement);
 
 template <class ElementAt>
-int GltfModel::addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt) {
-  using Element = decltype(elementAt(0));
+int GltfModel::addView(std::size_t count, int target, ElementAt elementAt) {
+  using Element = decltype(elementAt(std::size_t{0}));
   std::vector<unsigned char>& data = bytes();
   tinygltf::BufferView view;
   view.buffer = 0;
@@ -75,15 +77,8 @@ int GltfModel::addAccessor(std::size_t count, int target, int componentType, int
     const Element element = elementAt(i);
     std::memcpy(data.data() + view.byteOffset + i * sizeof(Element), &element, sizeof(Element));
   }
-
-  tinygltf::Accessor accessor;
-  accessor.bufferView = static_cast<int>(bufferViews.size());
-  accessor.componentType = componentType;
-  accessor.type = type;
-  accessor.count = count;
   bufferViews.push_back(std::move(view));
-  accessors.push_back(std::move(accessor));
-  return static_cast<int>(accessors.size()) - 1;
+  return static_cast<int>(bufferViews.size()) - 1;
 }
 
 }  // namespace sdf

@@ -65,6 +65,17 @@ void GltfModel::useExtension(const std::string& name) {
   if (std::ranges::find(extensionsUsed, name) == extensionsUsed.end()) extensionsUsed.push_back(name);
 }
 
+int GltfModel::addAccessor(int view, std::size_t count, int componentType, int type, std::size_t byteOffset) {
+  tinygltf::Accessor accessor;
+  accessor.bufferView = view;
+  accessor.byteOffset = byteOffset;
+  accessor.componentType = componentType;
+  accessor.type = type;
+  accessor.count = count;
+  accessors.push_back(std::move(accessor));
+  return static_cast<int>(accessors.size()) - 1;
+}
+
 int GltfModel::addImage(int side, std::span<const Texel> texels) {
   const std::vector<unsigned char> picture = png(side, texels);
   const int place = placeOf(picture, pictures_);
