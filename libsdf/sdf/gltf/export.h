@@ -23,6 +23,9 @@ struct ExportPart {
   Mesh mesh;
   MeshStats stats;
   std::optional<AmbientLight> ambient{};  ///< what .glb and .gltf hold of it; the other formats have no place
+  /// Set: .glb and .gltf files are compressed, and each coordinate is a whole number of steps of 2^grid.
+  /// compress (compress.h) does both.
+  std::optional<int> grid{};
 };
 
 /// Figures of all meshes together: sums; the largest voxel size and distance; the RMS weighted by triangles.

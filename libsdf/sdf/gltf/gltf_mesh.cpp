@@ -10,7 +10,9 @@
 #include "sdf/gltf/emission.h"
 #include "sdf/gltf/gltf_material-inl.h"
 #include "sdf/gltf/manifold.h"
+#include "sdf/gltf/meshopt.h"
 #include "sdf/gltf/primitive.h"
+#include "sdf/gltf/srgb.h"
 #include "sdf/gltf/utf8.h"
 
 namespace sdf {
@@ -37,6 +39,29 @@ ColorValue quantized(const glm::vec3& color) {
   return ColorValue(glm::round(color * kMost), 65535);
 }
 
+using ByteColor = glm::vec<4, std::uint8_t>;
+
+/// The colours in 8 bits a channel if, shown, none is off by more than one step of a byte of sRGB; else
+/// nothing.
+std::vector<ByteColor> inBytes(const std::vector<ColorValue>& colors) {
+  constexpr float kMost = 65535.0f, kMostByte = 255.0f;
+  std::vector<ByteColor> bytes;
+  for (const ColorValue& color : colors) {
+    const glm::vec4 meant = glm::vec4(color) / kMost;
+    bytes.emplace_back(glm::round(meant * kMostByte));
+    const glm::vec4 kept = glm::vec4(bytes.back()) / kMostByte;
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(int{srgb(kept[k])} - int{srgb(meant[k])}) > 1) return {};
+  }
+  return bytes;
+}
+
+template <class T>
+Encoded encodeAll(const std::vector<T>& elements) {
+  return encodeElements(
+      {reinterpret_cast<const unsigned char*>(elements.data()), elements.size() * sizeof(T)}, sizeof(T));
+}
+
 template <class T>
 void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -48,7 +73,8 @@ class MeshWriter {
  public:
   MeshWriter(GltfModel& model, const ExportPart& part)
       : model_(model), part_(part), mesh_(part.mesh), primitives_(splitByMaterial(mesh_)) {
-    for (const Primitive& primitive : primitives_) {
+    for (Primitive& primitive : primitives_) {
+      if (part_.grid) orderForEncoding(primitive);
       const auto first = static_cast<std::uint32_t>(vertices_.size());
       for (const std::uint32_t i : primitive.indices) indices_.push_back(first + i);
       append(vertices_, primitive.vertices);
@@ -70,30 +96,48 @@ class MeshWriter {
   }
 
  private:
-  /// Adds a view with an element for each of the file's vertices, and an accessor for it.
-  template <class ElementAt>
-  int addAttribute(int componentType, int type, ElementAt elementAt) {
-    const int view = model_.addView(vertices_.size(), TINYGLTF_TARGET_ARRAY_BUFFER, elementAt);
-    return model_.addAccessor(view, vertices_.size(), componentType, type);
+  /// Adds a view with an element for each of the file's vertices, encoded if the part is to be compressed,
+  /// and an accessor for it.
+  template <class ElementAt, class Encode>
+  int addAttribute(int componentType, int type, ElementAt elementAt, Encode encode) {
+    const int target = TINYGLTF_TARGET_ARRAY_BUFFER;
+    if (!part_.grid)
+      return model_.addAccessor(model_.addView(vertices_.size(), target, elementAt), vertices_.size(),
+                                componentType, type);
+    std::vector<decltype(elementAt(std::size_t{0}))> elements;
+    elements.reserve(vertices_.size());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) elements.push_back(elementAt(i));
+    return model_.addAccessor(model_.addView(encode(elements), target), vertices_.size(), componentType,
+                              type);
   }
 
   int addPositions() {
     glm::vec3 low(std::numeric_limits<float>::infinity());
     glm::vec3 high = -low;
-    const int index = addAttribute(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, [&](std::size_t i) {
+    const auto at = [&](std::size_t i) {
       const glm::vec3 position = mesh_.positions[vertices_[i]];
       low = glm::min(low, position);
       high = glm::max(high, position);
       return position;
-    });
+    };
+    const auto encode = [&](const std::vector<glm::vec3>& points) {
+      return encodePoints(points, *part_.grid);
+    };
+    const int index = addAttribute(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, at, encode);
     model_.accessors[index].minValues = numbers(low);
     model_.accessors[index].maxValues = numbers(high);
     return index;
   }
 
   int addNormals() {
-    return addAttribute(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                        [&](std::size_t i) { return unit(mesh_.normals[vertices_[i]]); });
+    const auto at = [&](std::size_t i) { return unit(mesh_.normals[vertices_[i]]); };
+    if (!part_.grid)
+      return addAttribute(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, at, encodeUnitVectors);
+    // Core glTF has normals in floats only.
+    model_.requireExtension("KHR_mesh_quantization");
+    const int index = addAttribute(TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_TYPE_VEC3, at, encodeUnitVectors);
+    model_.accessors[index].normalized = true;
+    return index;
   }
 
   /// Adds a primitive for each of the mesh's, with its share of the indices.
@@ -103,8 +147,11 @@ class MeshWriter {
     const auto at = [&](std::size_t i) { return indices_[i]; };
     const auto shortAt = [&](std::size_t i) { return static_cast<std::uint16_t>(indices_[i]); };
     indexType_ = isShort ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    indexView_ = isShort ? model_.addView(indices_.size(), target, shortAt)
-                         : model_.addView(indices_.size(), target, at);
+    if (part_.grid)
+      indexView_ = model_.addView(encodeTriangles(indices_, vertices_.size(), indexSize()), target);
+    else
+      indexView_ = isShort ? model_.addView(indices_.size(), target, shortAt)
+                           : model_.addView(indices_.size(), target, at);
     std::size_t first = 0;
     for (const Primitive& primitive : primitives_) {
       tinygltf::Primitive& added = out.primitives.emplace_back();
@@ -114,9 +161,10 @@ class MeshWriter {
     }
   }
 
+  std::size_t indexSize() const { return indexType_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 2 : 4; }
+
   int addIndexAccessor(std::size_t first, std::size_t count) {
-    const std::size_t each = indexType_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 2 : 4;
-    return model_.addAccessor(indexView_, count, indexType_, TINYGLTF_TYPE_SCALAR, first * each);
+    return model_.addAccessor(indexView_, count, indexType_, TINYGLTF_TYPE_SCALAR, first * indexSize());
   }
 
   /// Gives the primitive its material, and puts what varies over it at the end of `colors_` and
@@ -146,16 +194,27 @@ class MeshWriter {
 
   /// Adds the colours and the texture coordinates, each if one of the primitives has them.
   void addVarying(tinygltf::Mesh& out) {
-    const auto addTo = [&](const std::vector<bool>& which, const char* name, int type, const auto& values) {
-      if (std::ranges::find(which, true) == which.end()) return;
-      const int index = addAttribute(TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, type,
-                                     [&](std::size_t i) { return values[i]; });
+    const auto addTo = [&](const std::vector<bool>& which, const char* name, int componentType, int type,
+                           const auto& values) {
+      const int index = addAttribute(
+          componentType, type, [&](std::size_t i) { return values[i]; },
+          [](const auto& elements) { return encodeAll(elements); });
       model_.accessors[index].normalized = true;
       for (std::size_t i = 0; i < which.size(); ++i)
         if (which[i]) out.primitives[i].attributes[name] = index;
     };
-    addTo(isColored_, "COLOR_0", TINYGLTF_TYPE_VEC4, colors_);
-    addTo(isTextured_, "TEXCOORD_0", TINYGLTF_TYPE_VEC2, coordinates_);
+    const auto any = [](const std::vector<bool>& which) {
+      return std::ranges::find(which, true) != which.end();
+    };
+    constexpr int kShort = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    if (any(isColored_)) {
+      const std::vector<ByteColor> bytes = part_.grid ? inBytes(colors_) : std::vector<ByteColor>();
+      if (bytes.empty())
+        addTo(isColored_, "COLOR_0", kShort, TINYGLTF_TYPE_VEC4, colors_);
+      else
+        addTo(isColored_, "COLOR_0", TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, bytes);
+    }
+    if (any(isTextured_)) addTo(isTextured_, "TEXCOORD_0", kShort, TINYGLTF_TYPE_VEC2, coordinates_);
   }
 
   /// Lalish 2023, EXT_mesh_manifold: a primitive of all triangles, its indices overlaid with the merges.
@@ -197,7 +256,7 @@ class MeshWriter {
   GltfModel& model_;
   const ExportPart& part_;
   const Mesh& mesh_;
-  const std::vector<Primitive> primitives_;
+  std::vector<Primitive> primitives_;
   std::vector<std::uint32_t> vertices_;  // the primitives' one after another, into the mesh's vertex arrays
   std::vector<std::uint32_t> indices_;   // into vertices_
   int indexType_ = 0, indexView_ = -1;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sdf/gltf/formats.h"
+#include "sdf/gltf/meshopt.h"
 #include "sdf/gltf/view.h"
 
 namespace sdf {
@@ -32,23 +33,30 @@ struct GltfModel : tinygltf::Model {
   int addNode(tinygltf::Node node);
   int addNode(tinygltf::Node node, int parent);
   void useExtension(const std::string& name);
+  /// The same; and whoever does not know it shall not read the file.
+  void requireExtension(const std::string& name);
 
   /// Appends elementAt(0) … elementAt(count - 1) and returns the index of a view of them. The next view
   /// begins at a multiple of four.
   template <class ElementAt>
   int addView(std::size_t count, int target, ElementAt elementAt);
+  /// Index of a view of elements that a reader has to decode (EXT_meshopt_compression).
+  int addView(const Encoded& encoded, int target);
   /// Index of an accessor of `count` elements from this byte of a view on.
   int addAccessor(int view, std::size_t count, int componentType, int type, std::size_t byteOffset = 0);
 
   /// Index of a square picture of these texels, sRGB, by rows; the same one is held once.
   int addImage(int side, std::span<const Texel> texels);
 
-  /// Writes the file; its data is gone then. Errors: Limits (a .glb over 4 GiB).
+  /// Writes the file; its data is gone then. Errors: Limits (a .glb over 4 GiB, encoded views over 2 GiB).
   Status write(std::ostream& out, GltfContainer container);
 
  private:
   Status writeBinary(std::ostream& out);
+  std::string json();
+  std::string placeholder() const;
   std::vector<std::vector<unsigned char>> pictures_;  // the images as PNG
+  std::size_t decodedBytes_ = 0;                      // of all encoded views
 };
 
 /// Index of the value in the list, to which it is added unless it is there.
