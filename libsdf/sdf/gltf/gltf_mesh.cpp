@@ -8,8 +8,8 @@
 #include <map>
 
 #include "sdf/gltf/emission.h"
+#include "sdf/gltf/gltf_manifold-inl.h"
 #include "sdf/gltf/gltf_material-inl.h"
-#include "sdf/gltf/manifold.h"
 #include "sdf/gltf/meshopt.h"
 #include "sdf/gltf/primitive.h"
 #include "sdf/gltf/srgb.h"
@@ -30,13 +30,14 @@ glm::vec3 unit(const glm::vec3& n) {
   return length > 0.0 && std::isfinite(length) ? glm::vec3(wide / length) : glm::vec3(0, 1, 0);
 }
 
+/// Red, green and blue, and a fourth number to fill up four bytes.
 using ColorValue = glm::vec<4, std::uint16_t>;
 using CoordinateValue = glm::vec<2, std::uint16_t>;
 
-/// Linear colour in 16 bits a channel (8 would show bands in the darks), opaque.
+/// Linear colour in 16 bits a channel (8 would show bands in the darks).
 ColorValue quantized(const glm::vec3& color) {
   constexpr float kMost = 65535.0f;
-  return ColorValue(glm::round(color * kMost), 65535);
+  return ColorValue(glm::round(color * kMost), 0);
 }
 
 using ByteColor = glm::vec<4, std::uint8_t>;
@@ -91,7 +92,9 @@ class MeshWriter {
       addLook(primitives_[i], out.primitives[i]);
     }
     addVarying(out);
-    if (part_.stats.manifold && part_.stats.watertight) addManifold(out);
+    if (part_.stats.manifold && part_.stats.watertight)
+      addManifold(model_, {indexView_, indexType_, indices_.size()}, mergesOf(mesh_, vertices_, indices_),
+                  out);
     return out;
   }
 
@@ -210,47 +213,11 @@ class MeshWriter {
     if (any(isColored_)) {
       const std::vector<ByteColor> bytes = part_.grid ? inBytes(colors_) : std::vector<ByteColor>();
       if (bytes.empty())
-        addTo(isColored_, "COLOR_0", kShort, TINYGLTF_TYPE_VEC4, colors_);
+        addTo(isColored_, "COLOR_0", kShort, TINYGLTF_TYPE_VEC3, colors_);
       else
-        addTo(isColored_, "COLOR_0", TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, bytes);
+        addTo(isColored_, "COLOR_0", TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC3, bytes);
     }
     if (any(isTextured_)) addTo(isTextured_, "TEXCOORD_0", kShort, TINYGLTF_TYPE_VEC2, coordinates_);
-  }
-
-  /// Lalish 2023, EXT_mesh_manifold: a primitive of all triangles, its indices overlaid with the merges.
-  void addManifold(tinygltf::Mesh& out) {
-    constexpr int kNoTarget = 0;
-    const Merges merges = mergesOf(mesh_, vertices_, indices_);
-    Value::Object extension;
-    int all = out.primitives[0].indices;
-    if (out.primitives.size() > 1 || !merges.places.empty()) all = addIndexAccessor(0, indices_.size());
-    if (const std::size_t count = merges.places.size(); count > 0) {
-      const auto place = [&](std::size_t i) { return merges.places[i]; };
-      const auto vertex = [&](std::size_t i) { return merges.vertices[i]; };
-      const auto shortVertex = [&](std::size_t i) { return static_cast<std::uint16_t>(merges.vertices[i]); };
-      const int places = model_.addView(count, kNoTarget, place);
-      const int vertices = indexType_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT
-                               ? model_.addView(count, kNoTarget, vertex)
-                               : model_.addView(count, kNoTarget, shortVertex);
-      tinygltf::Accessor& accessor = model_.accessors[all];
-      accessor.sparse.isSparse = true;
-      accessor.sparse.count = static_cast<int>(count);
-      accessor.sparse.indices.bufferView = places;
-      accessor.sparse.indices.byteOffset = 0;
-      accessor.sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-      accessor.sparse.values.bufferView = vertices;
-      accessor.sparse.values.byteOffset = 0;
-      extension["mergeIndices"] = Value(
-          model_.addAccessor(places, count, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR));
-      extension["mergeValues"] = Value(model_.addAccessor(vertices, count, indexType_, TINYGLTF_TYPE_SCALAR));
-    }
-    const int positions = out.primitives[0].attributes.at("POSITION");
-    extension["manifoldPrimitive"] =
-        Value(Value::Object{{"mode", Value(TINYGLTF_MODE_TRIANGLES)},
-                            {"indices", Value(all)},
-                            {"attributes", Value(Value::Object{{"POSITION", Value(positions)}})}});
-    out.extensions["EXT_mesh_manifold"] = Value(std::move(extension));
-    model_.useExtension("EXT_mesh_manifold");
   }
 
   GltfModel& model_;

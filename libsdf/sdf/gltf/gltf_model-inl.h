@@ -80,6 +80,7 @@ int GltfModel::addView(std::size_t count, int target, ElementAt elementAt) {
   view.byteOffset = data.size();
   view.byteLength = count * sizeof(Element);
   view.target = target;
+  if (target == TINYGLTF_TARGET_ARRAY_BUFFER) view.byteStride = sizeof(Element);
   data.resize((data.size() + view.byteLength + 3) / 4 * 4);
   for (std::size_t i = 0; i < count; ++i) {
     const Element element = elementAt(i);
