@@ -49,12 +49,14 @@ std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path&
 /// complete.
 /// - .glb, .gltf: one file (the .gltf's buffer is embedded); a node for each part, a primitive for each
 ///   material of it, materials by toMetallicRoughness (pbr.h), camera and lights as in view.h; measured
-///   errors in `extras`. Ambient light, where a part has it, is added to the emission.
+///   errors in `extras`. Ambient light, where a part has it, is added to the emission. Meshes that are closed
+///   and manifold by their stats say so (EXT_mesh_manifold).
 /// - .stl, .ply (both binary), .obj: welded triangles of all parts in one list, Y up; meshes that overlap go
 ///   on doing so, exportedParts unites them before. PLY and OBJ carry normals, PLY also vertex colours, as
 ///   sRGB; STL has neither.
 /// The bytes depend on nothing but the arguments.
-/// Errors: Usage (unknown extension), Files (cannot be written), Limits (a .glb over 4 GiB), Interrupted.
+/// Errors: Usage (unknown extension), Files (cannot be written), Limits (a .glb over 4 GiB, compressed meshes
+/// over 2 GiB), Interrupted.
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,
                    const std::vector<ExportPart>& parts);
 
