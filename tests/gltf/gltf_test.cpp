@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 #include <limits>
+#include <set>
 
 #include "gltf/read_back.h"
 #include "sdf/gltf/export.h"
@@ -51,21 +52,40 @@ TEST(Gltf, GivesEachPartANodeOfItsName) {
   EXPECT_NE(left.mesh, right.mesh);
 }
 
-TEST(Gltf, PrimitivesCarryOnlyTheVerticesTheyUse) {
+TEST(Gltf, EachVertexIsUsedByOnePrimitive) {
   const Folder folder;
   const Mesh mesh = twoColoredSphere(20, 20);
   ASSERT_TRUE(writeMeshes(folder / "a.glb", Scene{}, {part("p", mesh)}));
   const tinygltf::Model model = load(folder / "a.glb");
-  std::size_t vertices = 0;
-  for (const tinygltf::Primitive& primitive : model.meshes[0].primitives) {
-    const std::size_t count = model.accessors.at(primitive.attributes.at("POSITION")).count;
-    std::vector<bool> used(count, false);
-    for (const std::uint32_t i : indices(model, primitive)) used.at(i) = true;
-    EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
-    vertices += count;
+  const auto& primitives = model.meshes[0].primitives;
+  ASSERT_EQ(primitives.size(), 2u);
+  EXPECT_EQ(primitives[0].attributes, primitives[1].attributes);
+  const std::size_t count = model.accessors.at(primitives[0].attributes.at("POSITION")).count;
+  std::vector<int> users(count, 0);
+  for (const tinygltf::Primitive& primitive : primitives) {
+    const std::vector<std::uint32_t> all = indices(model, primitive);
+    for (const std::uint32_t i : std::set(all.begin(), all.end())) ++users.at(i);
   }
-  EXPECT_LT(vertices,
-            mesh.positions.size());  // first copies of vertices that only the second material uses are gone
+  EXPECT_EQ(users, std::vector<int>(count, 1));
+  // First copies of vertices that only the second material uses are gone.
+  EXPECT_LT(count, mesh.positions.size());
+}
+
+TEST(Gltf, ColoursThatVaryInOneMaterialLeaveTheOthersAlone) {
+  const Folder folder;
+  Mesh mesh = twoColoredSphere(6, 6);
+  for (std::size_t i = mesh.welded; i < mesh.colors.size(); ++i) mesh.colors[i].y = (i % 2) ? 0.5f : 0.0f;
+  ASSERT_TRUE(writeMeshes(folder / "a.glb", Scene{}, {part("p", mesh)}));
+  const tinygltf::Model model = load(folder / "a.glb");
+  const auto& primitives = model.meshes[0].primitives;
+  EXPECT_EQ(primitives[0].attributes.count("COLOR_0"), 0u);
+  EXPECT_EQ(model.materials.at(primitives[0].material).pbrMetallicRoughness.baseColorFactor,
+            (std::vector<double>{0.25, 0.5, 0.75, 1.0}));
+  const auto colors = elements<glm::vec<4, std::uint16_t>>(model, primitives[1].attributes.at("COLOR_0"));
+  for (const std::uint32_t i : indices(model, primitives[1])) {
+    EXPECT_EQ(colors.at(i).x, 65535);
+    EXPECT_TRUE(colors[i].y == 0 || colors[i].y == 32768);
+  }
 }
 
 TEST(Gltf, IndicesAreSixteenBitsUpToTheRestartValueAndThirtyTwoBeyond) {
@@ -129,6 +149,7 @@ TEST(Gltf, VaryingColoursAreSixteenBitLinearVertexColours) {
   const tinygltf::Primitive& primitive = model.meshes[0].primitives[0];
   const int index = primitive.attributes.at("COLOR_0");
   EXPECT_TRUE(model.accessors.at(index).normalized);
+  EXPECT_EQ(model.accessors.at(index).type, TINYGLTF_TYPE_VEC3);
   EXPECT_EQ(model.materials.at(primitive.material).pbrMetallicRoughness.baseColorFactor,
             (std::vector<double>{1.0, 1.0, 1.0, 1.0}));
   const auto colors = elements<glm::vec<4, std::uint16_t>>(model, index);
@@ -137,7 +158,6 @@ TEST(Gltf, VaryingColoursAreSixteenBitLinearVertexColours) {
   for (std::size_t i = 0; i < colors.size(); ++i) {
     EXPECT_NEAR(colors[i].x / 65535.0, mesh.colors[order[i]].x, 0.5 / 65535.0);
     EXPECT_EQ(colors[i].z, 65535);
-    EXPECT_EQ(colors[i].w, 65535);
   }
 }
 
@@ -157,7 +177,8 @@ TEST(Gltf, BrightEmissionUsesItsExtension) {
   EXPECT_EQ(model.materials[0].emissiveFactor, (std::vector<double>{1.0, 0.5, 0.0}));
   const auto& extension = model.materials[0].extensions.at("KHR_materials_emissive_strength");
   EXPECT_EQ(extension.Get("emissiveStrength").GetNumberAsDouble(), 4.0);
-  EXPECT_EQ(model.extensionsUsed, (std::vector<std::string>{"KHR_materials_emissive_strength"}));
+  EXPECT_EQ(model.extensionsUsed,
+            (std::vector<std::string>{"KHR_materials_emissive_strength", "EXT_mesh_manifold"}));
 }
 
 TEST(Gltf, CarriesCameraAndLights) {

@@ -30,18 +30,24 @@ std::vector<T> elements(const tinygltf::Model& model, int index) {
   const tinygltf::Accessor& accessor = model.accessors.at(index);
   const tinygltf::BufferView& view = model.bufferViews.at(accessor.bufferView);
   std::vector<T> out(accessor.count);
-  EXPECT_EQ(view.byteLength, accessor.count * sizeof(T));
-  std::memcpy(out.data(), model.buffers.at(view.buffer).data.data() + view.byteOffset, view.byteLength);
+  const std::size_t length = accessor.count * sizeof(T);
+  EXPECT_LE(accessor.byteOffset + length, view.byteLength);
+  std::memcpy(out.data(), model.buffers.at(view.buffer).data.data() + view.byteOffset + accessor.byteOffset,
+              length);
   return out;
+}
+
+/// Whole numbers of 16 or 32 bits.
+inline std::vector<std::uint32_t> wholeNumbers(const tinygltf::Model& model, int index) {
+  if (model.accessors.at(index).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+    return elements<std::uint32_t>(model, index);
+  const auto narrow = elements<std::uint16_t>(model, index);
+  return {narrow.begin(), narrow.end()};
 }
 
 inline std::vector<std::uint32_t> indices(const tinygltf::Model& model,
                                           const tinygltf::Primitive& primitive) {
-  if (model.accessors.at(primitive.indices).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    return elements<std::uint32_t>(model, primitive.indices);
-  }
-  const auto narrow = elements<std::uint16_t>(model, primitive.indices);
-  return {narrow.begin(), narrow.end()};
+  return wholeNumbers(model, primitive.indices);
 }
 
 inline std::vector<glm::vec3> corners(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {

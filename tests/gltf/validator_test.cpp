@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <limits>
 
+#include "gltf/decoded.h"
 #include "sdf/gltf/animation.h"
+#include "sdf/gltf/compress.h"
 #include "support/folder.h"
 #include "synthetic.h"
 
@@ -114,6 +116,22 @@ TEST(Validator, AcceptsAnimations) {
   const Folder folder;
   ASSERT_TRUE(writeAnimation(folder / "a.glb", animation));
   EXPECT_EQ(complaints(folder / "a.glb"), "") << "one frame";
+}
+
+/// It knows KHR_mesh_quantization, but not what is compressed: that it reads once it is decoded.
+TEST(Validator, AcceptsCompressedFiles) {
+  Mesh colored = twoColoredSphere(9, 9);
+  for (std::size_t i = 0; i < colored.colors.size(); ++i) colored.colors[i].x = static_cast<float>(i % 7) / 6;
+  std::vector<ExportPart> parts = {part("one", colored), part("two", sphere(5, 5)),
+                                   part("three", sphere(1, 3))};
+  for (ExportPart& part : parts) compress(part);
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    const Folder folder;
+    ASSERT_TRUE(writeMeshes(folder / name, litScene(), parts));
+    EXPECT_EQ(complaints(folder / name), "");
+    writeDecoded(folder / name, folder / "decoded.glb");
+    EXPECT_EQ(complaints(folder / "decoded.glb"), "");
+  }
 }
 
 TEST(Validator, AcceptsAPartWithoutTriangles) {

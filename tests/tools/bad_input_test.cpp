@@ -92,6 +92,12 @@ TEST_F(BadInput, LightIsBakedIntoMaterialsOnly) {
                   {"--bake", "emission", "write .glb or .gltf"});
 }
 
+TEST_F(BadInput, OnlyGltfIsCompressed) {
+  for (const char* name : {"a.stl", "a.PLY", "a.obj"})
+    expectRefusal(run({scene(kSphere), "-o", out(name), "--compress"}), kUsage,
+                  {"--compress", "write .glb or .gltf", "leave --compress out"});
+}
+
 TEST_F(BadInput, BakedOcclusionNeedsAKnownSlope) {
   expectBadScene(
       "ambient_occlusion { kind = 'taps' } bounds({-1, -1, -1}, {1, 1, 1})"

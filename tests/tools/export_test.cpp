@@ -76,7 +76,7 @@ TEST_F(Export, AnswersQuestions) {
   expectSuccess(help);
   expectSuccess(version);
   for (const char* flag : {"--output", "--voxel-size", "--bounds", "-D", "--time", "--frames", "--fps",
-                           "--only", "--report", "--threads", "--max-memory", "--quiet"}) {
+                           "--only", "--report", "--threads", "--max-memory", "--compress", "--quiet"}) {
     EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
   }
   EXPECT_EQ(version.out.substr(0, 9), "sdf2gltf ");

@@ -5,6 +5,7 @@
 
 #include "memory.h"
 #include "sdf/gltf/bake.h"
+#include "sdf/gltf/compress.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/script/script.h"
 #include "timed.h"
@@ -82,7 +83,9 @@ Status FrameExport::mesh(const std::vector<Part>& bodies, double voxelSize) {
     if (Status s = meshOne(bodies[i], voxelSize); !s) return s;
   }
   if (Status s = interrupted(); !s) return s;
-  return bake();
+  if (Status s = bake(); !s) return s;
+  compressParts();
+  return okStatus();
 }
 
 Status FrameExport::meshOne(const Part& body, double voxelSize) {
@@ -113,6 +116,14 @@ Status FrameExport::bake() {
     return s;
   for (std::size_t i = 0; i < parts.size(); ++i) report.parts[i].ambientError = parts[i].ambient->error;
   return okStatus();
+}
+
+void FrameExport::compressParts() {
+  if (!options_.compress) return;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    compress(parts[i]);
+    report.parts[i].stats = parts[i].stats;
+  }
 }
 
 Status FrameExport::write(const std::filesystem::path& target) {

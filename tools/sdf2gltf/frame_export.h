@@ -22,7 +22,7 @@ class FrameExport {
   /// Runs the script at this time and fills `scene` and `clip`; of the bounds it makes the voxel size, if
   /// that is none yet. Errors: the scene's, also those of parts without bounds.
   Status load(double time, std::optional<double>& voxelSize);
-  /// Meshes the bodies and bakes their light, if that is asked for, into `parts`.
+  /// Meshes the bodies into `parts`, bakes their light and compresses them, if that is asked for.
   Status mesh(const std::vector<Part>& bodies, double voxelSize);
   /// Writes `parts` to a file.
   Status write(const std::filesystem::path& target);
@@ -37,6 +37,7 @@ class FrameExport {
   Status chooseVoxelSize(std::optional<double>& voxelSize);
   Status meshOne(const Part& body, double voxelSize);
   Status bake();
+  void compressParts();
   MeshOptions meshOptions(double voxelSize) const;
   Status interrupted() const;
 

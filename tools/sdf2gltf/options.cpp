@@ -21,7 +21,7 @@ struct Words {
   std::string scene, output;
   std::optional<std::string> voxelSize, bounds, time, frames, fps, only, report, threads, maxMemory;
   std::vector<std::string> parameters;
-  bool animate = false, bake = false, quiet = false;
+  bool animate = false, bake = false, compress = false, quiet = false;
 };
 
 Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
@@ -56,6 +56,13 @@ Status checkBake(const Words& words) {
                lowerExtension(words.output) + " files do not have; write .glb or .gltf, or leave --bake out");
 }
 
+// Precondition: checkExtension(words.output).
+Status checkCompress(const Words& words) {
+  if (!words.compress || isGltf(words.output)) return okStatus();
+  return usage("--compress: " + lowerExtension(words.output) +
+               " files cannot be compressed; write .glb or .gltf, or leave --compress out");
+}
+
 void declare(CLI::App& app, Words& words) {
   app.add_option("SCENE", words.scene, "scene file (Lua)")->required()->type_name("");
   const auto add = [&](const char* flag, auto& word, const char* value, const char* what) {
@@ -77,6 +84,8 @@ void declare(CLI::App& app, Words& words) {
   add("--max-memory", words.maxMemory, "GiB", "refuse to mesh what needs more [75 % of the machine's]");
   app.add_flag("--bake", words.bake,
                "put the ambient light and its occlusion into .glb and .gltf files, as emission");
+  app.add_flag("--compress", words.compress,
+               "write smaller .glb and .gltf files, for readers that know EXT_meshopt_compression");
   app.add_flag("-q,--quiet", words.quiet, "print errors only");
   app.footer(
       "Files appear under their names only when complete; of a sequence, finished frames stay if a later one "
@@ -90,6 +99,7 @@ Result<Options> interpreted(const Words& words) {
   options.output = words.output;
   options.animate = words.animate;
   options.bake = words.bake;
+  options.compress = words.compress;
   options.quiet = words.quiet;
   options.maxMemory = 0.75 * physicalMemory();
   options.only = words.only;
@@ -97,7 +107,7 @@ Result<Options> interpreted(const Words& words) {
 
   constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
   if (Status s = checkExtension(words.output); !s) return s.error();
-  for (const Status& s : {checkBake(words), checkSequence(words),
+  for (const Status& s : {checkBake(words), checkCompress(words), checkSequence(words),
                           take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
                           take<double>("--time", words.time, options.time, seconds),
                           take<int>("--frames", words.frames, options.frames, count),

@@ -62,8 +62,8 @@ class KeyWriter {
   int timesAccessor() {
     constexpr int kNoTarget = 0;
     const auto at = [&](std::size_t i) { return static_cast<float>(times_[i] - times_[0]); };
-    const int index =
-        model_.addAccessor(times_.size(), kNoTarget, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, at);
+    const int index = model_.addAccessor(model_.addView(times_.size(), kNoTarget, at), times_.size(),
+                                         TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
     model_.accessors[index].minValues = {0.0};
     model_.accessors[index].maxValues = {at(times_.size() - 1)};
     return index;
@@ -92,12 +92,13 @@ class KeyWriter {
     constexpr int kNoTarget = 0;
     const auto added = [&](auto element) {
       constexpr std::size_t kEach = sizeof(element) / sizeof(float);
-      return model_.addAccessor(
-          values.size() / kEach, kNoTarget, TINYGLTF_COMPONENT_TYPE_FLOAT, type, [&](std::size_t i) {
-            decltype(element) e;
-            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * kEach), kEach, e.begin());
-            return e;
-          });
+      const std::size_t count = values.size() / kEach;
+      const int view = model_.addView(count, kNoTarget, [&](std::size_t i) {
+        decltype(element) e;
+        std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * kEach), kEach, e.begin());
+        return e;
+      });
+      return model_.addAccessor(view, count, TINYGLTF_COMPONENT_TYPE_FLOAT, type);
     };
     return type == TINYGLTF_TYPE_VEC3 ? added(std::array<float, 3>()) : added(std::array<float, 4>());
   }

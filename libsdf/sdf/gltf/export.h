@@ -23,6 +23,9 @@ struct ExportPart {
   Mesh mesh;
   MeshStats stats;
   std::optional<AmbientLight> ambient{};  ///< what .glb and .gltf hold of it; the other formats have no place
+  /// Set: .glb and .gltf files are compressed, and each coordinate is a whole number of steps of 2^grid.
+  /// compress (compress.h) does both.
+  std::optional<int> grid{};
 };
 
 /// Figures of all meshes together: sums; the largest voxel size and distance; the RMS weighted by triangles.
@@ -46,12 +49,14 @@ std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path&
 /// complete.
 /// - .glb, .gltf: one file (the .gltf's buffer is embedded); a node for each part, a primitive for each
 ///   material of it, materials by toMetallicRoughness (pbr.h), camera and lights as in view.h; measured
-///   errors in `extras`. Ambient light, where a part has it, is added to the emission.
+///   errors in `extras`. Ambient light, where a part has it, is added to the emission. Meshes that are closed
+///   and manifold by their stats say so (EXT_mesh_manifold).
 /// - .stl, .ply (both binary), .obj: welded triangles of all parts in one list, Y up; meshes that overlap go
 ///   on doing so, exportedParts unites them before. PLY and OBJ carry normals, PLY also vertex colours, as
 ///   sRGB; STL has neither.
 /// The bytes depend on nothing but the arguments.
-/// Errors: Usage (unknown extension), Files (cannot be written), Limits (a .glb over 4 GiB), Interrupted.
+/// Errors: Usage (unknown extension), Files (cannot be written), Limits (a .glb over 4 GiB, compressed meshes
+/// over 2 GiB), Interrupted.
 Status writeMeshes(const std::filesystem::path& target, const Scene& scene,
                    const std::vector<ExportPart>& parts);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sdf/gltf/formats.h"
+#include "sdf/gltf/meshopt.h"
 #include "sdf/gltf/view.h"
 
 namespace sdf {
@@ -32,21 +33,30 @@ struct GltfModel : tinygltf::Model {
   int addNode(tinygltf::Node node);
   int addNode(tinygltf::Node node, int parent);
   void useExtension(const std::string& name);
+  /// The same; and whoever does not know it shall not read the file.
+  void requireExtension(const std::string& name);
 
-  /// Appends elementAt(0) … elementAt(count - 1) and returns the index of an accessor for them. Their sizes
-  /// are multiples of four except for 16-bit indices, so the next view is aligned by padding.
+  /// Appends elementAt(0) … elementAt(count - 1) and returns the index of a view of them. The next view
+  /// begins at a multiple of four.
   template <class ElementAt>
-  int addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt);
+  int addView(std::size_t count, int target, ElementAt elementAt);
+  /// Index of a view of elements that a reader has to decode (EXT_meshopt_compression).
+  int addView(const Encoded& encoded, int target);
+  /// Index of an accessor of `count` elements from this byte of a view on.
+  int addAccessor(int view, std::size_t count, int componentType, int type, std::size_t byteOffset = 0);
 
   /// Index of a square picture of these texels, sRGB, by rows; the same one is held once.
   int addImage(int side, std::span<const Texel> texels);
 
-  /// Writes the file; its data is gone then. Errors: Limits (a .glb over 4 GiB).
+  /// Writes the file; its data is gone then. Errors: Limits (a .glb over 4 GiB, encoded views over 2 GiB).
   Status write(std::ostream& out, GltfContainer container);
 
  private:
   Status writeBinary(std::ostream& out);
+  std::string json();
+  std::string placeholder() const;
   std::vector<std::vector<unsigned char>> pictures_;  // the images as PNG
+  std::size_t decodedBytes_ = 0;                      // of all encoded views
 };
 
 /// Index of the value in the list, to which it is added unless it is there.
@@ -62,28 +72,22 @@ int placeOf(T value, std::vector<T>& list) {
 tinygltf::Node placed(const std::string& name, const Placement& placement);
 
 template <class ElementAt>
-int GltfModel::addAccessor(std::size_t count, int target, int componentType, int type, ElementAt elementAt) {
-  using Element = decltype(elementAt(0));
+int GltfModel::addView(std::size_t count, int target, ElementAt elementAt) {
+  using Element = decltype(elementAt(std::size_t{0}));
   std::vector<unsigned char>& data = bytes();
   tinygltf::BufferView view;
   view.buffer = 0;
   view.byteOffset = data.size();
   view.byteLength = count * sizeof(Element);
   view.target = target;
+  if (target == TINYGLTF_TARGET_ARRAY_BUFFER) view.byteStride = sizeof(Element);
   data.resize((data.size() + view.byteLength + 3) / 4 * 4);
   for (std::size_t i = 0; i < count; ++i) {
     const Element element = elementAt(i);
     std::memcpy(data.data() + view.byteOffset + i * sizeof(Element), &element, sizeof(Element));
   }
-
-  tinygltf::Accessor accessor;
-  accessor.bufferView = static_cast<int>(bufferViews.size());
-  accessor.componentType = componentType;
-  accessor.type = type;
-  accessor.count = count;
   bufferViews.push_back(std::move(view));
-  accessors.push_back(std::move(accessor));
-  return static_cast<int>(accessors.size()) - 1;
+  return static_cast<int>(bufferViews.size()) - 1;
 }
 
 }  // namespace sdf
