@@ -155,9 +155,11 @@ TEST_F(Export, ReportsEveryFigureOfEachPartAndInTotal) {
   lines.push_back(output["total"]);
   for (const Json& line : lines) {
     EXPECT_EQ(line["voxel_size"], 0.0625);
-    for (const char* key : {"seconds", "peak_memory_bytes", "voxels", "vertices", "triangles", "rms_distance",
-                            "max_distance"}) {
+    for (const char* key : {"seconds", "peak_memory_bytes", "voxels", "vertices", "triangles"}) {
       EXPECT_GT(line[key].get<double>(), 0.0) << key;
+    }
+    if (line["name"] != "block") {  // whose faces and edges are met exactly
+      EXPECT_GT(line["rms_distance"].get<double>(), 0.0);
     }
     EXPECT_LE(line["rms_distance"], line["max_distance"]);
     EXPECT_LT(line["max_distance"].get<double>(),
@@ -242,8 +244,11 @@ TEST_F(Export, MeshesAnySizeAlike) {
   const Json one = totalAt("1");
   for (const char* size : {"1e-6", "1e6"}) {
     const Json other = totalAt(size);
-    for (const char* figure : {"triangles", "watertight", "unresolved", "components", "euler_characteristic"})
+    for (const char* figure : {"watertight", "unresolved", "components", "euler_characteristic"})
       EXPECT_EQ(other[figure], one[figure]) << size << " " << figure;
+    // Rounding decides on which side of an edge a vertex lies that is right on it.
+    EXPECT_NEAR(other["triangles"].get<double>(), one["triangles"].get<double>(),
+                1e-3 * one["triangles"].get<double>());
     const double scale = std::stod(size), voxel = one["voxel_size"];
     EXPECT_NEAR(other["voxel_size"].get<double>() / scale, voxel, 1e-12 * voxel) << size;
   }

@@ -192,9 +192,12 @@ class CreasePlacer {
 
   void toEnd(std::size_t i) {
     CreasePoint& p = points_[i];
+    const Plane third = r_.plane(i);
+    p.placed = !isSame(third, p.normal[0]) && !isSame(third, p.normal[1]);
+    if (!p.placed) return;
     const glm::dvec3 at(p.at), a(p.normal[0]), b(p.normal[1]);
     p.corner = p.placed =
-        move(p, toCommonPoint({Plane{a, -glm::dot(a, at)}, Plane{b, -glm::dot(b, at)}, r_.plane(i)}, at));
+        move(p, toCommonPoint({Plane{a, -glm::dot(a, at)}, Plane{b, -glm::dot(b, at)}, third}, at));
   }
 
   void readPoints() {
