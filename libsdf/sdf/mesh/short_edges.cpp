@@ -19,12 +19,10 @@ class Collapser {
  public:
   Collapser(FeatureMesh& mesh, std::vector<glm::vec3>& pieceNormals,
             const std::vector<std::uint32_t>& anchors, double shortest)
-      : mesh_(mesh), normals_(pieceNormals), shortest_(shortest), fans_(mesh.positions.size()) {
-    for (const std::uint32_t v : anchors) fans_[v].anchored = true;
-    for (const auto& [a, b] : mesh_.creases) fans_[a].creases.push_back(b), fans_[b].creases.push_back(a);
-    for (std::uint32_t v = 0; v < fans_.size(); ++v)
-      if (!fans_[v].creases.empty()) centres_.push_back(v);
+      : mesh_(mesh), normals_(pieceNormals), shortest_(shortest), fanOf_(mesh.positions.size(), 0) {
     listTriangles();
+    for (const std::uint32_t v : anchors) fan(v).anchored = true;
+    for (const auto& [a, b] : mesh_.creases) fan(a).creases.push_back(b), fan(b).creases.push_back(a);
   }
 
   void run() {
@@ -41,8 +39,9 @@ class Collapser {
 
  private:
   struct Fan {
-    std::vector<std::uint32_t> triangles;
-    std::vector<std::uint32_t> creases;  // neighbours
+    std::uint32_t vertex = ~0u;
+    std::vector<std::uint32_t> triangles{};
+    std::vector<std::uint32_t> creases{};  // neighbours
     bool anchored = false;
     bool whole = false;  // all its triangles are listed
   };
@@ -57,34 +56,49 @@ class Collapser {
 
   // Lists the triangles at creases, those that are turned, and those that touch them.
   void listTriangles() {
-    std::vector<char> near(fans_.size(), 0);
-    const auto touch = [](const std::vector<char>& marks, const glm::uvec3& t) {
-      return marks[t.x] || marks[t.y] || marks[t.z];
+    enum : char { kFar, kNear, kMiddle };
+    std::vector<char> marks(mesh_.positions.size(), kFar);
+    const auto touches = [&](const glm::uvec3& t, char mark) {
+      return marks[t.x] >= mark || marks[t.y] >= mark || marks[t.z] >= mark;
     };
-    std::vector<char> middle(fans_.size(), 0);
-    for (const std::uint32_t v : centres_) middle[v] = 1;
+    const auto mark = [&](std::uint32_t v, char mark) { marks[v] = std::max(marks[v], mark); };
+    for (const auto& [a, b] : mesh_.creases) mark(a, kMiddle), mark(b, kMiddle);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       if (const glm::uvec3& c = mesh_.triangles[t]; upright(t, c.x, c.x) < kUpright)
-        middle[c.x] = middle[c.y] = middle[c.z] = 1;
+        for (int k = 0; k < 3; ++k) mark(c[k], kMiddle);
     for (const glm::uvec3& t : mesh_.triangles)
-      if (touch(middle, t)) near[t.x] = near[t.y] = near[t.z] = 1;
+      if (touches(t, kMiddle))
+        for (int k = 0; k < 3; ++k) mark(t[k], kNear);
+    fans_.resize(1);  // of all that is far
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (!touch(near, mesh_.triangles[t])) continue;
+      if (!touches(mesh_.triangles[t], kNear)) continue;
       listed_.push_back(t);
-      for (int k = 0; k < 3; ++k) fans_[mesh_.triangles[t][k]].triangles.push_back(t);
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t v = mesh_.triangles[t][k];
+        if (fanOf_[v] == 0) {
+          fanOf_[v] = static_cast<std::uint32_t>(fans_.size());
+          fans_.push_back({.vertex = v, .whole = marks[v] >= kNear});
+        }
+        fan(v).triangles.push_back(t);
+      }
     }
-    for (std::uint32_t v = 0; v < fans_.size(); ++v) fans_[v].whole = near[v];
   }
+
+  Fan& fan(std::uint32_t v) { return fans_[fanOf_[v]]; }
+  const Fan& fan(std::uint32_t v) const { return fans_[fanOf_[v]]; }
 
   std::vector<Edge> shortEdges() const {
     std::vector<Edge> edges;
-    for (const std::uint32_t v : centres_)
-      for (const std::uint32_t t : fans_[v].triangles)
+    for (const Fan& fan : fans_) {
+      if (fan.creases.empty()) continue;
+      const std::uint32_t v = fan.vertex;
+      for (const std::uint32_t t : fan.triangles)
         for (int k = 0; k < 3; ++k) {
           const std::uint32_t w = mesh_.triangles[t][k];
           if (w == v) continue;
           if (const double d = length(v, w); d < shortest_) edges.push_back({d, w, v});
         }
+    }
     return edges;
   }
 
@@ -106,8 +120,8 @@ class Collapser {
   void collapseAll(std::vector<Edge>& edges, bool turned) {
     std::sort(edges.begin(), edges.end());
     for (const Edge& e : edges)
-      if (fans_[e.gone].whole && fans_[e.kept].whole && !fans_[e.gone].triangles.empty() &&
-          !fans_[e.kept].triangles.empty() && mayGo(e.gone, e.kept) && linked(e.gone, e.kept) &&
+      if (fan(e.gone).whole && fan(e.kept).whole && !fan(e.gone).triangles.empty() &&
+          !fan(e.kept).triangles.empty() && mayGo(e.gone, e.kept) && linked(e.gone, e.kept) &&
           (turned ? turnsBack(e.gone, e.kept) : staysUpright(e.gone, e.kept)))
         collapse(e.gone, e.kept);
   }
@@ -115,7 +129,7 @@ class Collapser {
   // Are fewer triangles turned afterwards?
   bool turnsBack(std::uint32_t gone, std::uint32_t kept) const {
     int before = 0, after = 0;
-    for (const std::uint32_t t : fans_[gone].triangles) {
+    for (const std::uint32_t t : fan(gone).triangles) {
       const bool was = upright(t, gone, gone) < kUpright;
       const bool is = !contains(t, kept) && upright(t, gone, kept) < kUpright;
       before += was, after += is;
@@ -125,23 +139,23 @@ class Collapser {
 
   // Turns the edge between two triangles, one of which is turned over, if then neither is.
   void tryFlip(std::uint32_t a, std::uint32_t b) {
-    if (!fans_[a].whole || !fans_[b].whole || has(fans_[a].creases, b)) return;
+    if (!fan(a).whole || !fan(b).whole || has(fan(a).creases, b)) return;
     std::uint32_t sides[2];
     int count = 0;
-    for (const std::uint32_t t : fans_[a].triangles)
+    for (const std::uint32_t t : fan(a).triangles)
       if (contains(t, b)) {
         if (count == 2) return;
         sides[count++] = t;
       }
     if (count != 2 || std::min(upright(sides[0], a, a), upright(sides[1], a, a)) >= kUpright) return;
     const std::uint32_t c = third(sides[0], a, b), d = third(sides[1], a, b);
-    if (c == d || !fans_[c].whole || !fans_[d].whole || has(neighbours(c), d)) return;
+    if (c == d || !fan(c).whole || !fan(d).whole || has(neighbours(c), d)) return;
     const glm::uvec3 old[2] = {mesh_.triangles[sides[0]], mesh_.triangles[sides[1]]};
     // Each loses one end of the edge for the other's third vertex.
     replace(sides[0], b, d), replace(sides[1], a, c);
     if (std::min(upright(sides[0], a, a), upright(sides[1], b, b)) >= kUpright) {
-      std::erase(fans_[b].triangles, sides[0]), std::erase(fans_[a].triangles, sides[1]);
-      fans_[d].triangles.push_back(sides[0]), fans_[c].triangles.push_back(sides[1]);
+      std::erase(fan(b).triangles, sides[0]), std::erase(fan(a).triangles, sides[1]);
+      fan(d).triangles.push_back(sides[0]), fan(c).triangles.push_back(sides[1]);
       return;
     }
     mesh_.triangles[sides[0]] = old[0], mesh_.triangles[sides[1]] = old[1];
@@ -168,14 +182,14 @@ class Collapser {
   }
 
   bool mayGo(std::uint32_t gone, std::uint32_t kept) const {
-    const Fan& fan = fans_[gone];
-    if (fan.creases.empty()) return true;
-    return has(fan.creases, kept) && (!fan.anchored || length(gone, kept) < kSamePoint * shortest_);
+    const Fan& own = fan(gone);
+    if (own.creases.empty()) return true;
+    return has(own.creases, kept) && (!own.anchored || length(gone, kept) < kSamePoint * shortest_);
   }
 
   std::vector<std::uint32_t> neighbours(std::uint32_t v) const {
     std::vector<std::uint32_t> around;
-    for (const std::uint32_t t : fans_[v].triangles)
+    for (const std::uint32_t t : fan(v).triangles)
       for (int k = 0; k < 3; ++k)
         if (mesh_.triangles[t][k] != v) around.push_back(mesh_.triangles[t][k]);
     std::sort(around.begin(), around.end());
@@ -206,31 +220,31 @@ class Collapser {
   }
 
   bool staysUpright(std::uint32_t gone, std::uint32_t kept) const {
-    for (const std::uint32_t t : fans_[gone].triangles)
+    for (const std::uint32_t t : fan(gone).triangles)
       if (!contains(t, kept) && upright(t, gone, kept) < std::min(kUpright, upright(t, gone, gone)))
         return false;
     return true;
   }
 
   void collapse(std::uint32_t gone, std::uint32_t kept) {
-    for (const std::uint32_t t : fans_[gone].triangles) {
+    for (const std::uint32_t t : fan(gone).triangles) {
       if (contains(t, kept)) {
         for (int k = 0; k < 3; ++k)
-          if (mesh_.triangles[t][k] != gone) std::erase(fans_[mesh_.triangles[t][k]].triangles, t);
+          if (mesh_.triangles[t][k] != gone) std::erase(fan(mesh_.triangles[t][k]).triangles, t);
         mesh_.triangles[t] = glm::uvec3(0u);
         continue;
       }
       replace(t, gone, kept);
-      fans_[kept].triangles.push_back(t);
+      fan(kept).triangles.push_back(t);
     }
-    for (const std::uint32_t other : fans_[gone].creases) {
-      auto& theirs = fans_[other].creases;
+    for (const std::uint32_t other : fan(gone).creases) {
+      auto& theirs = fan(other).creases;
       std::erase(theirs, gone);
       if (other == kept || has(theirs, kept)) continue;
       theirs.push_back(kept);
-      fans_[kept].creases.push_back(other);
+      fan(kept).creases.push_back(other);
     }
-    fans_[gone] = {};
+    fan(gone) = {.vertex = gone, .whole = true};
   }
 
   // Drops what is gone, keeping the order.
@@ -255,18 +269,18 @@ class Collapser {
     mesh_.positions.resize(count);
     for (glm::uvec3& t : mesh_.triangles) t = {place[t.x], place[t.y], place[t.z]};
     mesh_.creases.clear();
-    for (std::uint32_t v = 0; v < fans_.size(); ++v)
-      for (const std::uint32_t w : fans_[v].creases)
-        if (v < w) mesh_.creases.push_back({place[v], place[w]});
+    for (const Fan& fan : fans_)
+      for (const std::uint32_t w : fan.creases)
+        if (const std::uint32_t v = fan.vertex; v < w) mesh_.creases.push_back({place[v], place[w]});
     std::ranges::sort(mesh_.creases);
   }
 
   FeatureMesh& mesh_;
   std::vector<glm::vec3>& normals_;
   double shortest_;
+  std::vector<std::uint32_t> fanOf_;  // by vertex, its place in fans_
   std::vector<Fan> fans_;
-  std::vector<std::uint32_t> centres_;  // vertices on creases
-  std::vector<std::uint32_t> listed_;   // triangles
+  std::vector<std::uint32_t> listed_;  // triangles
 };
 
 }  // namespace
