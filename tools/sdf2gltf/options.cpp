@@ -21,7 +21,7 @@ struct Words {
   std::string scene, output;
   std::optional<std::string> voxelSize, bounds, time, frames, fps, only, report, threads, maxMemory;
   std::vector<std::string> parameters;
-  bool animate = false, bake = false, quiet = false;
+  bool animate = false, bake = false, certify = false, quiet = false;
 };
 
 Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
@@ -77,6 +77,8 @@ void declare(CLI::App& app, Words& words) {
   add("--max-memory", words.maxMemory, "GiB", "refuse to mesh what needs more [75 % of the machine's]");
   app.add_flag("--bake", words.bake,
                "put the ambient light and its occlusion into .glb and .gltf files, as emission");
+  app.add_flag("--certify", words.certify,
+               "prove how far mesh and surface are from each other at most, both ways");
   app.add_flag("-q,--quiet", words.quiet, "print errors only");
   app.footer(
       "Files appear under their names only when complete; of a sequence, finished frames stay if a later one "
@@ -90,6 +92,7 @@ Result<Options> interpreted(const Words& words) {
   options.output = words.output;
   options.animate = words.animate;
   options.bake = words.bake;
+  options.certify = words.certify;
   options.quiet = words.quiet;
   options.maxMemory = 0.75 * physicalMemory();
   options.only = words.only;

@@ -27,6 +27,7 @@ struct Options {
   double maxMemory = 0.0;  ///< bytes
   bool animate = false;
   bool bake = false;
+  bool certify = false;
   bool quiet = false;
 };
 

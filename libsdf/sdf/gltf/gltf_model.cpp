@@ -33,11 +33,13 @@ std::vector<unsigned char> png(int side, std::span<const Texel> texels) {
 
 tinygltf::Value::Object extrasOf(const MeshStats& stats) {
   using tinygltf::Value;
-  return {
+  tinygltf::Value::Object extras{
       {"voxelSize", Value(stats.voxelSize)},     {"rmsDistance", Value(stats.rmsDistance)},
       {"maxDistance", Value(stats.maxDistance)}, {"watertight", Value(stats.watertight)},
       {"manifold", Value(stats.manifold)},       {"unresolved", Value(static_cast<double>(stats.unresolved))},
   };
+  if (stats.provenDistance > 0.0) extras["provenDistance"] = Value(stats.provenDistance);
+  return extras;
 }
 
 GltfModel::GltfModel() {
