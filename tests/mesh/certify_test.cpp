@@ -46,6 +46,10 @@ TEST(Certify, BoundsRightMeshesWithinThreeTimesTheirMeasuredDistance) {
       {"ring", torus(1.0, 0.4), 1.0 / 40},
       {"box, its edges cut off", box(Vec3E(1.0)), 1.0 / 16},
       {"bored box", boredBox(), 1.0 / 32},
+      {"blended balls",
+       unite({translate(sphere(0.5), {0.2, 0.0, 0.0}), translate(sphere(0.5), {-0.2, 0.0, 0.0})},
+             Blend::quadratic(0.2)),
+       1.0 / 40},
       {"two balls", translate(sphere(0.5), {0.7, 0.0, 0.0}) | translate(sphere(0.5), {-0.7, 0.0, 0.0}),
        1.0 / 24},
   };
@@ -242,6 +246,28 @@ TEST(PatchReading, ContainsValuesSlopesAndCurvature) {
   }
   EXPECT_GE(curved, 60);
   EXPECT_GE(rising, 30);
+}
+
+TEST(PatchReading, KnowsThatABlendsSlopeIsAMeanOfItsPartsAndHowItBends) {
+  // Between two balls, where both are equal, and where the blend fades out. Up is their slope across, sqrt(3)
+  // / 2 of each; intervals without the mean would add half of it.
+  const double k = 0.2, r = 1.0;
+  const Shape shape = unite({translate(sphere(r), {0.5, 0.0, 0.0}), translate(sphere(r), {-0.5, 0.0, 0.0})},
+                            Blend::quadratic(k));
+  const TapePtr tape = tapeOf(shape)->firstOutputOnly();
+  PatchReading reading;
+  const std::array<glm::dvec3, 3> axes{glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)};
+  const double size = 0.02, height = std::sqrt(r * r - 0.25);
+  for (const double x : {0.0, 0.1, -0.2}) {
+    const Patch patch = Patch::box({x, height, 0.0}, axes, glm::dvec3(size));
+    const PatchBounds bounds = reading.run(*tape, patch, true);
+    ASSERT_TRUE(bounds.curved);
+    // Along y each ball's slope is y / |p|, which changes by size / r here, twice for what intervals add.
+    EXPECT_GE(bounds.slope[2].lo, height / std::hypot(height, 0.5 + std::abs(x)) - 4.0 * size / r);
+    EXPECT_LE(bounds.slope[2].hi, 1.0 + 4.0 * size / r);
+    // Across, two slopes at most 2 apart bend by (2)² / 2k more than the balls, 1 / r.
+    EXPECT_LE(std::max(-bounds.curvature[3].lo, bounds.curvature[3].hi), 4.0 / (2.0 * k) + 2.0 / r);
+  }
 }
 
 TEST(PatchReading, FindsTheSlopeBesideEdgesOfABox) {

@@ -33,6 +33,7 @@ class Certifier {
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
       if (progress_.stopped()) return;
+      prover().beginTask();
       prove(tasks[i], results[i]);
       progress_.update(static_cast<double>(++done) / tasks.size());
     });

@@ -16,6 +16,8 @@ constexpr double kHeadroom = 0.25;
 // Triangles that leave the box by so much of it are no matter for its slopes.
 constexpr double kOverhang = 0.5;
 constexpr int kQuarterings = 1;
+// So many triangles are bounded one by one; a cell with more is divided first, if it can be.
+constexpr std::size_t kFewTriangles = 200;
 constexpr int kBasePoints = 8;
 
 double magnitudeOf(const glm::dvec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
@@ -88,6 +90,7 @@ struct CellProver::Upright {
   double rounding;    // of the corners' coordinates
   glm::dvec3 hull;    // radius of the box around the triangles, too
   std::vector<Placed> placed;
+  bool isLast;               // the cell is not divided further
   bool throughWalls = true;  // the mesh meets neither floor nor ceiling
 
   glm::dvec3 along(const glm::dvec3& p) const {
@@ -241,6 +244,14 @@ double CellProver::largestInTriangle(const Tape& tape, const glm::uvec3& t, doub
   return over(over, {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1)}, kQuarterings);
 }
 
+// The same, remembered: many cells ask.
+double CellProver::largestAlone(const Tape& tape, std::uint32_t triangle, double enough) {
+  Alone& known = alone_.try_emplace(triangle, Alone{kInfinity, kInfinity}).first->second;
+  if (known.largest > enough && known.enough > enough)
+    known = {largestInTriangle(tape, mesh_.triangles[triangle], enough), enough};
+  return known.largest;
+}
+
 // Bounds |f| over a triangle. What it differs from the linear interpolation of the corners' values by is half
 // the curvature times the square of the smallest enclosing circle's radius at most (Waldron 1998).
 double CellProver::largestValue(const Tape& tape, const Upright& up, std::size_t i, const PatchBounds& field,
@@ -248,8 +259,10 @@ double CellProver::largestValue(const Tape& tape, const Upright& up, std::size_t
   const Upright::Placed& placed = up.placed[i];
   const glm::uvec3& t = mesh_.triangles[placed.triangle];
   const glm::dvec3* c = placed.corner;
+  const bool oneByOne = up.placed.size() <= kFewTriangles || up.isLast;
+  const auto byItself = [&] { return oneByOne ? largestAlone(tape, placed.triangle, enough) : kInfinity; };
   const Interval &a = mesh_.values[t.x], &b = mesh_.values[t.y], &d = mesh_.values[t.z];
-  if (!field.curved || a.nan || b.nan || d.nan) return largestInTriangle(tape, t, enough);
+  if (!field.curved || a.nan || b.nan || d.nan) return byItself();
   const glm::dvec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
   const double square = enclosingSquare(c[0], c[1], c[2]), area = glm::length(n);
   // How steeply the triangle's plane rises at most, the sine of it.
@@ -263,7 +276,7 @@ double CellProver::largestValue(const Tape& tape, const Upright& up, std::size_t
   const double high = std::max({a.hi, b.hi, d.hi}) + kUp * 0.5 * down * square;
   const double largest = std::max(-low, high);
   if (largest <= enough) return std::max(0.0, largest);
-  return std::min(largest == largest ? largest : kInfinity, largestInTriangle(tape, t, enough));
+  return std::min(largest == largest ? largest : kInfinity, byItself());
 }
 
 CellBounds CellProver::bySlope(const CertifyCell& cell, double wanted) {
@@ -271,6 +284,7 @@ CellBounds CellProver::bySlope(const CertifyCell& cell, double wanted) {
   const auto failed = CellBounds{kInfinity, bounds.toMesh};
   Upright up;
   up.wanted = 1.01 * wanted;
+  up.isLast = cell.box.longestSide() <= options_.finest;
   if (!standUp(cell, up)) return failed;
   gather(cell, up);
   const PatchBounds field = patches_.run(*cell.tape, Patch::box(up.centre, up.axes, up.hull), true);
@@ -284,7 +298,7 @@ CellBounds CellProver::bySlope(const CertifyCell& cell, double wanted) {
   for (std::size_t i = 0; i < up.placed.size(); ++i) {
     if (!up.placed[i].own && !covered) continue;
     const double f = largestValue(*cell.tape, up, i, field, enough);
-    if (f > enough && cell.box.longestSide() > options_.finest) return failed;  // will be divided
+    if (f > enough && !up.isLast) return failed;  // will be divided
     if (up.placed[i].own) own = std::max(own, f);
     if (up.placed[i].inside) inside = std::max(inside, f);
   }
@@ -300,11 +314,12 @@ CellBounds CellProver::bySize(const CertifyCell& cell) {
   const glm::dvec3 c = cell.box.centre();
   const double half = halfDiagonal(cell.box);
   double nearest = kInfinity;
+  const double rounding = kRounding * (magnitudeOf(c) + options_.bounds.longestSide());
   bool own = false;
   for (const std::uint32_t i : cell.triangles) {
     const glm::uvec3& t = mesh_.triangles[i];
     const auto& p = mesh_.positions;
-    nearest = std::min(nearest, kUp * glm::length(closest(c, p[t.x], p[t.y], p[t.z]) - c));
+    nearest = std::min(nearest, kUp * glm::length(closest(c, p[t.x], p[t.y], p[t.z]) - c) + rounding);
     own = own || overlap(mesh_.boxOf(i), cell.box);
   }
   if (!cell.free) bounds.toMesh = nearest + half;

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <unordered_map>
 #include <vector>
 
 #include "sdf/base/box.h"
@@ -47,6 +48,8 @@ class CellProver {
  public:
   CellProver(const CertifiedMesh& mesh, const CertifyOptions& options) : mesh_(mesh), options_(options) {}
 
+  /// Forgets what was found of triangles, so that results do not depend on what this prover did before.
+  void beginTask() { alone_.clear(); }
   /// By slopes, in a box that stands upright on the mesh and is high enough for a bound of `wanted`.
   CellBounds bySlope(const CertifyCell& cell, double wanted);
   /// By the cell's own size: a change of sign near by, the nearest triangle.
@@ -61,10 +64,16 @@ class CellProver {
   bool covers(const Upright& box) const;
   double largestValue(const Tape& tape, const Upright& box, std::size_t i, const PatchBounds& field,
                       double enough);
+  double largestAlone(const Tape& tape, std::uint32_t triangle, double enough);
   double largestInTriangle(const Tape& tape, const glm::uvec3& triangle, double enough);
 
   const CertifiedMesh& mesh_;
   const CertifyOptions& options_;
+  struct Alone {
+    double largest;  // a bound of |f| over a triangle, by itself
+    double enough;   // what it was looked for until
+  };
+  std::unordered_map<std::uint32_t, Alone> alone_;
   PatchReading patches_;
   ScalarReading<Interval> intervals_;
 };

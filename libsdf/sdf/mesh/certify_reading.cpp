@@ -169,6 +169,70 @@ std::optional<Operand> joined(const Tape& tape, const Instruction& sum) {
   return std::nullopt;
 }
 
+// A quadratic blend of two distances, min(x, y) - c h² or max(x, y) + c h² with h = max(k - |x - y|, 0), in
+// units in which 4 c k = 1 (shape/blend.h): its slope is a mean of theirs, w dx + (1 - w) dy.
+struct QuadraticBlend {
+  Operand x, y;
+  double k;
+  bool isMin;
+};
+
+std::optional<QuadraticBlend> blendOf(const Tape& tape, const Instruction& sum) {
+  const auto made = [&](Operand a, Op op) -> const Instruction* {
+    const Instruction* n = a.isValue() ? &tape.instructions()[a.index()] : nullptr;
+    return n && n->op == op ? n : nullptr;
+  };
+  const auto number = [&](Operand a) { return tape.constant(a.index()); };
+  if (sum.op != Op::MulAdd || !sum.in[1].isConstant()) return std::nullopt;
+  const Instruction* squared = made(sum.in[0], Op::Square);
+  const Instruction* h = squared ? made(squared->in[0], Op::Max) : nullptr;
+  const Instruction* rest =
+      h && h->in[1].isConstant() && number(h->in[1]) == 0.0 ? made(h->in[0], Op::Sub) : nullptr;
+  const Instruction* apart = rest && rest->in[0].isConstant() ? made(rest->in[1], Op::Abs) : nullptr;
+  const Instruction* difference = apart ? made(apart->in[0], Op::Sub) : nullptr;
+  if (!difference) return std::nullopt;
+  const Instruction *least = made(sum.in[2], Op::Min), *most = made(sum.in[2], Op::Max);
+  const Instruction* choice = least ? least : most;
+  if (!choice) return std::nullopt;
+  const auto& [x, y, unused] = difference->in;
+  const bool same = (choice->in[0] == x && choice->in[1] == y) || (choice->in[0] == y && choice->in[1] == x);
+  const double k = number(rest->in[0]), c = (least ? -1.0 : 1.0) * number(sum.in[1]);
+  // Rounding of the constants bends the blend where x = y by so little that corners' rounding covers it.
+  if (!same || !(k > 0.0) || !(std::abs(4.0 * c * k - 1.0) < 0x1p-50)) return std::nullopt;
+  return QuadraticBlend{x, y, k, least != nullptr};
+}
+
+// Narrows a blend's slopes and gives it its curvature, w d²x + (1 - w) d²y + w' (dx - dy)², where w falls
+// from 1 to 0 (rises, of a maximum) by 1 / 2k as x - y goes from -k to k.
+void narrowBlend(const QuadraticBlend& blend, const Term& x, const Term& y, bool wantCurvature, Term& r) {
+  const Interval t = div(sub(x.f.v, y.f.v), mul(2.0, Interval(blend.k)));
+  Interval w = blend.isMin ? sub(0.5, t) : add(0.5, t);
+  // Of the constants' rounding; w itself never leaves 0 to 1 by more.
+  w = {std::clamp(w.lo, 0.0, 1.0) - 0x1p-48, std::clamp(w.hi, 0.0, 1.0) + 0x1p-48, w.nan};
+  if (w.nan) return;
+  const auto mean = [&](const Interval& a, const Interval& b) { return add(b, mul(w, sub(a, b))); };
+  const auto mix = [&](const Interval& a, const Interval& b) {
+    // Linear in w for every a and b: the extremes are at its ends.
+    const auto at = [&](double share) { return add(mul(share, a), mul(sub(1.0, Interval(share)), b)); };
+    return common(hull(at(w.lo), at(w.hi)), mean(a, b));
+  };
+  for (int k = 0; k < 3; ++k) r.f.d[k] = common(r.f.d[k], mix(x.f.d[k], y.f.d[k]));
+  if (!wantCurvature || !x.curved || !y.curved) return;
+  const Interval steep = div(1.0, mul(2.0, Interval(blend.k)));
+  // Between the ends the blend bends all over, beyond them nowhere.
+  constexpr double kEnd = 0x1p-40;
+  const Interval share(w.lo > kEnd && w.hi < 1.0 - kEnd ? 1.0 : 0.0,
+                       w.hi > kEnd && w.lo < 1.0 - kEnd ? 1.0 : 0.0);
+  const Interval bend = mul(blend.isMin ? neg(steep) : steep, share);
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      const Interval di = sub(x.f.d[i], y.f.d[i]), dj = sub(x.f.d[j], y.f.d[j]);
+      const int k = kPlace[i][j];
+      r.h[k] = add(mix(x.h[k], y.h[k]), mul(bend, i == j ? square(di) : mul(di, dj)));
+    }
+  r.curved = true;
+}
+
 // Which argument of a min or max gives the value: 0, 1, or -1 where either may.
 int winner(Op op, const Interval& a, const Interval& b) {
   if (a.nan || b.nan || !(a.hi < b.lo || b.hi < a.lo)) return -1;
@@ -421,6 +485,8 @@ bool PatchReading::read(const Tape& tape, const Patch& patch, bool wantCurvature
       for (int k = 0; k < rows && !assumptions_.empty(); ++k) t.clipped = t.clipped || term(n.in[k]).clipped;
       if (isLength(n.op)) narrowLengthSlopes(componentsOf(n.op, args), t.f);
       if (wantCurvature && !payload) curvature(n.op, args, t);
+      if (const std::optional<QuadraticBlend> blend = blendOf(tape, n))
+        narrowBlend(*blend, term(blend->x), term(blend->y), wantCurvature, t);
       narrow(centres_[at], patch, t);
     }
     if (!assumptions_.empty() && !clip(at, t)) return false;
