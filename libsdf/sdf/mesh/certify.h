@@ -38,13 +38,13 @@ struct Certificate {
 /// Space is divided into cells (an octree). Where an interval or the slope excludes the surface, and the mesh
 /// is not there either, nothing is left to say. Else a box around the cell stands upright on the mesh there:
 /// where the field's slope along its axis n is at least g > 0 all over, each line along n meets the surface
-/// at most once. Where the mesh enters the box through its walls only and covers one point of its base an odd
-/// or other nonzero number of times, counted with sign, it covers every point (the degree of a map is
-/// constant). So a point of the surface has a point m of the mesh on its line, |f(m)| / g from it at most,
-/// and a point of the mesh likewise the surface, if that is in the box. |f| is bounded over triangles by its
-/// values at the corners and its curvature (Waldron 1998), or by the mean value form in the triangle's own
-/// coordinates. Where slopes show nothing, cells are divided down to the finest, in which a change of sign
-/// and the nearest triangle say what they can.
+/// at most once. Where the mesh enters the box through its walls only and covers one point of its base, where
+/// its sheets counted with sign are not 0, it covers every point (the degree of a map is constant). So a
+/// point of the surface has a point m of the mesh on its line, |f(m)| / g from it at most, and a point of the
+/// mesh likewise the surface, if that is in the box. |f| is bounded over triangles by its values at the
+/// corners and its curvature (Waldron 1998), or by the mean value form in the triangle's own coordinates.
+/// Where slopes show nothing, cells are divided down to the finest, in which a change of sign and the nearest
+/// triangle say what they can.
 ///
 /// What is claimed of the model's operands, bounds and slopes, is relied on. `triangles` are closed (each
 /// edge as often one way as the other) and counter-clockwise from outside; an open mesh is not proven. Runs

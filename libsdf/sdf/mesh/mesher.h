@@ -15,9 +15,9 @@
 namespace sdf {
 
 struct MeshOptions {
-  double voxelSize = 0.0;                  ///< scene units; 0 takes 1/200 of the longest side of the bounds
-  std::optional<Box> bounds{};             ///< clips the shape, closed and watertight
-  Values values{};                         ///< of the shape's inputs; its bounds hold for all in their ranges
+  double voxelSize = 0.0;       ///< scene units; 0 takes 1/200 of the longest side of the bounds
+  std::optional<Box> bounds{};  ///< clips the shape, closed and watertight
+  Values values{};              ///< of the shape's inputs; its bounds hold for all in their ranges
   bool certify = false;  ///< also prove the mesh's two-sided distance to the surface (stats.provenDistance)
   double maxMemory = 16.0 * (1ull << 30);  ///< bytes; refused (ErrorKind::Limits) if the estimate is above
 };
