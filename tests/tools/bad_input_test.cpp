@@ -98,6 +98,18 @@ TEST_F(BadInput, OnlyGltfIsCompressed) {
                   {"--compress", "write .glb or .gltf", "leave --compress out"});
 }
 
+TEST_F(BadInput, WhatCannotBeProvenIsSaidWithItsPlace) {
+  // Two cubes that touch in an edge at x = y = 1; and a ball by a jump instead of a zero.
+  expectBadScene("return union(box(1), box(1):translate(2, 2, 0))",
+                 {"part 'part 1': no distance below 0.6 is proven", "cells, the first of side", "around (",
+                  "elsewhere it is", "measured", "Take a smaller voxel size, or leave --certify out"},
+                 kLimits, {"--certify", "--voxel-size", "0.2"});
+  expectBadScene(
+      "bounds({-2, -2, -2}, {2, 2, 2}) return field(function(x, y, z)"
+      " return floor(x * x + y * y + z * z) - 0.5 end)",
+      {"no distance below 0.6 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
+}
+
 TEST_F(BadInput, BakedOcclusionNeedsAKnownSlope) {
   expectBadScene(
       "ambient_occlusion { kind = 'taps' } bounds({-1, -1, -1}, {1, 1, 1})"

@@ -138,7 +138,8 @@ Status FrameExport::write(const std::filesystem::path& target) {
 }
 
 MeshOptions FrameExport::meshOptions(double voxelSize) const {
-  return {.voxelSize = voxelSize, .bounds = clip, .maxMemory = options_.maxMemory};
+  return {
+      .voxelSize = voxelSize, .bounds = clip, .certify = options_.certify, .maxMemory = options_.maxMemory};
 }
 
 Status FrameExport::interrupted() const {

@@ -21,7 +21,7 @@ struct Words {
   std::string scene, output;
   std::optional<std::string> voxelSize, bounds, time, frames, fps, only, report, threads, maxMemory;
   std::vector<std::string> parameters;
-  bool animate = false, bake = false, compress = false, quiet = false;
+  bool animate = false, bake = false, compress = false, certify = false, quiet = false;
 };
 
 Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
@@ -86,6 +86,8 @@ void declare(CLI::App& app, Words& words) {
                "put the ambient light and its occlusion into .glb and .gltf files, as emission");
   app.add_flag("--compress", words.compress,
                "write smaller .glb and .gltf files, for readers that know EXT_meshopt_compression");
+  app.add_flag("--certify", words.certify,
+               "prove how far mesh and surface are from each other at most, both ways");
   app.add_flag("-q,--quiet", words.quiet, "print errors only");
   app.footer(
       "Files appear under their names only when complete; of a sequence, finished frames stay if a later one "
@@ -100,6 +102,7 @@ Result<Options> interpreted(const Words& words) {
   options.animate = words.animate;
   options.bake = words.bake;
   options.compress = words.compress;
+  options.certify = words.certify;
   options.quiet = words.quiet;
   options.maxMemory = 0.75 * physicalMemory();
   options.only = words.only;

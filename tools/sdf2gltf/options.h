@@ -28,6 +28,7 @@ struct Options {
   bool animate = false;
   bool bake = false;
   bool compress = false;
+  bool certify = false;
   bool quiet = false;
 };
 

@@ -32,13 +32,17 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
-std::vector<std::string> row(const ReportLine& line) {
-  return {line.name,
-          grouped(line.stats.triangles),
-          formatted("%.2e", line.stats.rmsDistance),
-          formatted("%.2e", line.stats.maxDistance),
-          formatted("%.2f s", line.seconds),
-          formatted("%.0f MiB", line.peakMemory / kMiB)};
+/// A bound is rounded up.
+std::string bound(double value) { return formatted("%.2e", 1.005 * value); }
+
+std::vector<std::string> row(const ReportLine& line, bool proven) {
+  std::vector<std::string> cells{line.name, grouped(line.stats.triangles),
+                                 formatted("%.2e", line.stats.rmsDistance),
+                                 formatted("%.2e", line.stats.maxDistance)};
+  if (proven) cells.push_back(bound(line.stats.provenDistance));
+  cells.push_back(formatted("%.2f s", line.seconds));
+  cells.push_back(formatted("%.0f MiB", line.peakMemory / kMiB));
+  return cells;
 }
 
 std::string place(const glm::vec3& p) {
@@ -71,6 +75,7 @@ Json json(const ReportLine& line) {
           {"triangles", stats.triangles},
           {"rms_distance", stats.rmsDistance},
           {"max_distance", stats.maxDistance},
+          {"proven_distance", stats.provenDistance > 0.0 ? Json(stats.provenDistance) : Json(nullptr)},
           {"farthest", placeJson(stats.farthest)},
           {"watertight", stats.watertight},
           {"manifold", stats.manifold},
@@ -120,10 +125,12 @@ void printWarnings(std::ostream& out, const FileReport& report) {
 }
 
 void printTable(std::ostream& out, const FileReport& report) {
+  const bool proven = report.total.stats.provenDistance > 0.0;
   std::vector<std::vector<std::string>> rows{
       {"part", "triangles", "rms error", "max error", "time", "peak memory"}};
-  for (const ReportLine& part : report.parts) rows.push_back(row(part));
-  rows.push_back(row(report.total));
+  if (proven) rows[0].insert(rows[0].begin() + 4, "proven");
+  for (const ReportLine& part : report.parts) rows.push_back(row(part, proven));
+  rows.push_back(row(report.total, proven));
 
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& cells : rows) {

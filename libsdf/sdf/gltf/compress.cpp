@@ -44,6 +44,7 @@ void compress(ExportPart& part) {
   const double farthest = kFarthest * std::ldexp(1.0, grid);
   part.stats.rmsDistance += farthest;
   part.stats.maxDistance += farthest;
+  if (part.stats.provenDistance > 0.0) part.stats.provenDistance += farthest;
 }
 
 }  // namespace sdf

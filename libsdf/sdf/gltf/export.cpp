@@ -45,6 +45,7 @@ MeshStats combined(const std::vector<MeshStats>& meshes) {
     all.triangles += one.triangles;
     all.voxelSize = std::max(all.voxelSize, one.voxelSize);
     if (one.maxDistance > all.maxDistance) all.maxDistance = one.maxDistance, all.farthest = one.farthest;
+    all.provenDistance = std::max(all.provenDistance, one.provenDistance);
     all.watertight = all.watertight && one.watertight;
     all.manifold = all.manifold && one.manifold;
     all.components += one.components;

@@ -48,11 +48,13 @@ std::string replaced(const std::string& text, const std::string& from, const std
 
 tinygltf::Value::Object extrasOf(const MeshStats& stats) {
   using tinygltf::Value;
-  return {
+  tinygltf::Value::Object extras{
       {"voxelSize", Value(stats.voxelSize)},     {"rmsDistance", Value(stats.rmsDistance)},
       {"maxDistance", Value(stats.maxDistance)}, {"watertight", Value(stats.watertight)},
       {"manifold", Value(stats.manifold)},       {"unresolved", Value(static_cast<double>(stats.unresolved))},
   };
+  if (stats.provenDistance > 0.0) extras["provenDistance"] = Value(stats.provenDistance);
+  return extras;
 }
 
 GltfModel::GltfModel() {

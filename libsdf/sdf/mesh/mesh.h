@@ -43,8 +43,10 @@ struct MeshStats {
   double rmsDistance = 0.0;  ///< of samples on the mesh to the scene's surface, scene units
   double maxDistance = 0.0;
   glm::vec3 farthest{0.0f};  ///< the sample of maxDistance
-  bool watertight = false;   ///< every edge has as many triangles one way as the other
-  bool manifold = false;     ///< every edge has two triangles and every vertex one fan
+  double provenDistance =
+      0.0;                  ///< bound on the two-sided distance to the surface; 0 where none was asked for
+  bool watertight = false;  ///< every edge has as many triangles one way as the other
+  bool manifold = false;    ///< every edge has two triangles and every vertex one fan
   int components = 0;
   int eulerCharacteristic = 0;
   std::uint64_t unresolved = 0;  ///< places where solids or gaps thinner than a voxel were passed unseen

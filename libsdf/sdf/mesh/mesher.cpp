@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "sdf/mesh/certify.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
@@ -78,6 +79,7 @@ class Mesher {
     measureTopology(features.triangles, features.positions.size(), result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkClaims(features, *bounds, h, distances); !s) return s.error();
+    if (Status s = certifyMesh(shape, features, *bounds, h); !s) return s.error();
     begin("normals");
     Mesh& mesh = result_.mesh;
     splitAtCreases(features, field, progress_, mesh);
@@ -157,6 +159,31 @@ class Mesher {
                                    shown(stats.maxDistance / voxel) + " voxels, at " + place(stats.farthest) +
                                    advice);
     return okStatus();
+  }
+
+  // Proves the distance, if that is asked for.
+  Status certifyMesh(const Shape& shape, const FeatureMesh& mesh, const Box& bounds, double voxel) {
+    if (!options_.certify) return okStatus();
+    begin("certifying");
+    MeshStats& stats = result_.stats;
+    // Three times the measured distance is what a proof may well come to. Vertices are floats, a rounding
+    // off.
+    const double goal = std::max(2.5 * stats.maxDistance, 0x1p-22 * bounds.longestSide());
+    const Certificate proof = certify(mesh.positions, mesh.triangles, Model(shape).at(options_.values),
+                                      {bounds, goal, voxel, kFarthestVoxels * voxel}, progress_);
+    if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
+    stats.provenDistance = proof.bound();
+    if (proof.proven()) return okStatus();
+    return Error{
+        ErrorKind::Limits,
+        "part '" + name_ + "': no distance below " + shown(kFarthestVoxels * voxel) +
+            " is proven between mesh and surface in " + std::to_string(proof.unproven) +
+            " cells, the first of side " + shown(proof.unprovenSize) + " around " +
+            place(proof.firstUnproven) +
+            (proof.bound() > 0.0 ? "; elsewhere it is " + shown(proof.bound()) + " at most" : "") +
+            "; measured " + shown(stats.maxDistance) +
+            ". The mesh may lack something there; or proofs fail: at tips, where surfaces touch, and "
+            "where the slope is not known. Take a smaller voxel size, or leave --certify out"};
   }
 
   // Ends the present stage, if there is one, and begins another.

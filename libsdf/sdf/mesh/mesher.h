@@ -15,9 +15,10 @@
 namespace sdf {
 
 struct MeshOptions {
-  double voxelSize = 0.0;                  ///< scene units; 0 takes 1/200 of the longest side of the bounds
-  std::optional<Box> bounds{};             ///< clips the shape, closed and watertight
-  Values values{};                         ///< of the shape's inputs; its bounds hold for all in their ranges
+  double voxelSize = 0.0;       ///< scene units; 0 takes 1/200 of the longest side of the bounds
+  std::optional<Box> bounds{};  ///< clips the shape, closed and watertight
+  Values values{};              ///< of the shape's inputs; its bounds hold for all in their ranges
+  bool certify = false;  ///< also prove the mesh's two-sided distance to the surface (stats.provenDistance)
   double maxMemory = 16.0 * (1ull << 30);  ///< bytes; refused (ErrorKind::Limits) if the estimate is above
 };
 
@@ -40,7 +41,7 @@ Shape clipped(const Shape& shape, const Box& box);
 /// calling thread's oneTBB arena; the result does not depend on the number of threads. What is stated of a
 /// field, its bounds and its slope, is relied on, and found out where the mesh leaves the bounds, is not
 /// closed or is farther from the surface than a right one can be. Errors: Scene (failed shape, unbounded, no
-/// surface, false statements), Limits (memory), Interrupted.
+/// surface, false statements), Limits (memory, a distance that cannot be proven), Interrupted.
 Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
                               Progress& progress);
 
