@@ -6,6 +6,7 @@
 #include <random>
 
 #include "mesh/feature_meshes.h"
+#include "sdf/eval/scalar_reading.h"
 
 namespace sdf::test {
 namespace {
@@ -109,6 +110,24 @@ TEST(Remesh, ATorusKeepsItsHandleAndItsTolerance) {
   });
 }
 
+TEST(Remesh, BlendedBallsKeepTheirPartsAndNoTriangleIsTurned) {
+  const Shape shape = melt();
+  const Fine fine(shape, 0.04);
+  const double tolerance = 3e-3;
+  const Meshed m = remeshed(fine.mesh, fine.field, {tolerance});
+  EXPECT_TRUE(m.result.kept);
+  expectTopologyOf(m, fine.stats.components, fine.stats.eulerCharacteristic);
+  EXPECT_LT(m.mesh.triangles.size(), fine.mesh.triangles.size() / 4);
+  const TapePtr tape = tapeOf(shape)->firstOutputOnly();
+  for (const glm::uvec3& t : m.mesh.triangles) {
+    const glm::dvec3 a(m.mesh.positions[t.x]), b(m.mesh.positions[t.y]), c(m.mesh.positions[t.z]);
+    const auto g = evaluateGradient(*tape, (a + b + c) / 3.0);
+    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    // 60 degrees, and what the normal turns by as positions are rounded to float.
+    ASSERT_GT(glm::dot(normal, glm::normalize(g.gradient)), 0.49);
+  }
+}
+
 TEST(Remesh, ACubeIsTwelveTrianglesWithTheCornersWhereTheyWere) {
   const WholeField field(box(Vec3E(1.0)), 0.1);
   for (const int n : {1, 2, 7, 24}) {
@@ -133,7 +152,11 @@ TEST(Remesh, ACylindersWallIsOneRingOfStrips) {
     EXPECT_NEAR(std::abs(p.y), 1.0, tolerance);
     EXPECT_NEAR(std::hypot(p.x, p.z), 1.0, tolerance);
   }
+  // All vertices lie on the two rims; a polygon whose corners lie E outside the circle and whose middles lie
+  // E inside has pi / acos((1 - E) / (1 + E)) corners.
   EXPECT_EQ(m.mesh.creases.size(), m.mesh.positions.size());
+  const double least = kPi / std::acos((1.0 - tolerance) / (1.0 + tolerance));
+  EXPECT_LT(static_cast<double>(m.mesh.positions.size()), 1.3 * 2.0 * least);
 }
 
 TEST(Remesh, ABudgetIsMetWithTheErrorThatItNeeds) {

@@ -11,8 +11,9 @@ namespace {
 // Edges are collapsed until the error is this many tolerances, as relocation lessens the largest errors to
 // three quarters: measured on balls, tori and blends. With more, more has to be split in the end.
 constexpr double kOvershoot = 1.3;
-// Cycles of adjusting and collapsing, and sweeps over all vertices that adjusting takes at most.
-constexpr int kCycles = 2, kSweeps = 6;
+// Cycles of adjusting and collapsing, of collapsing after splits, and sweeps over all vertices that adjusting
+// takes at most.
+constexpr int kCycles = 2, kCleanings = 2, kSweeps = 6;
 // A sweep that changes less than this share of the vertices is the last.
 constexpr double kSettled = 0.01;
 // First sweeps let a change raise the energy by so much: it may open the way to a better shape.
@@ -21,6 +22,8 @@ constexpr float kLoose = 0.3f;
 // less than the tolerance, which covers what they miss.
 constexpr int kHalvings = 16;
 constexpr double kHeld = 0.985;
+// Where halving makes more triangles exceed it, so many times the fewest and some, it is given up.
+constexpr std::size_t kRunaway = 2, kFew = 20;
 // Each time that a budget is not met the tolerance gives way by so much.
 constexpr double kGiveWay = 1.2;
 
@@ -83,9 +86,17 @@ class Remesher {
     changes_.setTolerance(kHeld * options_.tolerance);
     adjust(0.0f);
     changes_.split();
+    for (int i = 0; i < kCleanings; ++i) {
+      // What splitting and adjusting have made superfluous.
+      changes_.collapse(0, true);
+      adjust(0.0f);
+      changes_.split();
+    }
+    std::size_t fewest = mesh_.liveTriangles();
     for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
       measure();
-      if (measured_.exceeding.empty()) return;
+      if (measured_.exceeding.empty() || measured_.exceeding.size() > kRunaway * fewest) return;
+      fewest = std::min(fewest, measured_.exceeding.size() + kFew);
       changes_.project(measured_.vertices);
       changes_.splitTriangles(measured_.exceeding);
     }

@@ -127,11 +127,12 @@ void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
   }
   std::vector<FanError> errors;
   evaluateFans(fans, tolerance_, field_, progress_, errors);
-  for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += errors[i].onto;
+  const std::vector<FanError> old = errors;
+  for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += old[i].onto;
   evaluateFans(fans, tolerance_, field_, progress_, errors);
   if (progress_.stopped()) return;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (!errors[i].sound) continue;
+    if (old[i].sound && !errors[i].sound) continue;
     mesh_.positions[chosen[i]] = fans.all[i].centre;
     touch(chosen[i]);
   }

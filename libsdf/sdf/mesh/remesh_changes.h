@@ -19,8 +19,10 @@ class RemeshChanges {
   RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance, Progress& progress);
 
   /// Collapses edges, those first along which the surface turns least, until no collapse keeps the tolerance
-  /// or `maxTriangles` are left. Edges that failed are tried anew only when something near them has changed.
-  void collapse(std::size_t maxTriangles = 0);
+  /// or `maxTriangles` are left. Along creases a little more
+  /// than the tolerance is let pass unless `strict`. Edges that failed are tried anew only when something
+  /// near them has changed.
+  void collapse(std::size_t maxTriangles = 0, bool strict = false);
   /// Moves each vertex once to where the largest distances around it are balanced, if that lessens them;
   /// returns the number of those that moved. Where nothing changed since the last time nothing is tried.
   std::size_t relocate(float loose = 0.0f);
@@ -49,7 +51,7 @@ class RemeshChanges {
   float creaseCost(std::uint32_t h) const;
   std::uint32_t collapsible(std::uint32_t h) const;
   std::vector<Candidate> collapseCandidates() const;
-  bool collapseRound(std::size_t most);
+  bool collapseRound(std::size_t most, bool strict);
   std::uint32_t longestSide(std::uint32_t h) const;
   std::vector<Candidate> splitCandidates();
   std::size_t splitRound(const std::vector<Candidate>& candidates);

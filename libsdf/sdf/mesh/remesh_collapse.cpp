@@ -19,6 +19,9 @@ constexpr double kStale = 2e-3;
 // What a collapse costs is about eight times the chord's error; above this many tolerances none can succeed.
 // An edge as long as the tolerance allows in the best mesh has 12.
 constexpr float kHopeless = 14.0f;
+// Along a crease relocation evens out more than on a surface, and so collapses may go beyond the tolerance by
+// so much.
+constexpr float kCrease = 1.2f;
 // Where the surface is flat the shortest edges go first.
 constexpr float kFlat = 1e-3f;
 
@@ -84,7 +87,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates() const 
   return all;
 }
 
-bool RemeshChanges::collapseRound(std::size_t most) {
+bool RemeshChanges::collapseRound(std::size_t most, bool strict) {
   ++round_;
   std::vector<std::uint32_t> chosen;
   bool any = false;
@@ -108,7 +111,8 @@ bool RemeshChanges::collapseRound(std::size_t most) {
   if (progress_.stopped()) return false;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::uint32_t h = chosen[i], v = mesh_.to(h);
-    if (!errors[i].sound || !(errors[i].largest <= tolerance_) || !mesh_.canCollapse(h)) {
+    const float limit = tolerance_ * (mesh_.isCrease(h) && !strict ? kCrease : 1.0f);
+    if (!errors[i].sound || !(errors[i].largest <= limit) || !mesh_.canCollapse(h)) {
       tried_[h] = tried_[mesh_.twin(h)] = round_;
       continue;
     }
@@ -120,10 +124,10 @@ bool RemeshChanges::collapseRound(std::size_t most) {
   return true;
 }
 
-void RemeshChanges::collapse(std::size_t maxTriangles) {
+void RemeshChanges::collapse(std::size_t maxTriangles, bool strict) {
   while (!progress_.stopped() && mesh_.liveTriangles() > std::max<std::size_t>(maxTriangles, 4)) {
     const std::size_t before = mesh_.liveTriangles();
-    if (!collapseRound((before - maxTriangles + 1) / 2)) return;
+    if (!collapseRound((before - maxTriangles + 1) / 2, strict)) return;
     const auto gone = static_cast<double>(before - mesh_.liveTriangles());
     if (before > kFew && gone < kStale * static_cast<double>(before)) return;
   }

@@ -12,7 +12,11 @@ namespace {
 // Points evaluated at a time, to bound the memory.
 constexpr std::size_t kPoints = std::size_t{1} << 20;
 
-// Adds the triangle's corners, and the middles of cells no larger than `cell`: rows along the longest side.
+// Steps along each side at least. What lies between two of them is at most 1 / (4 * 36) of a quadratic
+// error's span larger.
+constexpr int kLeast = 6;
+
+// Adds the triangle's corners, and the nodes of a grid no coarser than `cell`: rows along the longest side.
 void addPoints(const glm::vec3 (&corners)[3], float cell, std::vector<glm::vec3>& points) {
   points.insert(points.end(), corners, corners + 3);
   int k = 0;
@@ -21,12 +25,12 @@ void addPoints(const glm::vec3 (&corners)[3], float cell, std::vector<glm::vec3>
     if (const float l = glm::distance(corners[i], corners[(i + 1) % 3]); l > longest) longest = l, k = i;
   const glm::vec3 &a = corners[k], &b = corners[(k + 1) % 3], &c = corners[(k + 2) % 3];
   const float height = glm::length(glm::cross(b - a, c - a)) / longest;
-  const int rows = std::max(2, static_cast<int>(std::ceil(height / cell)));
+  const int rows = std::max(kLeast, static_cast<int>(std::ceil(height / cell)));
   for (int j = 0; j < rows; ++j) {
-    const float t = (static_cast<float>(j) + 0.5f) / static_cast<float>(rows);
-    const int columns = std::max(2, static_cast<int>(std::ceil(longest * (1.0f - t) / cell)));
-    for (int i = 0; i < columns; ++i) {
-      const float s = (static_cast<float>(i) + 0.5f) / static_cast<float>(columns);
+    const float t = static_cast<float>(j) / static_cast<float>(rows);
+    const int columns = std::max(kLeast - j, static_cast<int>(std::ceil(longest * (1.0f - t) / cell)));
+    for (int i = 0; i <= columns; ++i) {
+      const float s = static_cast<float>(i) / static_cast<float>(std::max(columns, 1));
       points.push_back(t * c + (1.0f - t) * (a + s * (b - a)));
     }
   }

@@ -66,11 +66,13 @@ std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates) 
   std::vector<FanError> errors;
   evaluateFans(fans, tolerance_, field_, progress_, errors);
   const Fans middles = fans;
+  const std::vector<FanError> atMiddles = errors;
   moveToOffsets(fans, errors);
   evaluateFans(fans, tolerance_, field_, progress_, errors);
   if (progress_.stopped()) return 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const std::uint32_t v = mesh_.split(chosen[i], (errors[i].sound ? fans : middles).all[i].centre);
+    const std::uint32_t v =
+        mesh_.split(chosen[i], (errors[i].sound || !atMiddles[i].sound ? fans : middles).all[i].centre);
     grow();
     normals_[v] = errors[i].normal;
     touch(v);
