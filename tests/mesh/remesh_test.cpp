@@ -7,6 +7,9 @@
 
 #include "mesh/feature_meshes.h"
 #include "sdf/eval/scalar_reading.h"
+#ifdef SDF_REFERENCE
+#include "accuracy/reference.h"
+#endif
 
 namespace sdf::test {
 namespace {
@@ -42,6 +45,17 @@ struct Fine {
   MeshStats stats;
 };
 
+void expectNothingCrosses(const FeatureMesh& mesh) {
+#ifdef SDF_REFERENCE
+  accuracy::TriangleMesh all;
+  for (const glm::vec3& p : mesh.positions) all.points.emplace_back(p);
+  for (const glm::uvec3& t : mesh.triangles) all.triangles.emplace_back(t);
+  EXPECT_EQ(accuracy::crossings(all), 0u);
+#else
+  static_cast<void>(mesh);
+#endif
+}
+
 // Calls take(point) for 16 random points of each triangle.
 template <class Take>
 void strewOver(const FeatureMesh& mesh, const Take& take) {
@@ -61,6 +75,7 @@ void expectTopologyOf(const Meshed& m, int components, int euler) {
   EXPECT_TRUE(m.stats.manifold);
   EXPECT_EQ(m.stats.components, components);
   EXPECT_EQ(m.stats.eulerCharacteristic, euler);
+  expectNothingCrosses(m.mesh);
 }
 
 // 0.1925 * integral of sqrt|K| dA / E, for a ball of radius 1: the least that equilateral triangles whose
@@ -189,6 +204,20 @@ TEST(Remesh, TheNumberOfThreadsChangesNothing) {
   EXPECT_EQ(one.positions, many.positions);
   EXPECT_EQ(one.triangles, many.triangles);
 }
+
+#ifdef SDF_REFERENCE
+TEST(Remesh, CrossingTrianglesWouldBeSeen) {
+  accuracy::TriangleMesh two;
+  for (const double at : {0.0, 0.1}) {
+    const int first = static_cast<int>(two.points.size());
+    for (const glm::dvec3 p : {glm::dvec3(0.0), {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}})
+      two.points.push_back(p + at);
+    for (const glm::ivec3 t : {glm::ivec3(0, 2, 1), {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+      two.triangles.push_back(t + first);
+  }
+  EXPECT_GT(accuracy::crossings(two), 0u);
+}
+#endif
 
 TEST(Remesh, StoppedItLeavesAClosedMesh) {
   struct Impatient : Progress {

@@ -64,7 +64,7 @@ class Remesher {
     if (!overBudget()) keepTolerance();
     if (overBudget()) keepBudget();
     report(1.0);
-    return {measured_.largest, measured_.rms, measured_.exceeding.empty() && !quiet_.stopped()};
+    return {measured_.largest, measured_.rms, measured_.largest <= options_.tolerance && !quiet_.stopped()};
   }
   FeatureMesh take() const { return mesh_.compacted(); }
 
@@ -80,7 +80,7 @@ class Remesher {
     }
   }
 
-  void measure() { measured_ = measureDensely(mesh_, field_, options_.tolerance, quiet_); }
+  void measure() { measured_ = measureDensely(mesh_, field_, kHeld * options_.tolerance, quiet_); }
 
   void keepTolerance() {
     changes_.setTolerance(kHeld * options_.tolerance);

@@ -28,9 +28,9 @@ struct RemeshResult {
 /// needed then (after Nadler 1986). Vertices on creases slide along them; corners stay where they are.
 ///
 /// Distances are first-order, f / |grad f| (Taubin 1994), at points of the mesh. While it is changed they are
-/// taken at each triangle's corners, centroid and edges' midpoints: between them the distance is a quadratic
-/// function up to terms of third order in the triangle's size, and whatever it does, these see all but some
-/// hundredths of it. At the end they are taken all over the triangles, as closely as the field resolves
+/// taken at each triangle's corners, centroid and edges' midpoints, and at the extrema that their gradients
+/// foretell: between them the distance is a quadratic function up to terms of third order in the triangle's
+/// size. At the end they are taken all over the triangles, twice as closely as the field resolves
 /// features (LocalField::Local::voxel), and what exceeds the tolerance is split. Along creases the points are
 /// read from both sides, and their distance is that to the line where both sides' tangent planes meet.
 ///
