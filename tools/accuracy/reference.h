@@ -1,6 +1,7 @@
 // Geometry computed another way: distances to triangle meshes by CGAL, against which the distance functions
 // are held.
 #pragma once
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -43,6 +44,10 @@ class Reference {
 /// The inside of a simple polygon as triangles of its corners (constrained Delaunay triangulation). Throws
 /// std::invalid_argument where the polygon crosses itself.
 std::vector<glm::ivec3> triangulated(std::span<const glm::dvec2> polygon);
+
+/// Pairs of triangles that cross or overlap, those that share an edge or a corner but for what they share
+/// (exact predicates). Cost: n log n.
+std::size_t crossings(const TriangleMesh& mesh);
 
 enum class Boolean { Union, Intersection, Difference };
 /// The boolean of two closed meshes by corefinement with exact constructions; corners are rounded to double

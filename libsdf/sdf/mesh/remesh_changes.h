@@ -1,0 +1,77 @@
+// The changes that remeshing consists of, each made all over the mesh at once.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "sdf/base/progress.h"
+#include "sdf/mesh/local_field.h"
+#include "sdf/mesh/remesh_fans.h"
+#include "sdf/mesh/remesh_topology.h"
+
+namespace sdf {
+
+/// A mesh in the making. A change is proposed at many places of which no two share a triangle, cheapest first
+/// and ties by number; all are evaluated in one batch, and those that keep the tolerance are made.
+class RemeshChanges {
+ public:
+  /// Distances are held to `tolerance`.
+  RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance, Progress& progress);
+
+  /// Collapses edges, those first along which the surface turns least, until no collapse keeps the tolerance
+  /// or `maxTriangles` are left. Along creases a little more
+  /// than the tolerance is let pass unless `strict`. Edges that failed are tried anew only when something
+  /// near them has changed.
+  void collapse(std::size_t maxTriangles = 0, bool strict = false);
+  /// Moves each vertex once to where the largest distances around it are balanced, if that lessens them;
+  /// returns the number of those that moved. Where nothing changed since the last time nothing is tried.
+  std::size_t relocate(float loose = 0.0f);
+  /// Replaces edges by the other diagonal where that lessens the distances; returns the number of
+  /// flips. Both let the distances' energy rise by the share `loose`.
+  std::size_t flip(float loose = 0.0f);
+  /// Splits edges until none of the triangles exceeds the tolerance at its samples, and adjusts what is new;
+  /// false if that was not reached.
+  bool split();
+  /// Puts these vertices onto the surface.
+  void project(const std::vector<std::uint32_t>& vertices);
+  /// Splits these triangles' longest sides.
+  void splitTriangles(const std::vector<std::uint32_t>& triangles);
+
+  float evenness(std::uint32_t h) const;
+  void setTolerance(double tolerance);
+
+ private:
+  struct Candidate {
+    float cost;
+    std::uint32_t where;  // a half-edge or a vertex
+    bool operator<(const Candidate& o) const { return cost != o.cost ? cost < o.cost : where < o.where; }
+  };
+  void readNormals();
+  float collapseCost(std::uint32_t h) const;
+  float creaseCost(std::uint32_t h) const;
+  std::uint32_t collapsible(std::uint32_t h) const;
+  std::vector<Candidate> collapseCandidates() const;
+  bool collapseRound(std::size_t most, bool strict);
+  std::uint32_t longestSide(std::uint32_t h) const;
+  std::vector<Candidate> splitCandidates();
+  std::size_t splitRound(const std::vector<Candidate>& candidates);
+  void moveToOffsets(Fans& fans, const std::vector<FanError>& errors) const;
+  bool claim(std::uint32_t v);
+  bool claimEdge(std::uint32_t h);
+  void touch(std::uint32_t v);
+  void grow();
+
+  RemeshTopology& mesh_;
+  const LocalField& field_;
+  float tolerance_;
+  Progress& progress_;
+  std::uint32_t round_ = 1;
+  std::uint32_t lastFlips_ = 0, lastSplits_ = 0;  // rounds
+  std::vector<std::uint32_t> claimed_;            // by triangle: the round in which a change had it
+  std::vector<std::uint32_t> changed_;  // by vertex: the last round in which a triangle at it was changed
+  std::vector<std::uint32_t> tried_;    // by half-edge: the last round in which its collapse failed
+  std::vector<std::uint32_t> settled_;  // by vertex: the last round in which it was to be moved
+  std::vector<glm::vec3> normals_;      // by vertex, of the surface
+};
+
+}  // namespace sdf

@@ -1,0 +1,107 @@
+// Where a fan's distances are read.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "sdf/mesh/remesh_fans.h"
+
+namespace sdf {
+
+/// Beside creases the field is read so many tolerances inside the triangle, where it is the triangle's own
+/// side's: a crease is at most one tolerance beside the mesh's.
+inline constexpr float kBeside = 4.0f;
+
+/// A distance to be read at `at` for the point `of` of the mesh, which moves by `weight` times what the
+/// centre does.
+struct Sample {
+  glm::vec3 of, at;
+  float weight;
+  std::uint32_t triangle;  // of the fan
+};
+
+/// What was read: signed distance at Sample::of, and the unit gradient.
+struct Reading {
+  float distance;
+  glm::vec3 normal;
+};
+
+/// One fan with its rim at hand.
+struct FanView {
+  const Fan& fan;
+  std::span<const Fans::Spoke> rim;
+  float beside;
+
+  FanView(const Fans& fans, std::size_t i, float tolerance)
+      : fan(fans.all[i]), rim(fans.rim.data() + fan.first, fan.count), beside(kBeside * tolerance) {}
+
+  const glm::vec3& end(std::uint32_t i) const { return rim[i].end; }
+  std::uint32_t after(std::uint32_t i) const { return i + 1 == fan.count ? 0 : i + 1; }
+  glm::vec3 centroid(std::uint32_t i) const { return (fan.centre + end(i) + end(after(i))) / 3.0f; }
+  bool hasCentre() const { return fan.closed && fan.centred; }
+
+  // From a point of the mesh on a crease a little into one triangle beside it, at right angles to `along`.
+  glm::vec3 besideOf(const glm::vec3& p, const glm::vec3& along, std::uint32_t triangle) const {
+    glm::vec3 way = centroid(triangle) - p;
+    if (const float l = glm::dot(along, along); l > 0.0f) way -= along * (glm::dot(way, along) / l);
+    const float length = glm::length(way);
+    return length > beside ? p + way * (beside / length) : p + way;
+  }
+
+  // Calls take(sample) for each: at the centre, once for each sector; in each triangle; on each spoke,
+  // creases from either side.
+  template <class Take>
+  void forEachSample(const Take& take) const {
+    const std::uint32_t n = fan.triangles();
+    if (hasCentre() && fan.creases == 0) take(Sample{fan.centre, fan.centre, 1.0f, 0});
+    if (hasCentre() && fan.creases > 0)
+      forEachSector([&](std::uint32_t first, std::uint32_t count) {
+        const std::uint32_t middle = (first + count / 2) % fan.count;
+        take(Sample{fan.centre, besideOf(fan.centre, glm::vec3(0.0f), middle), 1.0f, middle});
+      });
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const glm::vec3 c = centroid(i);
+      take(Sample{c, c, 1.0f / 3.0f, i});
+    }
+    const std::uint32_t begin = fan.closed ? 0 : 1, spokes = fan.closed ? fan.count : fan.count - 1;
+    for (std::uint32_t i = begin; i < spokes; ++i) {
+      const glm::vec3 p = 0.5f * (fan.centre + end(i)), along = end(i) - fan.centre;
+      const std::uint32_t before = i == 0 ? fan.count - 1 : i - 1;
+      if (!rim[i].crease) {
+        take(Sample{p, p, 0.5f, i});
+        continue;
+      }
+      take(Sample{p, besideOf(p, along, i), 0.5f, i});
+      take(Sample{p, besideOf(p, along, before), 0.5f, before});
+    }
+  }
+
+  // Calls take(first triangle, number of triangles) for each sector, from the first crease on.
+  template <class Take>
+  void forEachSector(const Take& take) const {
+    std::uint32_t i = 0;
+    while (i < fan.count && !rim[i].crease) ++i;
+    for (std::uint32_t k = 0; k < fan.creases; ++k) {
+      std::uint32_t n = 1;
+      while (!rim[(i + n) % fan.count].crease) ++n;
+      take(i, n);
+      i = (i + n) % fan.count;
+    }
+  }
+
+  std::size_t samples() const {
+    const std::size_t centre = hasCentre() ? std::max(1u, fan.creases) : 0;
+    return centre + fan.triangles() + (fan.closed ? fan.count : fan.count - 2) + fan.creases;
+  }
+
+  // Which sector a triangle belongs to, for two of them.
+  bool inSecond(std::uint32_t triangle) const {
+    bool second = false;
+    for (std::uint32_t i = 0; i <= triangle; ++i) second ^= rim[i].crease;
+    return second;
+  }
+};
+
+}  // namespace sdf

@@ -1,0 +1,70 @@
+// What a change of the mesh would make of it, as fans of triangles around a vertex, and how far these are
+// from the surface.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "sdf/base/progress.h"
+#include "sdf/mesh/local_field.h"
+#include "sdf/mesh/remesh_topology.h"
+
+namespace sdf {
+
+/// Triangles (centre, rim[i], rim[i + 1]), counter-clockwise; a closed fan's last one returns to rim[0].
+struct Fan {
+  glm::vec3 centre;
+  std::uint32_t first;        ///< of the rim, in Fans::rim
+  std::uint32_t count;        ///< rim vertices
+  std::uint32_t creases = 0;  ///< spokes that are creases: they cut the fan into sectors
+  bool closed = true;
+  bool centred = true;  ///< the centre is to be held to the surface, too; no corner
+  std::uint32_t triangles() const { return closed ? count : count - 1; }
+};
+
+/// Many fans, each a change that could be made.
+struct Fans {
+  struct Spoke {
+    glm::vec3 end;
+    std::uint32_t vertex;
+    bool crease;
+  };
+  std::vector<Fan> all;
+  std::vector<Spoke> rim;
+
+  void clear() { all.clear(), rim.clear(); }
+  /// The triangles around v as they are.
+  void addAround(const RemeshTopology& mesh, std::uint32_t v);
+  /// Those around to(h) once from(h) is merged into it.
+  void addCollapsed(const RemeshTopology& mesh, std::uint32_t h);
+  /// The two triangles at an edge as they are, and as they were with the other diagonal: open fans.
+  void addEdge(const RemeshTopology& mesh, std::uint32_t h);
+  void addFlipped(const RemeshTopology& mesh, std::uint32_t h);
+  /// The four triangles around a point in the middle of the edge.
+  void addSplit(const RemeshTopology& mesh, std::uint32_t h);
+
+ private:
+  void begin(const glm::vec3& centre);
+  void add(const RemeshTopology& mesh, std::uint32_t vertex, bool crease);
+};
+
+/// What was found of one fan.
+struct FanError {
+  float largest = 0.0f;     ///< distance from the surface, scene units
+  std::uint32_t worst = 0;  ///< the triangle that has it
+  float spoke = 0.0f;       ///< the same at the spokes' middles
+  std::uint32_t worstSpoke = 0;
+  float energy = 0.0f;      ///< sum over the samples of (distance / tolerance)^16
+  bool sound = true;        ///< no triangle is a needle or turned away from the gradient
+  glm::vec3 normal{0.0f};   ///< of the surface at the centre, of the first sector; unit
+  glm::vec3 offset{0.0f};   ///< off or onto the surface: makes the largest distance to either side equal
+  glm::vec3 onto{0.0f};     ///< from the centre to the surface, or to the crease
+  glm::vec3 balance{0.0f};  ///< along the surface, to where the triangles' errors balance
+  glm::vec3 descent{0.0f};  ///< along the surface, the way on which the energy falls most; unit, or 0
+};
+
+/// Evaluates all fans in parallel; `errors` receives one entry for each.
+void evaluateFans(const Fans& fans, float tolerance, const LocalField& field, Progress& progress,
+                  std::vector<FanError>& errors);
+
+}  // namespace sdf

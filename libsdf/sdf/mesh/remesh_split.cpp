@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "sdf/mesh/remesh_changes.h"
+
+namespace sdf {
+namespace {
+
+// Splitting halves an edge and so quarters its error: more rounds than these do not help.
+constexpr int kRounds = 16;
+
+}  // namespace
+
+// The triangle's longest side.
+std::uint32_t RemeshChanges::longestSide(std::uint32_t h) const {
+  const auto length = [&](std::uint32_t e) {
+    return glm::distance(mesh_.positions[mesh_.from(e)], mesh_.positions[mesh_.to(e)]);
+  };
+  std::uint32_t longest = h;
+  for (const std::uint32_t e : {RemeshTopology::next(h), RemeshTopology::previous(h)})
+    if (length(e) > length(longest)) longest = e;
+  return longest;
+}
+
+// Around each vertex where the tolerance is exceeded, the edge that has most of it at its middle, or else the
+// longest side of the triangle that has most.
+std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
+  const std::uint32_t since = lastSplits_;
+  lastSplits_ = ++round_;
+  std::vector<std::uint32_t> vertices;
+  Fans fans;
+  for (std::uint32_t v = 0; v < mesh_.vertices(); ++v) {
+    if (!mesh_.vertexAlive(v) || changed_[v] < since) continue;
+    vertices.push_back(v);
+    fans.addAround(mesh_, v);
+  }
+  std::vector<FanError> errors;
+  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const FanError& e = errors[i];
+    if (e.largest <= tolerance_) continue;
+    changed_[vertices[i]] = round_;
+    std::uint32_t h = mesh_.outgoing(vertices[i]);
+    for (std::uint32_t k = 0; k < (e.spoke > tolerance_ ? e.worstSpoke : e.worst); ++k) h = mesh_.turned(h);
+    if (!(e.spoke > tolerance_)) h = longestSide(h);
+    all.push_back({-e.largest, std::min(h, mesh_.twin(h))});
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates) {
+  ++round_;
+  std::vector<std::uint32_t> chosen;
+  Fans fans;
+  for (const Candidate& c : candidates) {
+    const std::uint32_t a = c.where / 3, b = mesh_.twin(c.where) / 3;
+    if (claimed_[a] == round_ || claimed_[b] == round_) continue;
+    claimed_[a] = claimed_[b] = round_;
+    chosen.push_back(c.where);
+    fans.addSplit(mesh_, c.where);
+  }
+  if (chosen.empty()) return 0;
+  std::vector<FanError> errors;
+  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  const Fans middles = fans;
+  const std::vector<FanError> atMiddles = errors;
+  moveToOffsets(fans, errors);
+  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  if (progress_.stopped()) return 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const std::uint32_t v =
+        mesh_.split(chosen[i], (errors[i].sound || !atMiddles[i].sound ? fans : middles).all[i].centre);
+    grow();
+    normals_[v] = errors[i].normal;
+    touch(v);
+  }
+  return chosen.size();
+}
+
+bool RemeshChanges::split() {
+  for (int i = 0; i < kRounds && !progress_.stopped(); ++i) {
+    const std::vector<Candidate> candidates = splitCandidates();
+    if (candidates.empty()) return true;
+    splitRound(candidates);
+    flip();
+    relocate();
+  }
+  return false;
+}
+
+void RemeshChanges::splitTriangles(const std::vector<std::uint32_t>& triangles) {
+  std::vector<Candidate> all;
+  for (const std::uint32_t t : triangles) {
+    const std::uint32_t h = longestSide(t);
+    all.push_back({0.0f, std::min(h, mesh_.twin(h))});
+  }
+  std::sort(all.begin(), all.end());
+  splitRound(all);
+}
+
+}  // namespace sdf
