@@ -1,10 +1,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 #include "benches.h"
 #include "dense.h"
 #include "sdf/mesh/narrow_band.h"
+#include "sdf/mesh/sharpen.h"
+#include "sdf/mesh/stages.h"
 #include "shapes.h"
 
 namespace sdf::bench {
@@ -27,9 +30,42 @@ std::size_t meshSparsely(const Shape& shape, const Box& bounds, double voxelSize
   return band->extract().triangles.size();
 }
 
+// What a shape is meshed at to be as accurate as asked, from its samples to its final vertices.
+struct Accurate {
+  int n;
+  double rms;   // asked, scene units
+  double time;  // asked, as a share of the dense baseline's
+};
+constexpr Accurate kAccurate[kCompared] = {{616, 6.0e-6, 0.85},
+                                           {150, 7.7e-5, 0.072},
+                                           {312, 6.2e-5, 0.19},
+                                           {384, 6.5e-5, 0.30},
+                                           {312, 4.2e-4, 0.0085}};
+
+struct Sharp {
+  std::unique_ptr<BandField> field;
+  FeatureMesh mesh;
+};
+
+Sharp meshSharply(NarrowBand& band, const ModelTapes& model, const Box& bounds, double voxel,
+                  Progress& progress) {
+  band = sampleNarrowBand(model, {voxel, bounds, kInfinity}, progress).value();
+  Sharp sharp{std::make_unique<BandField>(band, LocalTapes{model.whole(), model.whole()->firstOutputOnly()}),
+              {}};
+  RawSurface raw = band.extract();
+  std::vector<glm::vec3> normals;
+  refineVertices(raw.points, normals, *sharp.field, progress);
+  sharp.mesh =
+      sharpen(std::move(raw.points), std::move(normals), std::move(raw.triangles), *sharp.field, progress);
+  return sharp;
+}
+
 Box region() { return Box::centred(glm::dvec3(kRegion)); }
 
 std::string sparseName(int i, int n) { return "mesh/" + shapeName(i) + "/" + std::to_string(n) + "/sparse"; }
+std::string sharpName(int i) {
+  return "mesh/" + shapeName(i) + "/" + std::to_string(kAccurate[i].n) + "/sharp";
+}
 std::string denseName(int i) { return "mesh/" + shapeName(i) + "/" + std::to_string(kResolution) + "/dense"; }
 std::string ballsName(int count) { return "mesh/" + std::to_string(count) + " balls/256"; }
 
@@ -45,6 +81,24 @@ void add(const std::string& name, int repetitions, const Work& work) {
 void addSparse(int i, int n, int repetitions) {
   add(sparseName(i, n), repetitions,
       [shape = measuringShape(i), n] { return meshSparsely(shape, region(), 2.0 * kRegion / n); });
+}
+
+// Both with the Progress and the tapes made anew, as a program would.
+std::size_t sharpTriangles(int i) {
+  Progress progress;
+  NarrowBand band;
+  return meshSharply(band, Model(measuringShape(i)).at(), region(), 2.0 * kRegion / kAccurate[i].n, progress)
+      .mesh.triangles.size();
+}
+
+double rmsOf(int i) {
+  Progress progress;
+  NarrowBand band;
+  const ModelTapes model = Model(measuringShape(i)).at();
+  const Sharp sharp = meshSharply(band, model, region(), 2.0 * kRegion / kAccurate[i].n, progress);
+  MeshStats stats;
+  measureDistance(sharp.mesh.positions, sharp.mesh.triangles, *sharp.field, progress, stats);
+  return stats.rmsDistance;
 }
 
 }  // namespace
@@ -71,6 +125,7 @@ void registerMeshing() {
   for (int i = 0; i < kCompared; ++i) {
     const int repetitions = i == kSmooth || i == kMany ? 3 : 7;  // the dense ones take seconds
     addSparse(i, kResolution, 7);
+    add(sharpName(i), 7, [i] { return sharpTriangles(i); });
     add(denseName(i), repetitions,
         [i] { return meshDensely(handwritten(i).row, kResolution, kSlope[i]).triangles.size(); });
   }
@@ -86,6 +141,12 @@ void addMeshingFigures(const Medians& medians, std::vector<Figure>& figures) {
     figures.push_back({"meshing " + shapeName(i) + ", N = 512: speed, dense baseline = 1", true,
                        i == 4 ? kSparse : 1.0,
                        medians.seconds(denseName(i)) / medians.seconds(sparseName(i, kResolution))});
+  for (int i = 0; i < kCompared; ++i) {
+    const std::string what = "sharp mesh of " + shapeName(i) + ", N = " + std::to_string(kAccurate[i].n);
+    figures.push_back({what + ": time, dense baseline at 512 = 1", false, kAccurate[i].time,
+                       medians.seconds(sharpName(i)) / medians.seconds(denseName(i))});
+    figures.push_back({what + ": RMS distance", false, kAccurate[i].rms, rmsOf(i)});
+  }
   for (const int i : {0, 1, 4})
     for (const int n : {kResolution / 2, kResolution})
       figures.push_back({"meshing " + shapeName(i) + ", N = " + std::to_string(n) + " to " +

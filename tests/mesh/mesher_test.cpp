@@ -403,5 +403,52 @@ TEST(MeshShape, HasUnitNormalsHoweverSlightOrSteepTheFieldIs) {
   }
 }
 
+TEST(MeshShape, KeepsAToleranceWithFewTriangles) {
+  const Shape turned = rotate(box({1.0, 0.6, 0.8}), {0.3, 0.5, 0.2});
+  const MeshedShape cuboid = meshed(turned, {.voxelSize = 0.05, .tolerance = 1e-3});
+  EXPECT_EQ(cuboid.mesh.triangles.size(), 12u);
+  EXPECT_EQ(cuboid.mesh.welded, 8u);
+  EXPECT_EQ(cuboid.stats.tolerance, 1e-3);
+  const MeshedShape ball = meshed(sphere(1.0), {.voxelSize = 0.04, .tolerance = 1e-3});
+  EXPECT_LE(ball.stats.maxDistance, 1e-3);
+  EXPECT_LE(ball.mesh.triangles.size(), 3200u);  // 1.3 times the fewest, 0.1925 * 4 pi / 1e-3
+  EXPECT_TRUE(ball.stats.watertight && ball.stats.manifold);
+  EXPECT_EQ(meshed(sphere(1.0), {.voxelSize = 0.04}).stats.tolerance, 0.0);
+}
+
+TEST(MeshShape, HalvesVoxelsForAToleranceUntilThinPartsAreSeen) {
+  // A fifth of a voxel thick, and between the samples.
+  const Shape plate = translate(box({1.5, 1.5, 0.01}), {0.0137, 0.0213, 0.0311});
+  const MeshedShape m = meshed(plate, {.voxelSize = 4.0 / 64, .tolerance = 1e-3});
+  EXPECT_EQ(m.mesh.triangles.size(), 12u);
+  EXPECT_EQ(m.stats.unresolved, 0u);
+  EXPECT_LT(m.stats.voxelSize, 0.02);
+}
+
+TEST(MeshShape, LeavesWhatIsPaintedToItsVoxels) {
+  const MeshedShape m = meshed(paintedPair(), {.voxelSize = 0.05, .tolerance = 1e-3});
+  EXPECT_EQ(m.stats.tolerance, 0.0);
+  EXPECT_EQ(m.mesh.triangles.size(), meshed(paintedPair(), {.voxelSize = 0.05}).mesh.triangles.size());
+}
+
+TEST(MeshShape, SaysWhichToleranceCannotBeKept) {
+  const auto tiny = tryMesh(sphere(1.0), {.voxelSize = 0.04, .tolerance = 1e-7});
+  ASSERT_FALSE(tiny.ok());
+  EXPECT_EQ(tiny.error().kind, ErrorKind::Limits);
+  EXPECT_EQ(
+      tiny.error().message,
+      "part 'floor': a tolerance of 1e-07 is below the rounding of coordinates at this size; take at least "
+      "1.90735e-06");
+  // Walls between two bores that run out to nothing.
+  const Shape knives = subtract({box(Vec3E(1.0)), translate(infiniteCylinder(0.5), {0.501, 0.0, 0.0}),
+                                 translate(infiniteCylinder(0.5), {-0.501, 0.0, 0.0})});
+  const auto refused = tryMesh(knives, {.voxelSize = 0.2, .tolerance = 1e-5});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::Limits);
+  EXPECT_NE(refused.error().message.find("could not be kept; the best that was reached is "),
+            std::string::npos)
+      << refused.error().message;
+}
+
 }  // namespace
 }  // namespace sdf::test

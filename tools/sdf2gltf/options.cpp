@@ -19,7 +19,8 @@ namespace {
 /// The command line's words, before they are looked at closer. All are text, so that messages are our own.
 struct Words {
   std::string scene, output;
-  std::optional<std::string> voxelSize, bounds, time, frames, fps, only, report, threads, maxMemory;
+  std::optional<std::string> voxelSize, tolerance, bounds, time, frames, fps, only, report, threads,
+      maxMemory;
   std::vector<std::string> parameters;
   bool animate = false, bake = false, compress = false, certify = false, quiet = false;
 };
@@ -71,6 +72,8 @@ void declare(CLI::App& app, Words& words) {
   add("-o,--output", words.output, "OUT", "file to write: .glb .gltf .stl .ply .obj")->required();
   add("--voxel-size", words.voxelSize, "H",
       "sampling distance in scene units [1/200 of the longest side of all that is exported]");
+  add("--tolerance", words.tolerance, "E",
+      "distance that meshes of one colour keep with few triangles, in scene units [none]");
   add("--bounds", words.bounds, "x0,y0,z0,x1,y1,z1", "clip to this box, closed [the scene's bounds]");
   add("-D", words.parameters, "name=value", "set a parameter of the scene; may be repeated")
       ->allow_extra_args(false);
@@ -112,6 +115,7 @@ Result<Options> interpreted(const Words& words) {
   if (Status s = checkExtension(words.output); !s) return s.error();
   for (const Status& s : {checkBake(words), checkCompress(words), checkSequence(words),
                           take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
+                          take<double>("--tolerance", words.tolerance, options.tolerance, positive),
                           take<double>("--time", words.time, options.time, seconds),
                           take<int>("--frames", words.frames, options.frames, count),
                           take<double>("--fps", words.fps, options.framesPerSecond, positive),

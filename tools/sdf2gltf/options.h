@@ -16,6 +16,7 @@ struct Options {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::optional<double> voxelSize;
+  std::optional<double> tolerance;
   std::optional<Box> bounds;
   std::map<std::string, double> parameters;
   double time = 0.0;

@@ -70,6 +70,7 @@ Json json(const ReportLine& line) {
           {"stage_seconds", stages},
           {"peak_memory_bytes", static_cast<std::uint64_t>(line.peakMemory)},
           {"voxel_size", stats.voxelSize},
+          {"tolerance", stats.tolerance > 0.0 ? Json(stats.tolerance) : Json(nullptr)},
           {"voxels", stats.voxels},
           {"vertices", stats.vertices},
           {"triangles", stats.triangles},

@@ -40,6 +40,7 @@ struct MeshStats {
   std::uint64_t vertices = 0;  ///< distinct points
   std::uint64_t triangles = 0;
   double voxelSize = 0.0;
+  double tolerance = 0.0;    ///< that maxDistance was to keep; 0: none
   double rmsDistance = 0.0;  ///< of samples on the mesh to the scene's surface, scene units
   double maxDistance = 0.0;
   glm::vec3 farthest{0.0f};  ///< the sample of maxDistance

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sdf/mesh/certify.h"
+#include "sdf/mesh/remesh.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
@@ -46,6 +47,24 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
   return intersect(shape, translate(box(Vec3E(by.size() * 0.5)), Vec3E(by.centre())));
 }
 
+// Of the longest side of the bounds: below it positions, which are floats, cannot keep a tolerance.
+constexpr double kLeastTolerance = 0x1p-20;
+// How often voxels are halved for a tolerance, and for what they do not resolve.
+constexpr int kHalvings = 3;
+// Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
+// cannot mend.
+constexpr double kResolved = 0.25;
+// A mesh of more than these is not tried again with four times as many.
+constexpr std::size_t kMostTriangles = 250'000;
+
+// Is there nothing on the surface but its shape that coarse triangles would blur?
+bool isOfOneColor(const Shape& shape) {
+  for (const Attribute a : {Attribute::Red, Attribute::Green, Attribute::Blue, Attribute::AmbientRed,
+                            Attribute::AmbientGreen, Attribute::AmbientBlue, Attribute::MaterialId})
+    if (!shape.surface[static_cast<int>(a)].isConstant()) return false;
+  return true;
+}
+
 // Runs the stages of one mesh and keeps their times.
 class Mesher {
  public:
@@ -57,29 +76,63 @@ class Mesher {
     begin("bounds");
     const Result<Box> bounds = boundsOf(shape);
     if (!bounds) return bounds.error();
-    begin("sampling");
-    const double h =
-        options_.voxelSize > 0.0 ? options_.voxelSize : bounds->longestSide() / kDefaultResolution;
-    LocalTapes whole;
-    Result<NarrowBand> sampled = sample(shape, {h, *bounds, options_.maxMemory}, whole);
-    if (!sampled) return sampled.error();
-    const BandField field(*sampled, std::move(whole));
+    double h = options_.voxelSize > 0.0 ? options_.voxelSize : bounds->longestSide() / kDefaultResolution;
+    if (const double least = kLeastTolerance * bounds->longestSide();
+        options_.tolerance > 0.0 && options_.tolerance < least)
+      return Error{ErrorKind::Limits,
+                   "part '" + name_ + "': a tolerance of " + shown(options_.tolerance) +
+                       " is below the rounding of coordinates at this size; take at least " + shown(least)};
+    const bool thins = options_.tolerance > 0.0 && isOfOneColor(shape);
+    for (int halvings = 0;; ++halvings, h /= 2.0) {
+      begin("sampling");
+      LocalTapes whole;
+      Result<NarrowBand> sampled = sample(shape, {h, *bounds, options_.maxMemory}, whole);
+      if (!sampled) return sampled.error();
+      const BandField field(*sampled, std::move(whole));
+      FeatureMesh mesh = extract(*sampled, field);
+      const bool last =
+          !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
+      if (!last && result_.stats.unresolved > 0) continue;
+      if (mesh.triangles.empty()) return noSurface(h);
+      if (thins) {
+        begin("remeshing");
+        result_.stats.tolerance = options_.tolerance;
+        measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
+        if (result_.stats.maxDistance > std::max(options_.tolerance, kResolved * h)) {
+          if (!last) continue;
+          return checkTolerance().error();
+        }
+        const bool kept = remesh(mesh, field, {options_.tolerance}, progress_).kept;
+        if (!kept && !last) continue;
+      }
+      return finish(shape, *bounds, h, *sampled, field, mesh);
+    }
+  }
+
+ private:
+  // The mesh at the voxels' resolution, with its creases; empty where there is none.
+  FeatureMesh extract(NarrowBand& band, const BandField& field) {
     begin("extraction");
-    RawSurface raw = sampled->extract();
-    if (raw.triangles.empty()) return noSurface(h);
+    RawSurface raw = band.extract();
+    if (raw.triangles.empty()) return {};
     begin("projection");
     std::vector<glm::vec3> normals;
     refineVertices(raw.points, normals, field, progress_);
     begin("creases");
-    const FeatureMesh features =
-        sharpen(std::move(raw.points), std::move(normals), std::move(raw.triangles), field, progress_);
+    return sharpen(std::move(raw.points), std::move(normals), std::move(raw.triangles), field, progress_);
+  }
+
+  // Measures, checks and colours what was made.
+  Result<MeshedShape> finish(const Shape& shape, const Box& bounds, double voxel, const NarrowBand& band,
+                             const BandField& field, const FeatureMesh& features) {
     begin("measuring");
     const std::vector<float> distances =
         measureDistance(features.positions, features.triangles, field, progress_, result_.stats);
     measureTopology(features.triangles, features.positions.size(), result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    if (Status s = checkClaims(features, *bounds, h, distances); !s) return s.error();
-    if (Status s = certifyMesh(shape, features, *bounds, h); !s) return s.error();
+    if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
+    if (Status s = checkTolerance(); !s) return s.error();
+    if (Status s = certifyMesh(shape, features, bounds, voxel); !s) return s.error();
     begin("normals");
     Mesh& mesh = result_.mesh;
     splitAtCreases(features, field, progress_, mesh);
@@ -87,14 +140,23 @@ class Mesher {
     colorMesh(shape, options_.values, field, progress_, mesh);
     end();
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    result_.stats.voxels = sampled->sampleCount();
-    result_.stats.voxelSize = h;
-    result_.stats.notNumbers = sampled->notNumbers().count;
-    result_.stats.firstNotNumber = sampled->notNumbers().first;
+    result_.stats.voxels = band.sampleCount();
+    result_.stats.voxelSize = voxel;
+    result_.stats.notNumbers = band.notNumbers().count;
+    result_.stats.firstNotNumber = band.notNumbers().first;
     return std::move(result_);
   }
 
- private:
+  Status checkTolerance() const {
+    const MeshStats& stats = result_.stats;
+    if (stats.tolerance == 0.0 || stats.maxDistance <= stats.tolerance) return okStatus();
+    return Error{ErrorKind::Limits,
+                 "part '" + name_ + "': a tolerance of " + shown(stats.tolerance) +
+                     " could not be kept; the best that was reached is " + shown(stats.maxDistance) +
+                     ", at " + place(stats.farthest) +
+                     ". Take a larger tolerance, a smaller voxel size, or leave the tolerance out"};
+  }
+
   // The finite box to mesh in; clips the shape where the options say so.
   Result<Box> boundsOf(Shape& shape) {
     Box bounds = findBounds(shape);
@@ -186,16 +248,18 @@ class Mesher {
             "where the slope is not known. Take a smaller voxel size, or leave --certify out"};
   }
 
-  // Ends the present stage, if there is one, and begins another.
+  // Ends the present stage, if there is one, and begins another, or one of before again.
   void begin(const char* stage) {
     end();
     progress_.beginStage(stage);
-    result_.stageSeconds.emplace_back(stage, 0.0);
+    auto& stages = result_.stageSeconds;
+    stage_ = std::ranges::find(stages, stage, [](const auto& s) { return s.first; }) - stages.begin();
+    if (stage_ == stages.size()) stages.emplace_back(stage, 0.0);
     began_ = Clock::now();
   }
   void end() {
     if (result_.stageSeconds.empty()) return;
-    result_.stageSeconds.back().second = std::chrono::duration<double>(Clock::now() - began_).count();
+    result_.stageSeconds[stage_].second += std::chrono::duration<double>(Clock::now() - began_).count();
   }
 
   using Clock = std::chrono::steady_clock;
@@ -203,6 +267,7 @@ class Mesher {
   const MeshOptions& options_;
   Progress& progress_;
   MeshedShape result_;
+  std::size_t stage_ = 0;
   Clock::time_point began_;
 };
 

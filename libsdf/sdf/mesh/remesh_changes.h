@@ -52,6 +52,8 @@ class RemeshChanges {
   std::uint32_t collapsible(std::uint32_t h) const;
   std::vector<Candidate> collapseCandidates() const;
   bool collapseRound(std::size_t most, bool strict);
+  // Is the edge long enough to be resolved when it is halved?
+  bool maySplit(std::uint32_t edge) const;
   std::uint32_t longestSide(std::uint32_t h) const;
   std::vector<Candidate> splitCandidates();
   std::size_t splitRound(const std::vector<Candidate>& candidates);

@@ -10,7 +10,15 @@ namespace {
 // Splitting halves an edge and so quarters its error: more rounds than these do not help.
 constexpr int kRounds = 16;
 
+// Voxels: what exceeds the tolerance on shorter edges is not resolved by the field.
+constexpr double kShortest = 1.0 / 16;
+
 }  // namespace
+
+bool RemeshChanges::maySplit(std::uint32_t edge) const {
+  const glm::vec3 &a = mesh_.positions[mesh_.from(edge)], &b = mesh_.positions[mesh_.to(edge)];
+  return glm::distance(a, b) > kShortest * field_.finder()->at(a).voxel;
+}
 
 // The triangle's longest side.
 std::uint32_t RemeshChanges::longestSide(std::uint32_t h) const {
@@ -45,7 +53,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
     std::uint32_t h = mesh_.outgoing(vertices[i]);
     for (std::uint32_t k = 0; k < (e.spoke > tolerance_ ? e.worstSpoke : e.worst); ++k) h = mesh_.turned(h);
     if (!(e.spoke > tolerance_)) h = longestSide(h);
-    all.push_back({-e.largest, std::min(h, mesh_.twin(h))});
+    if (maySplit(h)) all.push_back({-e.largest, std::min(h, mesh_.twin(h))});
   }
   std::sort(all.begin(), all.end());
   return all;
@@ -95,7 +103,7 @@ void RemeshChanges::splitTriangles(const std::vector<std::uint32_t>& triangles) 
   std::vector<Candidate> all;
   for (const std::uint32_t t : triangles) {
     const std::uint32_t h = longestSide(t);
-    all.push_back({0.0f, std::min(h, mesh_.twin(h))});
+    if (maySplit(h)) all.push_back({0.0f, std::min(h, mesh_.twin(h))});
   }
   std::sort(all.begin(), all.end());
   splitRound(all);
