@@ -75,8 +75,8 @@ TEST(Scale, AnyOtherRoundsPositionsOnly) {
       SCOPED_TRACE(std::string(solid.name) + " times " + std::to_string(scale));
       const MeshedShape other = meshedAt(solid, scale, scale * kVoxel);
       EXPECT_NEAR(other.stats.maxDistance / scale, one.stats.maxDistance, distanceRounding({}, size));
-      // Where the blend takes the box's edges up they fade out: rounding decides which angle is the last to be
-      // one of a crease, at the ends of up to twelve edges.
+      // Where the blend takes the box's edges up they fade out: rounding decides which angle is the last to
+      // be one of a crease, at the ends of up to twelve edges.
       if (std::string(solid.name) == "blended union") {
         ASSERT_NEAR(static_cast<double>(other.stats.vertices), static_cast<double>(one.stats.vertices), 24.0);
         continue;

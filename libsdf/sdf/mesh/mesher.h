@@ -15,7 +15,7 @@
 namespace sdf {
 
 struct MeshOptions {
-  double voxelSize = 0.0;       ///< scene units; 0 takes 1/200 of the longest side of the bounds
+  double voxelSize = 0.0;  ///< scene units; 0 takes 1/200 of the longest side of the bounds
   /// Distance between mesh and surface that a shape of one colour is to keep with few triangles, scene units;
   /// its voxels are halved up to three times for it, and for what is thinner than they are. 0: none.
   double tolerance = 0.0;
