@@ -219,9 +219,31 @@ void placeRun(const PointRun& run, CreasePoint* points) {
     CreasePlacer(run, {points + first, std::min(run.count - first, kBatchPoints / 2)}).place();
 }
 
-// What is interpolated between samples has a kink wherever two of its cells meet, which are no creases.
-bool isInterpolated(const Tape& tape) {
-  return std::ranges::any_of(tape.program(), [](const auto& i) { return i.op == Op::Payload; });
+// Can the surface of this formula have creases? What it is made of may be smooth; and what is interpolated
+// between samples has a kink wherever two of its cells meet, which are no creases.
+bool mayCrease(const Tape& tape) {
+  bool kinks = false;
+  for (const RegisterInstruction& i : tape.program()) switch (i.op) {
+      case Op::Payload:
+        return false;
+      case Op::Neg:
+      case Op::Square:
+      case Op::Sin:
+      case Op::Cos:
+      case Op::Exp:
+      case Op::Add:
+      case Op::Sub:
+      case Op::Mul:
+      case Op::Div:
+      case Op::MulAdd:
+      case Op::Length2:
+      case Op::Length3:
+      case Op::Distance3:
+        break;
+      default:
+        kinks = true;
+    }
+  return kinks;
 }
 
 /// The part of an edge where the gradient turns most.
@@ -319,7 +341,7 @@ std::vector<Crossing> findCrossings(const std::vector<glm::vec3>& positions,
   forEachRun(
       edges.size(), [&](std::size_t i) { return middle(edges[i]); }, field, progress,
       [&](const PointRun& run) {
-        if (isInterpolated(*run.tapes.distance)) return;
+        if (!mayCrease(*run.tapes.distance)) return;
         RunGradients g;
         g.evaluate(run, run.points);
         for (std::size_t i = 0; i < run.count; ++i) {

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <unordered_map>
+#include <utility>
 
 #include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/stages.h"
@@ -44,10 +45,15 @@ class Sharpener {
     nameCrossings();
     vertexOf_.assign(crossings_.size(), kNone);
     findCorners();
-    for (const glm::uvec3& t : triangles_) cut(t);
+    mesh_.triangles = std::move(triangles_);
+    const std::size_t whole = mesh_.triangles.size();
+    for (place_ = 0; place_ < whole; ++place_)
+      if (const glm::uvec3 t = mesh_.triangles[place_]; touched_[t.x] + touched_[t.y] + touched_[t.z] > 1) {
+        first_ = true;
+        cut(t);
+      }
     std::ranges::sort(mesh_.creases);
-    collapseShortEdges(mesh_, pieceNormals_, anchors_,
-                       kShort * field_.finder()->at(mesh_.positions[0]).voxel);
+    collapseShortEdges(mesh_, normals_, anchors_, kShort * field_.finder()->at(mesh_.positions[0]).voxel);
     return std::move(mesh_);
   }
 
@@ -125,15 +131,17 @@ class Sharpener {
     return x[0] != kNone && x[1] != kNone && x[2] != kNone;
   }
 
-  std::uint32_t add(const glm::vec3& p) {
+  std::uint32_t addVertex(const glm::vec3& p) {
     mesh_.positions.push_back(p);
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
   }
 
-  // A triangle on the piece of a vertex of the uncut mesh.
-  void add(const glm::uvec3& triangle, std::uint32_t piece) {
-    mesh_.triangles.push_back(triangle);
-    pieceNormals_.push_back(normals_[piece]);
+  // The first piece of a triangle takes its place.
+  void add(const glm::uvec3& triangle) {
+    if (std::exchange(first_, false))
+      mesh_.triangles[place_] = triangle;
+    else
+      mesh_.triangles.push_back(triangle);
   }
 
   void addCrease(std::uint32_t a, std::uint32_t b) {
@@ -144,7 +152,7 @@ class Sharpener {
     if (crossing == kNone) return kNone;
     if (vertexOf_[crossing] == kNone) {
       const CreasePoint& p = crossings_[crossing].point;
-      vertexOf_[crossing] = add(p.at);
+      vertexOf_[crossing] = addVertex(p.at);
       if (p.corner) anchors_.push_back(vertexOf_[crossing]);
     }
     return vertexOf_[crossing];
@@ -172,39 +180,39 @@ class Sharpener {
     const auto x = crossingsOf(t);
     if (isThreefold(x)) return cutAroundCorner(t, x);
     const int count = (x[0] != kNone) + (x[1] != kNone) + (x[2] != kNone);
-    if (count == 0) return add(t, t.x);
+    if (count == 0) return;
     // Turned so that the first edge is cut, and of two the last, too.
     int first = 0;
     while (x[first] == kNone || (count == 2 && x[(first + 2) % 3] == kNone)) ++first;
     const std::uint32_t a = t[first], b = t[(first + 1) % 3], c = t[(first + 2) % 3], ab = vertexAt(x[first]);
     if (count == 1) {
-      add({a, ab, c}, a);
-      add({ab, b, c}, b);
+      add({a, ab, c});
+      add({ab, b, c});
       return;
     }
     const std::uint32_t ca = vertexAt(x[(first + 2) % 3]);
-    add({a, ab, ca}, a);
+    add({a, ab, ca});
     addCrease(ab, ca);
     const auto length = [&](std::uint32_t p, std::uint32_t q) {
       return glm::distance(mesh_.positions[p], mesh_.positions[q]);
     };
     if (length(ab, c) <= length(b, ca)) {
-      add({ab, b, c}, b);
-      add({ab, c, ca}, c);
+      add({ab, b, c});
+      add({ab, c, ca});
     } else {
-      add({ab, b, ca}, b);
-      add({b, c, ca}, c);
+      add({ab, b, ca});
+      add({b, c, ca});
     }
   }
 
   void cutAroundCorner(const glm::uvec3& t, const std::array<std::uint32_t, 3>& x) {
     const CornerPoint& found = corners_[nextCorner_++];
-    const std::uint32_t corner = add(found.at);
+    const std::uint32_t corner = addVertex(found.at);
     if (found.placed) anchors_.push_back(corner);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t on = vertexAt(x[k]);
-      add({t[k], on, corner}, t[k]);
-      add({on, t[(k + 1) % 3], corner}, t[(k + 1) % 3]);
+      add({t[k], on, corner});
+      add({on, t[(k + 1) % 3], corner});
       addCrease(on, corner);
     }
   }
@@ -216,7 +224,8 @@ class Sharpener {
   const LocalField& field_;
   Progress& progress_;
   FeatureMesh mesh_;
-  std::vector<glm::vec3> pieceNormals_;  // by triangle
+  std::size_t place_ = 0;  // of the triangle that is cut
+  bool first_ = false;     // none of its pieces has been added
   std::vector<Crossing> crossings_;
   std::unordered_map<std::uint64_t, std::uint32_t> crossingOf_;
   std::vector<char> touched_;

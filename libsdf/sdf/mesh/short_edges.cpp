@@ -1,5 +1,7 @@
 #include "sdf/mesh/short_edges.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <tuple>
@@ -17,10 +19,10 @@ constexpr int kPasses = 4;
 
 class Collapser {
  public:
-  Collapser(FeatureMesh& mesh, std::vector<glm::vec3>& pieceNormals,
+  Collapser(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
             const std::vector<std::uint32_t>& anchors, double shortest)
-      : mesh_(mesh), normals_(pieceNormals), shortest_(shortest), fanOf_(mesh.positions.size(), 0) {
-    listTriangles();
+      : mesh_(mesh), shortest_(shortest), fanOf_(mesh.positions.size(), 0) {
+    list(normals);
     for (const std::uint32_t v : anchors) fan(v).anchored = true;
     for (const auto& [a, b] : mesh_.creases) fan(a).creases.push_back(b), fan(b).creases.push_back(a);
   }
@@ -54,32 +56,48 @@ class Collapser {
     }
   };
 
+  // A triangle near a crease.
+  struct Local {
+    glm::uvec3 corners;
+    glm::vec3 normal;     // of its piece
+    std::uint32_t place;  // in the mesh
+  };
+
   // Lists the triangles at creases, those that are turned, and those that touch them.
-  void listTriangles() {
+  void list(const std::vector<glm::vec3>& normals) {
     enum : char { kFar, kNear, kMiddle };
     std::vector<char> marks(mesh_.positions.size(), kFar);
     const auto touches = [&](const glm::uvec3& t, char mark) {
       return marks[t.x] >= mark || marks[t.y] >= mark || marks[t.z] >= mark;
     };
     const auto mark = [&](std::uint32_t v, char mark) { marks[v] = std::max(marks[v], mark); };
+    // That of a vertex that has one: it is on the triangle's piece.
+    const auto pieceNormal = [&](const glm::uvec3& t) { return normals[std::min({t.x, t.y, t.z})]; };
     for (const auto& [a, b] : mesh_.creases) mark(a, kMiddle), mark(b, kMiddle);
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-      if (const glm::uvec3& c = mesh_.triangles[t]; upright(t, c.x, c.x) < kUpright)
-        for (int k = 0; k < 3; ++k) mark(c[k], kMiddle);
+    std::vector<char> turned(mesh_.triangles.size());
+    tbb::parallel_for(std::size_t{0}, turned.size(), [&](std::size_t t) {
+      const glm::uvec3& c = mesh_.triangles[t];
+      turned[t] = upright(c, pieceNormal(c)) < kUpright;
+    });
+    for (std::size_t t = 0; t < turned.size(); ++t)
+      if (turned[t])
+        for (int k = 0; k < 3; ++k) mark(mesh_.triangles[t][k], kMiddle);
     for (const glm::uvec3& t : mesh_.triangles)
       if (touches(t, kMiddle))
         for (int k = 0; k < 3; ++k) mark(t[k], kNear);
     fans_.resize(1);  // of all that is far
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (!touches(mesh_.triangles[t], kNear)) continue;
-      listed_.push_back(t);
+      const glm::uvec3& corners = mesh_.triangles[t];
+      if (!touches(corners, kNear)) continue;
+      const auto local = static_cast<std::uint32_t>(triangles_.size());
+      triangles_.push_back({corners, pieceNormal(corners), t});
       for (int k = 0; k < 3; ++k) {
-        const std::uint32_t v = mesh_.triangles[t][k];
+        const std::uint32_t v = corners[k];
         if (fanOf_[v] == 0) {
           fanOf_[v] = static_cast<std::uint32_t>(fans_.size());
           fans_.push_back({.vertex = v, .whole = marks[v] >= kNear});
         }
-        fan(v).triangles.push_back(t);
+        fan(v).triangles.push_back(local);
       }
     }
   }
@@ -94,7 +112,7 @@ class Collapser {
       const std::uint32_t v = fan.vertex;
       for (const std::uint32_t t : fan.triangles)
         for (int k = 0; k < 3; ++k) {
-          const std::uint32_t w = mesh_.triangles[t][k];
+          const std::uint32_t w = triangles_[t].corners[k];
           if (w == v) continue;
           if (const double d = length(v, w); d < shortest_) edges.push_back({d, w, v});
         }
@@ -105,9 +123,9 @@ class Collapser {
   // Those of the triangles around the corners of such as are turned.
   std::vector<Edge> edgesAtTurned() const {
     std::vector<Edge> edges;
-    for (const std::uint32_t t : listed_) {
-      const glm::uvec3& c = mesh_.triangles[t];
-      if (c.x == c.y || upright(t, c.x, c.x) >= kUpright) continue;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      const glm::uvec3& c = triangles_[t].corners;
+      if (c.x == c.y || upright(t) >= kUpright) continue;
       for (int k = 0; k < 3; ++k)
         for (const std::uint32_t other : neighbours(c[k])) {
           edges.push_back({length(c[k], other), c[k], other});
@@ -119,18 +137,19 @@ class Collapser {
 
   void collapseAll(std::vector<Edge>& edges, bool turned) {
     std::sort(edges.begin(), edges.end());
-    for (const Edge& e : edges)
-      if (fan(e.gone).whole && fan(e.kept).whole && !fan(e.gone).triangles.empty() &&
-          !fan(e.kept).triangles.empty() && mayGo(e.gone, e.kept) && linked(e.gone, e.kept) &&
-          (turned ? turnsBack(e.gone, e.kept) : staysUpright(e.gone, e.kept)))
-        collapse(e.gone, e.kept);
+    const auto same = [](const Edge& a, const Edge& b) { return a.gone == b.gone && a.kept == b.kept; };
+    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+    for (const auto& [length, gone, kept] : edges)
+      if (!fan(gone).triangles.empty() && !fan(kept).triangles.empty() && mayGo(gone, kept) &&
+          (turned ? turnsBack(gone, kept) : staysUpright(gone, kept)) && linked(gone, kept))
+        collapse(gone, kept);
   }
 
   // Are fewer triangles turned afterwards?
   bool turnsBack(std::uint32_t gone, std::uint32_t kept) const {
     int before = 0, after = 0;
     for (const std::uint32_t t : fan(gone).triangles) {
-      const bool was = upright(t, gone, gone) < kUpright;
+      const bool was = upright(t) < kUpright;
       const bool is = !contains(t, kept) && upright(t, gone, kept) < kUpright;
       before += was, after += is;
     }
@@ -147,27 +166,27 @@ class Collapser {
         if (count == 2) return;
         sides[count++] = t;
       }
-    if (count != 2 || std::min(upright(sides[0], a, a), upright(sides[1], a, a)) >= kUpright) return;
+    if (count != 2 || std::min(upright(sides[0]), upright(sides[1])) >= kUpright) return;
     const std::uint32_t c = third(sides[0], a, b), d = third(sides[1], a, b);
     if (c == d || !fan(c).whole || !fan(d).whole || has(neighbours(c), d)) return;
-    const glm::uvec3 old[2] = {mesh_.triangles[sides[0]], mesh_.triangles[sides[1]]};
+    const glm::uvec3 old[2] = {triangles_[sides[0]].corners, triangles_[sides[1]].corners};
     // Each loses one end of the edge for the other's third vertex.
     replace(sides[0], b, d), replace(sides[1], a, c);
-    if (std::min(upright(sides[0], a, a), upright(sides[1], b, b)) >= kUpright) {
+    if (std::min(upright(sides[0]), upright(sides[1])) >= kUpright) {
       std::erase(fan(b).triangles, sides[0]), std::erase(fan(a).triangles, sides[1]);
       fan(d).triangles.push_back(sides[0]), fan(c).triangles.push_back(sides[1]);
       return;
     }
-    mesh_.triangles[sides[0]] = old[0], mesh_.triangles[sides[1]] = old[1];
+    triangles_[sides[0]].corners = old[0], triangles_[sides[1]].corners = old[1];
   }
 
   std::uint32_t third(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
-    const glm::uvec3& c = mesh_.triangles[t];
+    const glm::uvec3& c = triangles_[t].corners;
     return c.x != a && c.x != b ? c.x : c.y != a && c.y != b ? c.y : c.z;
   }
   void replace(std::uint32_t t, std::uint32_t vertex, std::uint32_t by) {
     for (int k = 0; k < 3; ++k)
-      if (mesh_.triangles[t][k] == vertex) mesh_.triangles[t][k] = by;
+      if (triangles_[t].corners[k] == vertex) triangles_[t].corners[k] = by;
   }
 
   double length(std::uint32_t a, std::uint32_t b) const {
@@ -177,12 +196,13 @@ class Collapser {
     return std::find(list.begin(), list.end(), v) != list.end();
   }
   bool contains(std::uint32_t t, std::uint32_t v) const {
-    const glm::uvec3& c = mesh_.triangles[t];
+    const glm::uvec3& c = triangles_[t].corners;
     return c.x == v || c.y == v || c.z == v;
   }
 
   bool mayGo(std::uint32_t gone, std::uint32_t kept) const {
     const Fan& own = fan(gone);
+    if (!own.whole || !fan(kept).whole) return false;
     if (own.creases.empty()) return true;
     return has(own.creases, kept) && (!own.anchored || length(gone, kept) < kSamePoint * shortest_);
   }
@@ -191,7 +211,7 @@ class Collapser {
     std::vector<std::uint32_t> around;
     for (const std::uint32_t t : fan(v).triangles)
       for (int k = 0; k < 3; ++k)
-        if (mesh_.triangles[t][k] != v) around.push_back(mesh_.triangles[t][k]);
+        if (triangles_[t].corners[k] != v) around.push_back(triangles_[t].corners[k]);
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
     return around;
@@ -206,23 +226,28 @@ class Collapser {
 
   // The cosine between a triangle and its piece, with one of its vertices elsewhere; -1 of a needle, and 1 of
   // one that will go with an edge of no length.
-  double upright(std::uint32_t t, std::uint32_t vertex, std::uint32_t elsewhere) const {
-    glm::dvec3 p[3];
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = mesh_.triangles[t][k];
-      p[k] = glm::dvec3(mesh_.positions[v == vertex ? elsewhere : v]);
-    }
-    const glm::dvec3 u = p[1] - p[0], v = p[2] - p[0], w = v - u, area = glm::cross(u, v);
+  double upright(const glm::uvec3& corners, const glm::vec3& normal) const {
+    const glm::dvec3 p(mesh_.positions[corners.x]);
+    const glm::dvec3 u = glm::dvec3(mesh_.positions[corners.y]) - p,
+                     v = glm::dvec3(mesh_.positions[corners.z]) - p, w = v - u, area = glm::cross(u, v);
     const double size = glm::length(area),
                  longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
-    if (std::min({glm::length(u), glm::length(v), glm::length(w)}) < kSamePoint * shortest_) return 1.0;
-    return size > kNeedle * longest ? glm::dot(area, glm::dvec3(normals_[t])) / size : -1.0;
+    const double least = kSamePoint * shortest_;
+    if (std::min({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)}) < least * least) return 1.0;
+    return size > kNeedle * longest ? glm::dot(area, glm::dvec3(normal)) / size : -1.0;
+  }
+  double upright(std::uint32_t t) const { return upright(triangles_[t].corners, triangles_[t].normal); }
+  // With one of its vertices elsewhere.
+  double upright(std::uint32_t t, std::uint32_t vertex, std::uint32_t elsewhere) const {
+    glm::uvec3 corners = triangles_[t].corners;
+    for (int k = 0; k < 3; ++k)
+      if (corners[k] == vertex) corners[k] = elsewhere;
+    return upright(corners, triangles_[t].normal);
   }
 
   bool staysUpright(std::uint32_t gone, std::uint32_t kept) const {
     for (const std::uint32_t t : fan(gone).triangles)
-      if (!contains(t, kept) && upright(t, gone, kept) < std::min(kUpright, upright(t, gone, gone)))
-        return false;
+      if (!contains(t, kept) && upright(t, gone, kept) < std::min(kUpright, upright(t))) return false;
     return true;
   }
 
@@ -230,8 +255,8 @@ class Collapser {
     for (const std::uint32_t t : fan(gone).triangles) {
       if (contains(t, kept)) {
         for (int k = 0; k < 3; ++k)
-          if (mesh_.triangles[t][k] != gone) std::erase(fan(mesh_.triangles[t][k]).triangles, t);
-        mesh_.triangles[t] = glm::uvec3(0u);
+          if (triangles_[t].corners[k] != gone) std::erase(fan(triangles_[t].corners[k]).triangles, t);
+        triangles_[t].corners = glm::uvec3(0u);
         continue;
       }
       replace(t, gone, kept);
@@ -247,27 +272,24 @@ class Collapser {
     fan(gone) = {.vertex = gone, .whole = true};
   }
 
-  // Drops what is gone, keeping the order.
+  // Puts the triangles back and drops what is gone, keeping the order.
   void compact() {
-    std::vector<std::uint32_t> place(mesh_.positions.size(), ~0u);
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (mesh_.triangles[t].x == mesh_.triangles[t].y) continue;
-      mesh_.triangles[kept] = mesh_.triangles[t];
-      normals_[kept++] = normals_[t];
-    }
-    mesh_.triangles.resize(kept);
-    normals_.resize(kept);
-    for (const glm::uvec3& t : mesh_.triangles)
-      for (int k = 0; k < 3; ++k) place[t[k]] = 0;
+    for (const Local& t : triangles_) mesh_.triangles[t.place] = t.corners;
+    std::erase_if(mesh_.triangles, [](const glm::uvec3& t) { return t.x == t.y; });
+    for (const Fan& fan : fans_)
+      if (fan.whole && fan.triangles.empty()) fanOf_[fan.vertex] = kGone;
+    std::vector<std::uint32_t>& place = fanOf_;
     std::uint32_t count = 0;
     for (std::uint32_t v = 0; v < place.size(); ++v) {
-      if (place[v] != 0) continue;
+      if (place[v] == kGone) continue;
       mesh_.positions[count] = glm::vec3(mesh_.positions[v]);
       place[v] = count++;
     }
     mesh_.positions.resize(count);
-    for (glm::uvec3& t : mesh_.triangles) t = {place[t.x], place[t.y], place[t.z]};
+    tbb::parallel_for(std::size_t{0}, mesh_.triangles.size(), [&](std::size_t i) {
+      glm::uvec3& t = mesh_.triangles[i];
+      t = {place[t.x], place[t.y], place[t.z]};
+    });
     mesh_.creases.clear();
     for (const Fan& fan : fans_)
       for (const std::uint32_t w : fan.creases)
@@ -275,19 +297,20 @@ class Collapser {
     std::ranges::sort(mesh_.creases);
   }
 
+  static constexpr std::uint32_t kGone = ~0u;
+
   FeatureMesh& mesh_;
-  std::vector<glm::vec3>& normals_;
   double shortest_;
+  std::vector<Local> triangles_;
   std::vector<std::uint32_t> fanOf_;  // by vertex, its place in fans_
   std::vector<Fan> fans_;
-  std::vector<std::uint32_t> listed_;  // triangles
 };
 
 }  // namespace
 
-void collapseShortEdges(FeatureMesh& mesh, std::vector<glm::vec3>& pieceNormals,
+void collapseShortEdges(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
                         const std::vector<std::uint32_t>& anchors, double shortest) {
-  Collapser(mesh, pieceNormals, anchors, shortest).run();
+  Collapser(mesh, normals, anchors, shortest).run();
 }
 
 }  // namespace sdf
