@@ -7,7 +7,8 @@ namespace {
 class Certified : public Export {};
 
 TEST_F(Certified, WritesTheProvenDistanceBesideTheMeasuredOne) {
-  const std::vector<std::string> words{scene(kTwoParts), "-o", out("a.glb"), "--voxel-size", "0.1"};
+  const std::string round = scene("part('ball', sphere(1)) part('other', sphere(1):translate(3, 0, 0))");
+  const std::vector<std::string> words{round, "-o", out("a.glb"), "--voxel-size", "0.0625"};
   std::vector<std::string> certified = words;
   certified.push_back("--certify");
   const Json outputs = report(certified)["outputs"];
