@@ -21,7 +21,8 @@ struct MeshMaterial {
 };
 
 /// Counter-clockwise triangles seen from outside, indices into the vertex arrays. Vertices [0, welded) are
-/// distinct points; later ones repeat an earlier one (copyOf[i - welded]) with another material's colour.
+/// distinct points; later ones repeat an earlier one (copyOf[i - welded]) with another material's colour or,
+/// at a crease, another side's normal.
 struct Mesh {
   std::vector<glm::vec3> positions;             ///< scene units
   std::vector<glm::vec3> normals;               ///< unit

@@ -35,8 +35,8 @@ class Sharpener {
   FeatureMesh run() {
     crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_);
     nameCrossings();
-    for (int round = 0; round < kHalvings && halveDoubtful(); ++round) {
-    }
+    for (int round = 0; round < kHalvings; ++round)
+      if (!halveDoubtful()) break;
     std::erase_if(crossings_, [](const Crossing& c) { return !c.point.placed; });
     if (crossings_.empty()) {
       mesh_.triangles = std::move(triangles_);
@@ -45,14 +45,7 @@ class Sharpener {
     nameCrossings();
     vertexOf_.assign(crossings_.size(), kNone);
     findCorners();
-    mesh_.triangles = std::move(triangles_);
-    const std::size_t whole = mesh_.triangles.size();
-    for (place_ = 0; place_ < whole; ++place_)
-      if (const glm::uvec3 t = mesh_.triangles[place_]; touched_[t.x] + touched_[t.y] + touched_[t.z] > 1) {
-        first_ = true;
-        cut(t);
-      }
-    std::ranges::sort(mesh_.creases);
+    cutTriangles();
     collapseShortEdges(mesh_, normals_, anchors_, kShort * field_.finder()->at(mesh_.positions[0]).voxel);
     return std::move(mesh_);
   }
@@ -174,6 +167,17 @@ class Sharpener {
     }
     placeCorners(corners, field_, progress_);
     corners_ = std::move(corners);
+  }
+
+  void cutTriangles() {
+    mesh_.triangles = std::move(triangles_);
+    const std::size_t whole = mesh_.triangles.size();
+    for (place_ = 0; place_ < whole; ++place_) {
+      const glm::uvec3 t = mesh_.triangles[place_];
+      first_ = true;
+      if (touched_[t.x] + touched_[t.y] + touched_[t.z] > 1) cut(t);
+    }
+    std::ranges::sort(mesh_.creases);
   }
 
   void cut(const glm::uvec3& t) {
