@@ -1,6 +1,7 @@
 // Enclosures of a field, its slopes and its curvature over a small box or triangle that may stand askew.
 #pragma once
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>

@@ -16,8 +16,8 @@ namespace sdf {
 void findUnresolved(const NarrowBand& band, const LocalField& field, Progress& progress, MeshStats& stats);
 
 /// Newton's method along the gradient, at most three steps and no farther than a voxel from where
-/// extraction put the vertex; steps below 4 ulps of a float end it, and the best position met is kept. `normals` receives the unit gradient there
-/// (exact derivatives).
+/// extraction put the vertex; steps below 4 ulps of a float end it, and the best position met is kept.
+/// `normals` receives the unit gradient there (exact derivatives).
 void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
                     const LocalField& field, Progress& progress);
 
