@@ -277,6 +277,7 @@ TEST(PatchReading, FindsTheSlopeBesideEdgesOfABox) {
     const glm::dvec3 n = glm::normalize(way), u = glm::normalize(glm::cross(n, glm::dvec3(0.1, 0.2, 1.0)));
     return reading.leastSlope(*tape, Patch::box(at, {u, glm::cross(n, u), n}, glm::dvec3(0.01)), 2);
   };
+  // Some hundred interval operations on numbers about 1, each rounded outward by an ulp or two: below 1e-13.
   EXPECT_NEAR(slope({1, 0, 0}, {1, 0, 0}), 1.0, 1e-12);
   EXPECT_NEAR(slope({1, 1, 0}, {1, 1, 0}), std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(slope({1, 1, 1}, {1, 1, 1}), std::sqrt(1.0 / 3.0), 1e-12);

@@ -20,9 +20,8 @@ struct Sharpened {
 
 Sharpened sharpened(const Shape& shape, double voxel) {
   Progress progress;
-  const ModelTapes model = Model(shape).at();
-  NarrowBand band = sampleNarrowBand(model, {voxel, findBounds(shape), kPlentyOfMemory}, progress).value();
-  const BandField field(band, {model.whole(), model.whole()->firstOutputOnly()});
+  NarrowBand band = bandOf(shape, findBounds(shape), voxel);
+  const BandField field(band, wholeTapes(tapeOf(shape)));
   RawSurface raw = band.extract();
   std::vector<glm::vec3> normals;
   refineVertices(raw.points, normals, field, progress);

@@ -28,6 +28,7 @@ TEST_F(Compress, RoundingCountsInTheFiguresOfEveryPart) {
     const double finest = std::sqrt(3.0) / 2.0 * 4.0 * 0x1p-22;
     EXPECT_GT(added("rms_distance"), 0.05 * rms);
     EXPECT_LE(added("rms_distance"), std::max(0.1 * rms, finest));
+    // The same number was added to both: differences of doubles below 1.
     EXPECT_NEAR(added("max_distance"), added("rms_distance"), 1e-12);
     EXPECT_EQ(file["nodes"][i]["extras"]["maxDistance"], small["parts"][i]["max_distance"]);
     EXPECT_EQ(file["nodes"][i]["extras"]["rmsDistance"], small["parts"][i]["rms_distance"]);

@@ -83,12 +83,14 @@ class Mesher {
                    "part '" + name_ + "': a tolerance of " + shown(options_.tolerance) +
                        " is below the rounding of coordinates at this size; take at least " + shown(least)};
     const bool thins = options_.tolerance > 0.0 && isOfOneColor(shape);
-    for (int halvings = 0;; ++halvings, h /= 2.0) {
-      begin("sampling");
-      LocalTapes whole;
-      Result<NarrowBand> sampled = sample(shape, {h, *bounds, options_.maxMemory}, whole);
+    begin("sampling");
+    const ModelTapes model = Model(shape).at(options_.values);
+    const LocalTapes whole{model.whole(), model.whole()->firstOutputOnly()};
+    for (int halvings = 0;; ++halvings, h /= 2.0, begin("sampling")) {
+      Result<NarrowBand> sampled = sampleNarrowBand(model, {h, *bounds, options_.maxMemory}, progress_);
       if (!sampled) return sampled.error();
-      const BandField field(*sampled, std::move(whole));
+      const BandField field(*sampled, whole);
+      findUnresolved(*sampled, field, progress_, result_.stats);
       FeatureMesh mesh = extract(*sampled, field);
       const bool last =
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
@@ -105,7 +107,7 @@ class Mesher {
         const bool kept = remesh(mesh, field, {options_.tolerance}, progress_).kept;
         if (!kept && !last) continue;
       }
-      return finish(shape, *bounds, h, *sampled, field, mesh);
+      return finish(shape, model, *bounds, h, *sampled, field, mesh);
     }
   }
 
@@ -123,8 +125,8 @@ class Mesher {
   }
 
   // Measures, checks and colours what was made.
-  Result<MeshedShape> finish(const Shape& shape, const Box& bounds, double voxel, const NarrowBand& band,
-                             const BandField& field, const FeatureMesh& features) {
+  Result<MeshedShape> finish(const Shape& shape, const ModelTapes& model, const Box& bounds, double voxel,
+                             const NarrowBand& band, const BandField& field, const FeatureMesh& features) {
     begin("measuring");
     const std::vector<float> distances =
         measureDistance(features.positions, features.triangles, field, progress_, result_.stats);
@@ -132,7 +134,7 @@ class Mesher {
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
     if (Status s = checkTolerance(); !s) return s.error();
-    if (Status s = certifyMesh(shape, features, bounds, voxel); !s) return s.error();
+    if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
     begin("normals");
     Mesh& mesh = result_.mesh;
     splitAtCreases(features, field, progress_, mesh);
@@ -172,15 +174,6 @@ class Mesher {
           "unbounded in " + unboundedAxes(bounds) +
               "; give bounds({x0,y0,z0}, {x1,y1,z1}) in the scene, --bounds, or intersect it with a box");
     return bounds;
-  }
-
-  // The band of samples, in which surface passed unseen has been counted; `whole` receives the model's tapes.
-  Result<NarrowBand> sample(const Shape& shape, const BandOptions& band, LocalTapes& whole) {
-    const ModelTapes model = Model(shape).at(options_.values);
-    whole = {model.whole(), model.whole()->firstOutputOnly()};
-    auto result = sampleNarrowBand(model, band, progress_);
-    if (result) findUnresolved(*result, BandField(*result, whole), progress_, result_.stats);
-    return result;
   }
 
   Error noSurface(double voxel) const {
@@ -224,14 +217,14 @@ class Mesher {
   }
 
   // Proves the distance, if that is asked for.
-  Status certifyMesh(const Shape& shape, const FeatureMesh& mesh, const Box& bounds, double voxel) {
+  Status certifyMesh(const ModelTapes& model, const FeatureMesh& mesh, const Box& bounds, double voxel) {
     if (!options_.certify) return okStatus();
     begin("certifying");
     MeshStats& stats = result_.stats;
     // Three times the measured distance is what a proof may well come to. Vertices are floats, a rounding
     // off.
     const double goal = std::max(2.5 * stats.maxDistance, 0x1p-22 * bounds.longestSide());
-    const Certificate proof = certify(mesh.positions, mesh.triangles, Model(shape).at(options_.values),
+    const Certificate proof = certify(mesh.positions, mesh.triangles, model,
                                       {bounds, goal, voxel, kFarthestVoxels * voxel}, progress_);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     stats.provenDistance = proof.bound();

@@ -2,23 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace sdf {
 namespace {
 
 constexpr int kRefineSteps = 3;
-
-// The gradient's direction; the one found before where there is none: a distance that is a root has the slope
-// 0 on the surface itself, and the way to there has the normal. Scaled by a power of two first, which rounds
-// nothing: squares then neither vanish nor overflow.
-glm::vec3 unit(const glm::vec3& g, const glm::vec3& before) {
-  const float size = std::abs(g.x) + std::abs(g.y) + std::abs(g.z);
-  if (!(size > 0.0f && std::isfinite(size))) return before;
-  const glm::vec3 scaled = glm::ldexp(g, glm::ivec3(-std::ilogb(size)));
-  return scaled / glm::length(scaled);
-}
 
 // Of a point's coordinates: steps that are shorter are their rounding and the reading's.
 constexpr float kSettled = 0x1p-21f;
@@ -39,7 +28,7 @@ void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
       if (distance < best[i]) {
         best[i] = distance;
         positions[i] = trial.at(i);
-        normals[i] = unit(g.gradient(i), normals[i]);
+        normals[i] = g.normal(i, normals[i]);
       }
       const glm::vec3 way = g.step(i), target = trial.at(i) + way;
       if (!(glm::distance(target, run.points.at(i)) <= reach)) continue;
@@ -70,7 +59,7 @@ void gradientNormals(const std::vector<glm::vec3>& points, const LocalField& fie
         RunGradients g;
         g.evaluate(run, run.points);
         for (std::size_t i = 0; i < run.count; ++i)
-          normals[run.first + i] = unit(g.gradient(i), normals[run.first + i]);
+          normals[run.first + i] = g.normal(i, normals[run.first + i]);
       });
 }
 

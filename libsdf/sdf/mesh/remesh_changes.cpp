@@ -36,11 +36,7 @@ void RemeshChanges::readNormals() {
       [&](const PointRun& run) {
         RunGradients g;
         g.evaluate(run, run.points);
-        for (std::size_t i = 0; i < run.count; ++i) {
-          const glm::vec3 n = g.gradient(i);
-          const float length = glm::length(n);
-          normals_[run.first + i] = length > 0.0f ? n / length : n;
-        }
+        for (std::size_t i = 0; i < run.count; ++i) normals_[run.first + i] = g.normal(i);
       });
 }
 

@@ -323,11 +323,8 @@ void evaluateFans(const Fans& fans, float tolerance, const LocalField& field, Pr
       [&](const PointRun& run) {
         RunGradients g;
         g.evaluate(run, run.points);
-        for (std::size_t i = 0; i < run.count; ++i) {
-          const glm::vec3 n = g.gradient(i);
-          const float length = glm::length(n);
-          readings[order[run.first + i]] = {g.distance(i), length > 0.0f ? n / length : n};
-        }
+        for (std::size_t i = 0; i < run.count; ++i)
+          readings[order[run.first + i]] = {g.distance(i), g.normal(i)};
       });
   errors.assign(fans.all.size(), {});
   tbb::enumerable_thread_specific<Rooms> rooms;

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace sdf {
@@ -54,6 +55,15 @@ float RunGradients::distance(std::size_t i) const {
   const glm::vec3 g = gradient(i);
   const float length = std::hypot(g.x, g.y, g.z);
   return length > kVanishing * slope ? value[i] / length : value[i] / slope;
+}
+
+glm::vec3 RunGradients::normal(std::size_t i, const glm::vec3& otherwise) const {
+  const glm::vec3 g = gradient(i);
+  const float size = std::abs(g.x) + std::abs(g.y) + std::abs(g.z);
+  if (!(size > 0.0f && std::isfinite(size))) return otherwise;
+  // Scaled by a power of two first, which rounds nothing: squares then neither vanish nor overflow.
+  const glm::vec3 scaled = glm::ldexp(g, glm::ivec3(-std::ilogb(size)));
+  return scaled / glm::length(scaled);
 }
 
 glm::vec3 RunGradients::step(std::size_t i) const {

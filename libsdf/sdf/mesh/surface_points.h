@@ -39,6 +39,9 @@ struct RunGradients {
 
   void evaluate(const PointRun& run, const PointRows& at);
   glm::vec3 gradient(std::size_t i) const { return gradients.at(i); }
+  /// The gradient's direction; `otherwise` where there is none: a distance that is a root has the slope 0 on
+  /// the surface itself.
+  glm::vec3 normal(std::size_t i, const glm::vec3& otherwise = glm::vec3(0.0f)) const;
   /// Signed; where the gradient vanishes the value itself, divided by the slope bound.
   float distance(std::size_t i) const;
   /// The step from the point to the first-order zero set, along the gradient.
