@@ -25,8 +25,7 @@ Sharpened sharpened(const Shape& shape, double voxel) {
   RawSurface raw = band.extract();
   std::vector<glm::vec3> normals;
   refineVertices(raw.points, normals, field, progress);
-  Sharpened s{sharpen(std::move(raw.points), std::move(normals), std::move(raw.triangles), field, progress),
-              {}};
+  Sharpened s{sharpen(std::move(raw.points), normals, std::move(raw.triangles), field, progress), {}};
   measureDistance(s.mesh.positions, s.mesh.triangles, field, progress, s.stats);
   measureTopology(s.mesh.triangles, s.mesh.positions.size(), s.stats);
   return s;
@@ -135,6 +134,26 @@ TEST(Sharpen, FindsTheTipsOfWedgesThinnerThanAVoxel) {
     }
     EXPECT_LE(nearest, 1e-5) << z;
   }
+}
+
+// What two balls share; between two planes of samples, so that the last ones inside are up to four voxels
+// from its rim, around which both sides bend.
+TEST(Sharpen, FindsTheRimsOfThinLenses) {
+  const double h = 1.0 / 100, apart = 0.978;  // the faces meet at 24 degrees
+  const double rim = std::sqrt(1.0 - apart * apart);
+  const Shape lens = translate(sphere(1.0), {apart, 0.0, 0.0}) & translate(sphere(1.0), {-apart, 0.0, 0.0});
+  const Sharpened s = sharpened(translate(lens, {0.5 * h, 0.0, 0.0}), h);
+  EXPECT_TRUE(s.stats.watertight && s.stats.manifold);
+  EXPECT_EQ(s.stats.eulerCharacteristic, 2);
+  EXPECT_GT(s.mesh.creases.size(), 2.0 * kPi * rim / (2.0 * h));
+  for (const auto& [a, b] : s.mesh.creases)
+    for (const std::uint32_t v : {a, b}) {
+      const glm::dvec3 p(s.mesh.positions[v]);
+      EXPECT_NEAR(p.x, 0.5 * h, 1e-5);
+      EXPECT_NEAR(std::hypot(p.y, p.z), rim, 1e-5);
+    }
+  // The chord of two voxels.
+  EXPECT_LE(s.stats.maxDistance, h * h / (2.0 * rim));
 }
 
 TEST(Sharpen, DoesNotDependOnTheNumberOfThreads) {

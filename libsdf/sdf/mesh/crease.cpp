@@ -22,8 +22,14 @@ constexpr int kHalvings = 5;
 // Voxels that a point may be moved by: the edge of a wedge that is thinner than a voxel is that far from its
 // samples.
 constexpr double kReach = 2.0;
+// The same on the first step from an edge, which goes by the planes at its ends: the tip of a wedge of 15
+// degrees is this far from where it is a voxel thick.
+constexpr double kTip = 4.0;
 // Voxels from a crease at which its sides are looked at, one reading after the other.
 constexpr double kProbes[] = {0.1, 0.01};
+// The same where that met another side. Beyond the tip of a thin wedge, whose place is uncertain by the bend
+// of its sides divided by its angle, both sides read as one.
+constexpr double kPatientProbes[] = {1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01};
 // A side that turns by more between two readings is another one: cos 20 degrees.
 constexpr double kSameSide = 0.94;
 // Voxels that the surface may be away from a point on it.
@@ -151,8 +157,8 @@ class CreasePlacer {
     for (CreasePoint& p : points_) p.placed = true, p.corner = false;
   }
 
-  void place() {
-    for (const double reach : kProbes) approach(reach * run_.voxel);
+  void place(std::span<const double> probes) {
+    for (const double reach : probes) approach(reach * run_.voxel);
     readPoints();
     // Beyond the crease's end a third piece is the surface; near it the probes meet one.
     for (std::size_t i = 0; i < points_.size(); ++i)
@@ -215,8 +221,18 @@ class CreasePlacer {
 };
 
 void placeRun(const PointRun& run, CreasePoint* points) {
-  for (std::size_t first = 0; first < run.count; first += kBatchPoints / 2)
-    CreasePlacer(run, {points + first, std::min(run.count - first, kBatchPoints / 2)}).place();
+  for (std::size_t first = 0; first < run.count; first += kBatchPoints / 2) {
+    const std::span<CreasePoint> some(points + first, std::min(run.count - first, kBatchPoints / 2));
+    std::vector<CreasePoint> again(some.begin(), some.end());
+    CreasePlacer(run, some).place(kProbes);
+    std::vector<std::size_t> missed;
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (!some[i].placed) again[missed.size()] = again[i], missed.push_back(i);
+    if (missed.empty()) continue;
+    again.resize(missed.size());
+    CreasePlacer(run, again).place(kPatientProbes);
+    for (std::size_t k = 0; k < missed.size(); ++k) some[missed[k]] = again[k];
+  }
 }
 
 // Can the surface of this formula have creases? What it is made of may be smooth; and what is interpolated
@@ -278,7 +294,7 @@ void halveRun(const PointRun& run, std::vector<Bend>& bends, Crossing* found) {
   for (const Bend& b : bends) {
     CreasePoint& p = found[b.candidate].point;
     const glm::dvec3 at(b.middle()), step = toCommonLine(b.plane[0], b.plane[1], at);
-    if (!(glm::length(step) <= kReach * run.voxel)) continue;
+    if (!(glm::length(step) <= kTip * run.voxel)) continue;
     p.at = glm::vec3(at + step);
     p.normal = {glm::vec3(b.normal[0]), glm::vec3(b.normal[1])};
     p.placed = true;

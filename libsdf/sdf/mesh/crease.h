@@ -28,7 +28,8 @@ struct CreasePoint {
 /// little away on that side, and the nearest point of their common line follows (Newton's method of least
 /// norm). Where a third piece is the surface there, the point goes to where the crease ends at it. `placed`
 /// tells whether both sides were met and the surface is there. Of a side that bends with radius r the error
-/// is about (voxel / 100)² / r, beside the rounding of float. Cost: five readings a point.
+/// is about (voxel / 100)² / r, beside the rounding of float. Cost: five readings a point, and fifteen more
+/// where the sides are not met at first.
 void placeOnCreases(std::span<CreasePoint> points, const LocalField& field, Progress& progress);
 
 /// A point near a corner of three smooth pieces.
@@ -52,7 +53,7 @@ struct Crossing {
 /// Looks for a crease across each edge of a closed mesh whose ends have normals more than kCreaseAngle apart:
 /// a jump of the gradient along the edge is halved in until it is certain, which tells a crease from a bend
 /// with a radius of more than about half an edge. Payloads, which kink between their samples, count as
-/// smooth. A crossing lies within two voxels of its edge. Ordered by triangles.
+/// smooth. A crossing lies within four voxels of its edge. Ordered by triangles.
 std::vector<Crossing> findCrossings(const std::vector<glm::vec3>& positions,
                                     const std::vector<glm::vec3>& normals,
                                     const std::vector<glm::uvec3>& triangles, const LocalField& field,
