@@ -253,7 +253,8 @@ double CellProver::largestAlone(const Tape& tape, std::uint32_t triangle, double
 }
 
 // Bounds |f| over a triangle. What it differs from the linear interpolation of the corners' values by is half
-// the curvature times the square of the smallest enclosing circle's radius at most (Waldron 1998).
+// the curvature times the square of the smallest enclosing circle's radius at most (Waldron 1998). Where that
+// is more than enough the same is done for its quarters.
 double CellProver::largestValue(const Tape& tape, const Upright& up, std::size_t i, const PatchBounds& field,
                                 double enough) {
   const Upright::Placed& placed = up.placed[i];
@@ -272,11 +273,26 @@ double CellProver::largestValue(const Tape& tape, const Upright& up, std::size_t
                       kUp * h[5].magnitude() * rise * rise;
   const double up2 = std::max(0.0, std::max(h[0].hi, h[3].hi) + h[1].magnitude()) + skew;
   const double down = std::max(0.0, std::max(-h[0].lo, -h[3].lo) + h[1].magnitude()) + skew;
-  const double low = std::min({a.lo, b.lo, d.lo}) - kUp * 0.5 * up2 * square;
-  const double high = std::max({a.hi, b.hi, d.hi}) + kUp * 0.5 * down * square;
-  const double largest = std::max(-low, high);
-  if (largest <= enough) return std::max(0.0, largest);
-  return std::min(largest == largest ? largest : kInfinity, byItself());
+  const auto over = [&](const Interval& a, const Interval& b, const Interval& c, double share) {
+    const double low = std::min({a.lo, b.lo, c.lo}) - kUp * 0.5 * share * up2 * square;
+    const double high = std::max({a.hi, b.hi, c.hi}) + kUp * 0.5 * share * down * square;
+    const double largest = std::max({0.0, -low, high});
+    return a.nan || b.nan || c.nan || largest != largest ? kInfinity : largest;
+  };
+  double largest = over(a, b, d, 1.0);
+  if (largest <= enough) return largest;
+  if (over(a, b, d, 0.25) <= enough) {
+    const auto middle = [&](int from, int to) {
+      const glm::dvec3 p = 0.5 * (mesh_.positions[t[from]] + mesh_.positions[t[to]]);
+      return evaluate(tape, {p, p}, intervals_);
+    };
+    const Interval ab = middle(0, 1), bd = middle(1, 2), da = middle(2, 0);
+    const double quarters = std::max(
+        {over(a, ab, da, 0.25), over(ab, b, bd, 0.25), over(da, bd, d, 0.25), over(ab, bd, da, 0.25)});
+    largest = std::min(largest, quarters);
+    if (largest <= enough) return largest;
+  }
+  return std::min(largest, byItself());
 }
 
 CellBounds CellProver::bySlope(const CertifyCell& cell, double wanted) {
