@@ -5,6 +5,7 @@
 
 #include "benches.h"
 #include "dense.h"
+#include "sdf/mesh/balance.h"
 #include "sdf/mesh/narrow_band.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
@@ -36,11 +37,11 @@ struct Accurate {
   double rms;   // asked, scene units
   double time;  // asked, as a share of the dense baseline's
 };
-constexpr Accurate kAccurate[kCompared] = {{616, 6.0e-6, 0.85},
-                                           {150, 7.7e-5, 0.072},
-                                           {312, 6.2e-5, 0.19},
-                                           {384, 6.5e-5, 0.30},
-                                           {312, 4.2e-4, 0.0085}};
+constexpr Accurate kAccurate[kCompared] = {{308, 6.0e-6, 0.85},
+                                           {84, 7.7e-5, 0.072},
+                                           {164, 6.2e-5, 0.19},
+                                           {208, 6.5e-5, 0.30},
+                                           {184, 4.2e-4, 0.0085}};
 
 struct Sharp {
   std::unique_ptr<BandField> field;
@@ -55,8 +56,8 @@ Sharp meshSharply(NarrowBand& band, const ModelTapes& model, const Box& bounds, 
   RawSurface raw = band.extract();
   std::vector<glm::vec3> normals;
   refineVertices(raw.points, normals, *sharp.field, progress);
-  sharp.mesh =
-      sharpen(std::move(raw.points), std::move(normals), std::move(raw.triangles), *sharp.field, progress);
+  sharp.mesh = sharpen(std::move(raw.points), normals, std::move(raw.triangles), *sharp.field, progress);
+  balanceVertices(sharp.mesh, normals);
   return sharp;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -82,8 +83,15 @@ TEST(Scale, AnyOtherRoundsPositionsOnly) {
         continue;
       }
       ASSERT_EQ(figures(other.stats), figures(one.stats));
+      // Rounding decides between diagonals of one length, and the vertices' balance depends on them.
+      std::set<std::uint32_t> otherwise;
+      for (std::size_t t = 0; t < one.mesh.triangles.size(); ++t)
+        for (const glm::uvec3& v : {one.mesh.triangles[t], other.mesh.triangles[t]})
+          if (one.mesh.triangles[t] != other.mesh.triangles[t]) otherwise.insert({v.x, v.y, v.z});
+      EXPECT_LE(otherwise.size(), one.mesh.positions.size() / 100);
       double worst = 0.0;  // in what distances are promised to
-      for (std::size_t i = 0; i < one.mesh.positions.size(); ++i) {
+      for (std::uint32_t i = 0; i < one.mesh.positions.size(); ++i) {
+        if (otherwise.contains(i)) continue;
         const glm::dvec3 p(one.mesh.positions[i]), q = glm::dvec3(other.mesh.positions[i]) / scale;
         worst = std::max(worst, glm::distance(p, q) / distanceRounding(p, size));
       }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <glm/common.hpp>
 
+#include "sdf/mesh/balance.h"
 #include "sdf/mesh/certify.h"
 #include "sdf/mesh/remesh.h"
 #include "sdf/mesh/sharpen.h"
@@ -91,7 +93,7 @@ class Mesher {
       if (!sampled) return sampled.error();
       const BandField field(*sampled, whole);
       findUnresolved(*sampled, field, progress_, result_.stats);
-      FeatureMesh mesh = extract(*sampled, field);
+      FeatureMesh mesh = extract(*sampled, field, !thins);
       const bool last =
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
       if (!last && result_.stats.unresolved > 0) continue;
@@ -112,8 +114,9 @@ class Mesher {
   }
 
  private:
-  // The mesh at the voxels' resolution, with its creases; empty where there is none.
-  FeatureMesh extract(NarrowBand& band, const BandField& field) {
+  // The mesh at the voxels' resolution, with its creases; empty where there is none. Its vertices lie on the
+  // surface, or are balanced.
+  FeatureMesh extract(NarrowBand& band, const BandField& field, bool balanced) {
     begin("extraction");
     RawSurface raw = band.extract();
     if (raw.triangles.empty()) return {};
@@ -121,7 +124,14 @@ class Mesher {
     std::vector<glm::vec3> normals;
     refineVertices(raw.points, normals, field, progress_);
     begin("creases");
-    return sharpen(std::move(raw.points), std::move(normals), std::move(raw.triangles), field, progress_);
+    FeatureMesh mesh = sharpen(std::move(raw.points), normals, std::move(raw.triangles), field, progress_);
+    if (!balanced) return mesh;
+    begin("balancing");
+    balanceVertices(mesh, normals);
+    if (options_.bounds)
+      for (glm::vec3& p : mesh.positions)
+        p = glm::clamp(glm::dvec3(p), options_.bounds->min, options_.bounds->max);
+    return mesh;
   }
 
   // Measures, checks and colours what was made.

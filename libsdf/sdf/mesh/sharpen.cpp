@@ -26,9 +26,9 @@ constexpr float kSamePiece = 0.9f;
 
 class Sharpener {
  public:
-  Sharpener(std::vector<glm::vec3> positions, std::vector<glm::vec3> normals,
+  Sharpener(std::vector<glm::vec3> positions, std::vector<glm::vec3>& normals,
             std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress)
-      : normals_(std::move(normals)), triangles_(std::move(triangles)), field_(field), progress_(progress) {
+      : normals_(normals), triangles_(std::move(triangles)), field_(field), progress_(progress) {
     mesh_.positions = std::move(positions);
   }
 
@@ -46,6 +46,7 @@ class Sharpener {
     vertexOf_.assign(crossings_.size(), kNone);
     findCorners();
     cutTriangles();
+    normals_.resize(mesh_.positions.size(), glm::vec3(0.0f));
     collapseShortEdges(mesh_, normals_, anchors_, kShort * field_.finder()->at(mesh_.positions[0]).voxel);
     return std::move(mesh_);
   }
@@ -223,7 +224,7 @@ class Sharpener {
 
   static constexpr double kShort = 0.2;  // voxels
 
-  std::vector<glm::vec3> normals_;
+  std::vector<glm::vec3>& normals_;
   std::vector<glm::uvec3> triangles_;
   const LocalField& field_;
   Progress& progress_;
@@ -241,9 +242,9 @@ class Sharpener {
 
 }  // namespace
 
-FeatureMesh sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3> normals,
+FeatureMesh sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3>& normals,
                     std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress) {
-  return Sharpener(std::move(positions), std::move(normals), std::move(triangles), field, progress).run();
+  return Sharpener(std::move(positions), normals, std::move(triangles), field, progress).run();
 }
 
 }  // namespace sdf

@@ -9,8 +9,9 @@ namespace sdf {
 /// crosses one gets a vertex there, a triangle that three smooth pieces share gets their corner. Edges that
 /// more than two pieces share are halved before, up to three times over. Short edges at creases are taken out
 /// again, and triangles that are turned over, where that may be. `normals` are the gradients' at the
-/// vertices. The mesh stays closed, and as manifold as it was.
-FeatureMesh sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3> normals,
+/// vertices, and become those of the mesh's; zero on creases. The mesh stays closed, and as manifold as it
+/// was.
+FeatureMesh sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3>& normals,
                     std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress);
 
 }  // namespace sdf

@@ -19,10 +19,10 @@ constexpr int kPasses = 4;
 
 class Collapser {
  public:
-  Collapser(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
-            const std::vector<std::uint32_t>& anchors, double shortest)
-      : mesh_(mesh), shortest_(shortest), fanOf_(mesh.positions.size(), 0) {
-    list(normals);
+  Collapser(FeatureMesh& mesh, std::vector<glm::vec3>& normals, const std::vector<std::uint32_t>& anchors,
+            double shortest)
+      : mesh_(mesh), normals_(normals), shortest_(shortest), fanOf_(mesh.positions.size(), 0) {
+    list();
     for (const std::uint32_t v : anchors) fan(v).anchored = true;
     for (const auto& [a, b] : mesh_.creases) fan(a).creases.push_back(b), fan(b).creases.push_back(a);
   }
@@ -64,7 +64,7 @@ class Collapser {
   };
 
   // Lists the triangles at creases, those that are turned, and those that touch them.
-  void list(const std::vector<glm::vec3>& normals) {
+  void list() {
     enum : char { kFar, kNear, kMiddle };
     std::vector<char> marks(mesh_.positions.size(), kFar);
     const auto touches = [&](const glm::uvec3& t, char mark) {
@@ -72,7 +72,7 @@ class Collapser {
     };
     const auto mark = [&](std::uint32_t v, char mark) { marks[v] = std::max(marks[v], mark); };
     // That of a vertex that has one: it is on the triangle's piece.
-    const auto pieceNormal = [&](const glm::uvec3& t) { return normals[std::min({t.x, t.y, t.z})]; };
+    const auto pieceNormal = [&](const glm::uvec3& t) { return normals_[std::min({t.x, t.y, t.z})]; };
     for (const auto& [a, b] : mesh_.creases) mark(a, kMiddle), mark(b, kMiddle);
     std::vector<char> turned(mesh_.triangles.size());
     tbb::parallel_for(std::size_t{0}, turned.size(), [&](std::size_t t) {
@@ -283,9 +283,10 @@ class Collapser {
     for (std::uint32_t v = 0; v < place.size(); ++v) {
       if (place[v] == kGone) continue;
       mesh_.positions[count] = glm::vec3(mesh_.positions[v]);
+      normals_[count] = glm::vec3(normals_[v]);
       place[v] = count++;
     }
-    mesh_.positions.resize(count);
+    mesh_.positions.resize(count), normals_.resize(count);
     tbb::parallel_for(std::size_t{0}, mesh_.triangles.size(), [&](std::size_t i) {
       glm::uvec3& t = mesh_.triangles[i];
       t = {place[t.x], place[t.y], place[t.z]};
@@ -300,6 +301,7 @@ class Collapser {
   static constexpr std::uint32_t kGone = ~0u;
 
   FeatureMesh& mesh_;
+  std::vector<glm::vec3>& normals_;
   double shortest_;
   std::vector<Local> triangles_;
   std::vector<std::uint32_t> fanOf_;  // by vertex, its place in fans_
@@ -308,7 +310,7 @@ class Collapser {
 
 }  // namespace
 
-void collapseShortEdges(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
+void collapseShortEdges(FeatureMesh& mesh, std::vector<glm::vec3>& normals,
                         const std::vector<std::uint32_t>& anchors, double shortest) {
   Collapser(mesh, normals, anchors, shortest).run();
 }

@@ -10,9 +10,9 @@ namespace sdf {
 /// stays manifold (link condition; Dey et al. 1999), no triangle turns away from its piece, and creases keep
 /// their places: a vertex on a crease only moves along it, one of the `anchors` (corners) not at all, but for
 /// those that are the same point. Then any edges, where that turns triangles back that were turned over.
-/// `normals` are those of the first vertices; each triangle has one of these, the least, on its piece. Cost:
+/// `normals` are the vertices', before and after; each triangle has its least vertex inside its piece. Cost:
 /// n log n in the number of creases, and linear in that of triangles.
-void collapseShortEdges(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
+void collapseShortEdges(FeatureMesh& mesh, std::vector<glm::vec3>& normals,
                         const std::vector<std::uint32_t>& anchors, double shortest);
 
 }  // namespace sdf

@@ -1,0 +1,170 @@
+#include "sdf/mesh/balance.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace sdf {
+namespace {
+
+// Triangles of one task; fixed, so that sums do not depend on the number of threads.
+constexpr std::size_t kChunk = 8192;
+// Of an edge: half of what normals turn by along it, in radians, where that still tells of the distance.
+constexpr float kMostBend = 0.35f;
+// Cosine between the ways along a crease at a vertex, below which it is a corner: 40 degrees.
+constexpr float kStraight = 0.766f;
+// Cosine of what a triangle may be tilted by: 10 degrees.
+constexpr double kMostTilt = 0.985f;
+
+bool isNone(const glm::vec3& normal) { return normal == glm::vec3(0.0f); }
+
+class Balancer {
+ public:
+  Balancer(FeatureMesh& mesh, const std::vector<glm::vec3>& normals) : mesh_(mesh), normals_(normals) {}
+
+  void run() {
+    moved_ = mesh_.positions;
+    if (!mesh_.creases.empty()) moveCreases();
+    addTriangles();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moved_.size(), kChunk), [&](const auto& range) {
+      for (std::size_t v = range.begin(); v != range.end(); ++v)
+        if (sums_[v].area > 0.0)
+          moved_[v] += normals_[v] * static_cast<float>(sums_[v].moment / sums_[v].area);
+    });
+    while (takeBackTilts())
+      ;
+    mesh_.positions = std::move(moved_);
+  }
+
+ private:
+  /// Over the triangles around a vertex, those of their mass matrices' rows (lumped) and right sides.
+  struct Sum {
+    double moment = 0.0, area = 0.0;
+    void operator+=(const Sum& o) { moment += o.moment, area += o.area; }
+  };
+  struct Share {
+    std::uint32_t vertex;
+    Sum sum;
+  };
+
+  // The curvature at the vertices that a crease passes through is that of the circle through their
+  // neighbours, to first order; the error of a chord of length l has the mean curvature l^2 / 12.
+  void moveCreases() {
+    curvatures_.assign(mesh_.positions.size(), glm::vec3(0.0f));
+    std::vector<std::array<std::uint32_t, 2>> ways;
+    for (const auto& [a, b] : mesh_.creases) ways.push_back({a, b}), ways.push_back({b, a});
+    std::ranges::sort(ways);
+    for (std::size_t i = 0, end; i < ways.size(); i = end) {
+      const std::uint32_t v = ways[i][0];
+      for (end = i; end < ways.size() && ways[end][0] == v;) ++end;
+      if (end - i != 2) continue;
+      const glm::vec3 &p = mesh_.positions[v], in = p - mesh_.positions[ways[i][1]],
+                      out = mesh_.positions[ways[i + 1][1]] - p;
+      const float a = glm::length(in), b = glm::length(out);
+      if (!(glm::dot(in, out) > kStraight * a * b)) continue;
+      curvatures_[v] = 2.0f / (a + b) * (out / b - in / a);
+      moved_[v] = p - curvatures_[v] * ((a * a * a + b * b * b) / (12.0f * (a + b)));
+    }
+  }
+
+  // Twice the height of the surface over the middle of an edge times two, by what is known of its ends; the
+  // distance in a triangle is the sum of it over the edges, times both ends' barycentric coordinates.
+  float bend(std::uint32_t a, std::uint32_t b, const glm::vec3& third) const {
+    const glm::vec3 edge = mesh_.positions[b] - mesh_.positions[a];
+    const glm::vec3 &u = normals_[a], &v = normals_[b];
+    const float squared = glm::dot(edge, edge);
+    float bend = 0.0f;
+    if (!isNone(u) && !isNone(v))
+      bend = 0.5f * glm::dot(v - u, edge);
+    else if (!isNone(u))
+      bend = -glm::dot(u, edge);
+    else if (!isNone(v))
+      bend = glm::dot(v, edge);
+    else if (!curvatures_.empty())
+      bend = -0.25f * squared * glm::dot(third, curvatures_[a] + curvatures_[b]);
+    return bend * bend < kMostBend * kMostBend * squared ? bend : 0.0f;
+  }
+
+  template <class Add>
+  void addTriangle(const glm::uvec3& t, const Add& add) const {
+    const glm::vec3& p = mesh_.positions[t.x];
+    const double area =
+        glm::length(glm::dvec3(glm::cross(mesh_.positions[t.y] - p, mesh_.positions[t.z] - p)));
+    float bends[3];  // of the edges opposite to the corners
+    for (int k = 0; k < 3; ++k) bends[k] = bend(t[(k + 1) % 3], t[(k + 2) % 3], normals_[t[k]]);
+    const float all = bends[0] + bends[1] + bends[2];
+    for (int k = 0; k < 3; ++k) add(t[k], Sum{area * (all / 10.0 - bends[k] / 20.0), area});
+  }
+
+  // Each task adds to a range of vertices that is its own; what it has for others is added afterwards.
+  void addTriangles() {
+    const std::size_t chunks = (mesh_.triangles.size() + kChunk - 1) / kChunk;
+    sums_.assign(mesh_.positions.size(), {});
+    std::vector<std::uint32_t> owned(chunks + 1, 0);
+    for (std::size_t c = 1; c < chunks; ++c) {
+      const glm::uvec3& first = mesh_.triangles[c * kChunk];
+      owned[c] = std::max(owned[c - 1], std::min({first.x, first.y, first.z}));
+    }
+    owned[chunks] = static_cast<std::uint32_t>(sums_.size());
+    std::vector<std::vector<Share>> others(chunks);
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+      const std::size_t end = std::min(mesh_.triangles.size(), (c + 1) * kChunk);
+      for (std::size_t t = c * kChunk; t < end; ++t)
+        addTriangle(mesh_.triangles[t], [&](std::uint32_t v, const Sum& sum) {
+          if (isNone(normals_[v])) return;
+          if (owned[c] <= v && v < owned[c + 1])
+            sums_[v] += sum;
+          else
+            others[c].push_back({v, sum});
+        });
+    });
+    for (const std::vector<Share>& shares : others)
+      for (const Share& s : shares) sums_[s.vertex] += s.sum;
+  }
+
+  // Puts the corners of triangles that were tilted too far back on the surface. Returns whether there were
+  // any.
+  bool takeBackTilts() {
+    std::vector<std::vector<std::uint32_t>> tilted((mesh_.triangles.size() + kChunk - 1) / kChunk);
+    tbb::parallel_for(std::size_t{0}, tilted.size(), [&](std::size_t c) {
+      const std::size_t end = std::min(mesh_.triangles.size(), (c + 1) * kChunk);
+      for (std::size_t t = c * kChunk; t < end; ++t)
+        if (isTilted(mesh_.triangles[t])) tilted[c].push_back(static_cast<std::uint32_t>(t));
+    });
+    bool any = false;
+    for (const auto& some : tilted)
+      for (const std::uint32_t t : some)
+        for (int k = 0; k < 3; ++k) {
+          const std::uint32_t v = mesh_.triangles[t][k];
+          any = any || moved_[v] != mesh_.positions[v];
+          moved_[v] = glm::vec3(mesh_.positions[v]);
+        }
+    return any;
+  }
+
+  bool isTilted(const glm::uvec3& t) const {
+    const auto normal = [&](const std::vector<glm::vec3>& p) {
+      return glm::dvec3(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
+    };
+    const glm::dvec3 before = normal(mesh_.positions), after = normal(moved_);
+    const double dot = glm::dot(before, after);
+    return dot < 0.0 ||
+           dot * dot <= kMostTilt * kMostTilt * glm::dot(before, before) * glm::dot(after, after);
+  }
+
+  FeatureMesh& mesh_;
+  const std::vector<glm::vec3>& normals_;
+  std::vector<glm::vec3> moved_;
+  std::vector<glm::vec3> curvatures_;  // of the creases; empty where there are none
+  std::vector<Sum> sums_;
+};
+
+}  // namespace
+
+void balanceVertices(FeatureMesh& mesh, const std::vector<glm::vec3>& normals) {
+  Balancer(mesh, normals).run();
+}
+
+}  // namespace sdf
