@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace sdf {
@@ -15,8 +16,10 @@ constexpr std::size_t kChunk = 8192;
 constexpr float kMostBend = 0.35f;
 // Cosine between the ways along a crease at a vertex, below which it is a corner: 40 degrees.
 constexpr float kStraight = 0.766f;
-// Cosine of what a triangle may be tilted by: 10 degrees.
-constexpr double kMostTilt = 0.985f;
+// Of the least height of a vertex's triangles, what it may move by. A linear function of no more at the
+// corners rises by a third at most; where part of it goes into the height it is 1 / sqrt(8), which is 20
+// degrees.
+constexpr float kMostMove = 1.0f / 6.0f;
 
 bool isNone(const glm::vec3& normal) { return normal == glm::vec3(0.0f); }
 
@@ -25,24 +28,20 @@ class Balancer {
   Balancer(FeatureMesh& mesh, const std::vector<glm::vec3>& normals) : mesh_(mesh), normals_(normals) {}
 
   void run() {
-    moved_ = mesh_.positions;
-    if (!mesh_.creases.empty()) moveCreases();
+    if (!mesh_.creases.empty()) findCurvatures();
     addTriangles();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moved_.size(), kChunk), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sums_.size(), kChunk), [&](const auto& range) {
       for (std::size_t v = range.begin(); v != range.end(); ++v)
-        if (sums_[v].area > 0.0)
-          moved_[v] += normals_[v] * static_cast<float>(sums_[v].moment / sums_[v].area);
+        if (sums_[v].area > 0.0) mesh_.positions[v] += moveOf(v);
     });
-    while (takeBackTilts())
-      ;
-    mesh_.positions = std::move(moved_);
   }
 
  private:
   /// Over the triangles around a vertex, those of their mass matrices' rows (lumped) and right sides.
   struct Sum {
     double moment = 0.0, area = 0.0;
-    void operator+=(const Sum& o) { moment += o.moment, area += o.area; }
+    float height = HUGE_VALF;  // the square of their least
+    void operator+=(const Sum& o) { moment += o.moment, area += o.area, height = std::min(height, o.height); }
   };
   struct Share {
     std::uint32_t vertex;
@@ -51,8 +50,8 @@ class Balancer {
 
   // The curvature at the vertices that a crease passes through is that of the circle through their
   // neighbours, to first order; the error of a chord of length l has the mean curvature l^2 / 12.
-  void moveCreases() {
-    curvatures_.assign(mesh_.positions.size(), glm::vec3(0.0f));
+  void findCurvatures() {
+    curvatures_.assign(mesh_.positions.size(), {});
     std::vector<std::array<std::uint32_t, 2>> ways;
     for (const auto& [a, b] : mesh_.creases) ways.push_back({a, b}), ways.push_back({b, a});
     std::ranges::sort(ways);
@@ -64,8 +63,8 @@ class Balancer {
                       out = mesh_.positions[ways[i + 1][1]] - p;
       const float a = glm::length(in), b = glm::length(out);
       if (!(glm::dot(in, out) > kStraight * a * b)) continue;
-      curvatures_[v] = 2.0f / (a + b) * (out / b - in / a);
-      moved_[v] = p - curvatures_[v] * ((a * a * a + b * b * b) / (12.0f * (a + b)));
+      curvatures_[v].vector = 2.0f / (a + b) * (out / b - in / a);
+      curvatures_[v].square = (a * a * a + b * b * b) / (a + b);
     }
   }
 
@@ -83,19 +82,33 @@ class Balancer {
     else if (!isNone(v))
       bend = glm::dot(v, edge);
     else if (!curvatures_.empty())
-      bend = -0.25f * squared * glm::dot(third, curvatures_[a] + curvatures_[b]);
+      bend = -0.25f * squared * glm::dot(third, curvatures_[a].vector + curvatures_[b].vector);
     return bend * bend < kMostBend * kMostBend * squared ? bend : 0.0f;
   }
 
   template <class Add>
   void addTriangle(const glm::uvec3& t, const Add& add) const {
-    const glm::vec3& p = mesh_.positions[t.x];
-    const double area =
-        glm::length(glm::dvec3(glm::cross(mesh_.positions[t.y] - p, mesh_.positions[t.z] - p)));
+    const glm::vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
+    const glm::vec3 u = b - a, v = c - a, w = c - b;
+    const glm::dvec3 normal(glm::cross(u, v));
+    const double square = glm::dot(normal, normal), area = std::sqrt(square);
+    const auto height =
+        static_cast<float>(square / std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)}));
     float bends[3];  // of the edges opposite to the corners
     for (int k = 0; k < 3; ++k) bends[k] = bend(t[(k + 1) % 3], t[(k + 2) % 3], normals_[t[k]]);
     const float all = bends[0] + bends[1] + bends[2];
-    for (int k = 0; k < 3; ++k) add(t[k], Sum{area * (all / 10.0 - bends[k] / 20.0), area});
+    for (int k = 0; k < 3; ++k) add(t[k], Sum{area * (all / 10.0f - bends[k] / 20.0f), area, height});
+  }
+
+  glm::vec3 moveOf(std::size_t v) const {
+    const Sum& sum = sums_[v];
+    glm::vec3 move = normals_[v] * static_cast<float>(sum.moment / sum.area);
+    if (isNone(normals_[v])) {
+      if (curvatures_.empty()) return glm::vec3(0.0f);
+      move = curvatures_[v].vector * (-curvatures_[v].square / 12.0f);
+    }
+    const float size = glm::length(move), most = kMostMove * std::sqrt(sum.height);
+    return size > most ? move * (most / size) : move;
   }
 
   // Each task adds to a range of vertices that is its own; what it has for others is added afterwards.
@@ -113,7 +126,6 @@ class Balancer {
       const std::size_t end = std::min(mesh_.triangles.size(), (c + 1) * kChunk);
       for (std::size_t t = c * kChunk; t < end; ++t)
         addTriangle(mesh_.triangles[t], [&](std::uint32_t v, const Sum& sum) {
-          if (isNone(normals_[v])) return;
           if (owned[c] <= v && v < owned[c + 1])
             sums_[v] += sum;
           else
@@ -124,40 +136,15 @@ class Balancer {
       for (const Share& s : shares) sums_[s.vertex] += s.sum;
   }
 
-  // Puts the corners of triangles that were tilted too far back on the surface. Returns whether there were
-  // any.
-  bool takeBackTilts() {
-    std::vector<std::vector<std::uint32_t>> tilted((mesh_.triangles.size() + kChunk - 1) / kChunk);
-    tbb::parallel_for(std::size_t{0}, tilted.size(), [&](std::size_t c) {
-      const std::size_t end = std::min(mesh_.triangles.size(), (c + 1) * kChunk);
-      for (std::size_t t = c * kChunk; t < end; ++t)
-        if (isTilted(mesh_.triangles[t])) tilted[c].push_back(static_cast<std::uint32_t>(t));
-    });
-    bool any = false;
-    for (const auto& some : tilted)
-      for (const std::uint32_t t : some)
-        for (int k = 0; k < 3; ++k) {
-          const std::uint32_t v = mesh_.triangles[t][k];
-          any = any || moved_[v] != mesh_.positions[v];
-          moved_[v] = glm::vec3(mesh_.positions[v]);
-        }
-    return any;
-  }
-
-  bool isTilted(const glm::uvec3& t) const {
-    const auto normal = [&](const std::vector<glm::vec3>& p) {
-      return glm::dvec3(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
-    };
-    const glm::dvec3 before = normal(mesh_.positions), after = normal(moved_);
-    const double dot = glm::dot(before, after);
-    return dot < 0.0 ||
-           dot * dot <= kMostTilt * kMostTilt * glm::dot(before, before) * glm::dot(after, after);
-  }
+  /// Of a crease, at a vertex that it passes through.
+  struct Curvature {
+    glm::vec3 vector{0.0f};  // to where it bends, 1 / radius
+    float square = 0.0f;     // mean of its edges' lengths squared, by length
+  };
 
   FeatureMesh& mesh_;
   const std::vector<glm::vec3>& normals_;
-  std::vector<glm::vec3> moved_;
-  std::vector<glm::vec3> curvatures_;  // of the creases; empty where there are none
+  std::vector<Curvature> curvatures_;  // empty where there are no creases
   std::vector<Sum> sums_;
 };
 

@@ -13,8 +13,8 @@ namespace sdf {
 /// at its vertices tell of, and the moves are the least squares' with a lumped mass matrix; on a regular mesh
 /// the root mean square becomes a quarter. Vertices on a crease move with its polyline, towards where it
 /// bends from. Where normals turn by more than 40 degrees along an edge nothing is known of the distance, and
-/// where a triangle would be tilted by more than 10 degrees nothing moves. `normals` are unit gradients at
-/// the vertices; zero on creases, and where there is none.
+/// moves are cut short where they could tilt a triangle by more than 20 degrees. `normals` are unit gradients
+/// at the vertices; zero on creases, and where there is none.
 void balanceVertices(FeatureMesh& mesh, const std::vector<glm::vec3>& normals);
 
 }  // namespace sdf
