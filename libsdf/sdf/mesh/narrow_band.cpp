@@ -29,6 +29,9 @@ class LeafFinder : public LocalField::Finder {
   LeafFinder(const TapesOfLeaves& tapes, const LocalTapes& whole, double voxel)
       : tapes_(tapes), whole_(whole), h_(voxel) {}
   LocalField::Local at(const glm::vec3& p) override {
+    if (inside_[0].x <= p.x && p.x <= inside_[1].x && inside_[0].y <= p.y && p.y <= inside_[1].y &&
+        inside_[0].z <= p.z && p.z <= inside_[1].z)
+      return {*last_, h_};
     const LocalTapes* tapes = inLeaf(glm::dvec3(p) / h_);
     return {tapes ? *tapes : whole_, h_};
   }
@@ -43,7 +46,6 @@ class LeafFinder : public LocalField::Finder {
     const glm::ivec3 voxel(toZero.x - (q.x < toZero.x), toZero.y - (q.y < toZero.y),
                            toZero.z - (q.z < toZero.z));
     const glm::ivec3 leaf = voxel & ~(kLeaf - 1);
-    if (last_ && leaf == lastLeaf_) return last_;
     // A cell on a leaf's far side belongs to the next leaf, which may not be there; any leaf within a voxel
     // will do.
     for (int i = 0; i < 27; ++i) {
@@ -52,18 +54,26 @@ class LeafFinder : public LocalField::Finder {
       const glm::ivec3 near = (voxel + offset) & ~(kLeaf - 1);
       const auto it = tapes_.find(openvdb::Coord(near.x, near.y, near.z));
       if (it == tapes_.end()) continue;
-      last_ = i == 0 ? &it->second : nullptr;
-      lastLeaf_ = leaf;
+      if (i == 0) remember(leaf, it->second);
       return &it->second;
     }
     return nullptr;
+  }
+
+  void remember(const glm::ivec3& leaf, const LocalTapes& tapes) {
+    last_ = &tapes;
+    for (int i = 0; i < 3; ++i) {
+      inside_[0][i] = std::nextafter(static_cast<float>(leaf[i] * h_), HUGE_VALF);
+      inside_[1][i] = std::nextafter(static_cast<float>((leaf[i] + kLeaf) * h_), -HUGE_VALF);
+    }
   }
 
   const TapesOfLeaves& tapes_;
   const LocalTapes& whole_;
   double h_;
   const LocalTapes* last_ = nullptr;
-  glm::ivec3 lastLeaf_{};
+  glm::vec3 inside_[2]{glm::vec3(HUGE_VALF),
+                       glm::vec3(-HUGE_VALF)};  // the least and the most in the last leaf
 };
 
 }  // namespace

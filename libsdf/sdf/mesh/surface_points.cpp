@@ -59,9 +59,13 @@ float RunGradients::distance(std::size_t i) const {
 
 glm::vec3 RunGradients::normal(std::size_t i, const glm::vec3& otherwise) const {
   const glm::vec3 g = gradient(i);
+  // Of squares that neither vanish nor overflow.
+  constexpr float kLeast = 0x1p-80f, kMost = 0x1p80f;
+  if (const float squared = glm::dot(g, g); squared > kLeast && squared < kMost)
+    return g / std::sqrt(squared);
   const float size = std::abs(g.x) + std::abs(g.y) + std::abs(g.z);
   if (!(size > 0.0f && std::isfinite(size))) return otherwise;
-  // Scaled by a power of two first, which rounds nothing: squares then neither vanish nor overflow.
+  // Scaled by a power of two first, which rounds nothing.
   const glm::vec3 scaled = glm::ldexp(g, glm::ivec3(-std::ilogb(size)));
   return scaled / glm::length(scaled);
 }
