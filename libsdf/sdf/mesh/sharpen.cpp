@@ -1,5 +1,7 @@
 #include "sdf/mesh/sharpen.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -44,8 +46,9 @@ class Sharpener {
     }
     nameCrossings();
     vertexOf_.assign(crossings_.size(), kNone);
-    findCorners();
-    cutTriangles();
+    const std::vector<Crossed> crossed = crossedTriangles();
+    findCorners(crossed);
+    cutTriangles(crossed);
     normals_.resize(mesh_.positions.size(), glm::vec3(0.0f));
     collapseShortEdges(mesh_, normals_, anchors_, kShort * field_.finder()->at(mesh_.positions[0]).voxel);
     return std::move(mesh_);
@@ -121,6 +124,30 @@ class Sharpener {
     return {crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
   }
 
+  struct Crossed {
+    std::uint32_t triangle;
+    std::array<std::uint32_t, 3> crossings;  // of its edges
+  };
+
+  // Those that any crossing lies on, in their order.
+  std::vector<Crossed> crossedTriangles() const {
+    constexpr std::size_t kChunk = 8192;
+    std::vector<std::vector<Crossed>> pieces((triangles_.size() + kChunk - 1) / kChunk);
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
+      const std::size_t end = std::min(triangles_.size(), (piece + 1) * kChunk);
+      for (std::size_t i = piece * kChunk; i < end; ++i) {
+        const glm::uvec3& t = triangles_[i];
+        if (touched_[t.x] + touched_[t.y] + touched_[t.z] < 2) continue;
+        const auto x = crossingsOf(t);
+        if (x[0] != kNone || x[1] != kNone || x[2] != kNone)
+          pieces[piece].push_back({static_cast<std::uint32_t>(i), x});
+      }
+    });
+    std::vector<Crossed> all;
+    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+    return all;
+  }
+
   static bool isThreefold(const std::array<std::uint32_t, 3>& x) {
     return x[0] != kNone && x[1] != kNone && x[2] != kNone;
   }
@@ -153,11 +180,11 @@ class Sharpener {
   }
 
   // Corners of the triangles with three pieces, in their order.
-  void findCorners() {
+  void findCorners(const std::vector<Crossed>& crossed) {
     std::vector<CornerPoint> corners;
-    for (const glm::uvec3& t : triangles_) {
-      const auto x = crossingsOf(t);
+    for (const auto& [triangle, x] : crossed) {
       if (!isThreefold(x)) continue;
+      const glm::uvec3& t = triangles_[triangle];
       CornerPoint corner{};
       for (int k = 0; k < 3; ++k) {
         corner.normal[k] = normals_[t[k]];
@@ -170,22 +197,19 @@ class Sharpener {
     corners_ = std::move(corners);
   }
 
-  void cutTriangles() {
+  void cutTriangles(const std::vector<Crossed>& crossed) {
     mesh_.triangles = std::move(triangles_);
-    const std::size_t whole = mesh_.triangles.size();
-    for (place_ = 0; place_ < whole; ++place_) {
-      const glm::uvec3 t = mesh_.triangles[place_];
+    for (const auto& [triangle, x] : crossed) {
+      place_ = triangle;
       first_ = true;
-      if (touched_[t.x] + touched_[t.y] + touched_[t.z] > 1) cut(t);
+      cut(glm::uvec3(mesh_.triangles[triangle]), x);
     }
     std::ranges::sort(mesh_.creases);
   }
 
-  void cut(const glm::uvec3& t) {
-    const auto x = crossingsOf(t);
+  void cut(const glm::uvec3& t, const std::array<std::uint32_t, 3>& x) {
     if (isThreefold(x)) return cutAroundCorner(t, x);
     const int count = (x[0] != kNone) + (x[1] != kNone) + (x[2] != kNone);
-    if (count == 0) return;
     // Turned so that the first edge is cut, and of two the last, too.
     int first = 0;
     while (x[first] == kNone || (count == 2 && x[(first + 2) % 3] == kNone)) ++first;

@@ -63,6 +63,21 @@ class Collapser {
     std::uint32_t place;  // in the mesh
   };
 
+  // The numbers of the triangles that hold a condition, in their order.
+  template <class Condition>
+  std::vector<std::uint32_t> trianglesThat(const Condition& holds) const {
+    constexpr std::size_t kChunk = 8192;
+    std::vector<std::vector<std::uint32_t>> pieces((mesh_.triangles.size() + kChunk - 1) / kChunk);
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
+      const std::size_t end = std::min(mesh_.triangles.size(), (piece + 1) * kChunk);
+      for (std::size_t t = piece * kChunk; t < end; ++t)
+        if (holds(mesh_.triangles[t])) pieces[piece].push_back(static_cast<std::uint32_t>(t));
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+    return all;
+  }
+
   // Lists the triangles at creases, those that are turned, and those that touch them.
   void list() {
     enum : char { kFar, kNear, kMiddle };
@@ -74,21 +89,14 @@ class Collapser {
     // That of a vertex that has one: it is on the triangle's piece.
     const auto pieceNormal = [&](const glm::uvec3& t) { return normals_[std::min({t.x, t.y, t.z})]; };
     for (const auto& [a, b] : mesh_.creases) mark(a, kMiddle), mark(b, kMiddle);
-    std::vector<char> turned(mesh_.triangles.size());
-    tbb::parallel_for(std::size_t{0}, turned.size(), [&](std::size_t t) {
-      const glm::uvec3& c = mesh_.triangles[t];
-      turned[t] = upright(c, pieceNormal(c)) < kUpright;
-    });
-    for (std::size_t t = 0; t < turned.size(); ++t)
-      if (turned[t])
-        for (int k = 0; k < 3; ++k) mark(mesh_.triangles[t][k], kMiddle);
-    for (const glm::uvec3& t : mesh_.triangles)
-      if (touches(t, kMiddle))
-        for (int k = 0; k < 3; ++k) mark(t[k], kNear);
+    for (const std::uint32_t t :
+         trianglesThat([&](const glm::uvec3& c) { return isTurned(c, pieceNormal(c)); }))
+      for (int k = 0; k < 3; ++k) mark(mesh_.triangles[t][k], kMiddle);
+    for (const std::uint32_t t : trianglesThat([&](const glm::uvec3& c) { return touches(c, kMiddle); }))
+      for (int k = 0; k < 3; ++k) mark(mesh_.triangles[t][k], kNear);
     fans_.resize(1);  // of all that is far
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (const std::uint32_t t : trianglesThat([&](const glm::uvec3& c) { return touches(c, kNear); })) {
       const glm::uvec3& corners = mesh_.triangles[t];
-      if (!touches(corners, kNear)) continue;
       const auto local = static_cast<std::uint32_t>(triangles_.size());
       triangles_.push_back({corners, pieceNormal(corners), t});
       for (int k = 0; k < 3; ++k) {
@@ -125,7 +133,7 @@ class Collapser {
     std::vector<Edge> edges;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       const glm::uvec3& c = triangles_[t].corners;
-      if (c.x == c.y || upright(t) >= kUpright) continue;
+      if (c.x == c.y || !isTurned(c, triangles_[t].normal)) continue;
       for (int k = 0; k < 3; ++k)
         for (const std::uint32_t other : neighbours(c[k])) {
           edges.push_back({length(c[k], other), c[k], other});
@@ -149,8 +157,9 @@ class Collapser {
   bool turnsBack(std::uint32_t gone, std::uint32_t kept) const {
     int before = 0, after = 0;
     for (const std::uint32_t t : fan(gone).triangles) {
-      const bool was = upright(t) < kUpright;
-      const bool is = !contains(t, kept) && upright(t, gone, kept) < kUpright;
+      const glm::vec3& normal = triangles_[t].normal;
+      const bool was = isTurned(triangles_[t].corners, normal);
+      const bool is = !contains(t, kept) && isTurned(moved(t, gone, kept), normal);
       before += was, after += is;
     }
     return after < before;
@@ -236,18 +245,35 @@ class Collapser {
     if (std::min({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)}) < least * least) return 1.0;
     return size > kNeedle * longest ? glm::dot(area, glm::dvec3(normal)) / size : -1.0;
   }
+  // Is a triangle far from turned, whatever floats round?
+  bool clearlyUpright(const glm::uvec3& corners, const glm::vec3& normal) const {
+    const glm::vec3 &a = mesh_.positions[corners.x], &b = mesh_.positions[corners.y],
+                    &c = mesh_.positions[corners.z];
+    const glm::vec3 u = b - a, v = c - a, w = c - b, area = glm::cross(u, v);
+    const float size = glm::dot(area, area), turn = glm::dot(area, normal),
+                longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+    constexpr float kClear = 0.5f, kFat = 0.01f;
+    return turn > 0.0f && turn * turn > kClear * kClear * size && size > kFat * kFat * longest * longest;
+  }
+  bool isTurned(const glm::uvec3& corners, const glm::vec3& normal) const {
+    return !clearlyUpright(corners, normal) && upright(corners, normal) < kUpright;
+  }
   double upright(std::uint32_t t) const { return upright(triangles_[t].corners, triangles_[t].normal); }
-  // With one of its vertices elsewhere.
-  double upright(std::uint32_t t, std::uint32_t vertex, std::uint32_t elsewhere) const {
+  // The corners of a triangle with one of them elsewhere.
+  glm::uvec3 moved(std::uint32_t t, std::uint32_t vertex, std::uint32_t elsewhere) const {
     glm::uvec3 corners = triangles_[t].corners;
     for (int k = 0; k < 3; ++k)
       if (corners[k] == vertex) corners[k] = elsewhere;
-    return upright(corners, triangles_[t].normal);
+    return corners;
   }
 
   bool staysUpright(std::uint32_t gone, std::uint32_t kept) const {
-    for (const std::uint32_t t : fan(gone).triangles)
-      if (!contains(t, kept) && upright(t, gone, kept) < std::min(kUpright, upright(t))) return false;
+    for (const std::uint32_t t : fan(gone).triangles) {
+      if (contains(t, kept)) continue;
+      const glm::uvec3 after = moved(t, gone, kept);
+      const glm::vec3& normal = triangles_[t].normal;
+      if (isTurned(after, normal) && upright(after, normal) < upright(t)) return false;
+    }
     return true;
   }
 
