@@ -48,8 +48,8 @@ class Balancer {
     Sum sum;
   };
 
-  // The curvature at the vertices that a crease passes through is that of the circle through their
-  // neighbours, to first order; the error of a chord of length l has the mean curvature l^2 / 12.
+  // At a vertex that a crease passes through the circle through its neighbours tells of the curvature. A
+  // chord of length l is off by the curvature times l^2 / 12 in the mean.
   void findCurvatures() {
     curvatures_.assign(mesh_.positions.size(), {});
     std::vector<std::array<std::uint32_t, 2>> ways;
@@ -68,8 +68,8 @@ class Balancer {
     }
   }
 
-  // Twice the height of the surface over the middle of an edge times two, by what is known of its ends; the
-  // distance in a triangle is the sum of it over the edges, times both ends' barycentric coordinates.
+  // Four times the height of the surface over the middle of an edge, by what is known at its ends. The
+  // distance in a triangle is the sum of it over the edges, times the barycentric coordinates of both ends.
   float bend(std::uint32_t a, std::uint32_t b, const glm::vec3& third) const {
     const glm::vec3 edge = mesh_.positions[b] - mesh_.positions[a];
     const glm::vec3 &u = normals_[a], &v = normals_[b];
