@@ -17,8 +17,8 @@
 namespace sdf::test {
 namespace {
 
-const std::vector<std::string> kStages{"bounds",    "sampling",  "extraction", "projection", "creases",
-                                       "balancing", "measuring", "normals",    "colouring"};
+const std::vector<std::string> kStages{"bounds",    "sampling", "extraction", "projection", "creases",
+                                       "balancing", "borders",  "measuring",  "normals",    "colouring"};
 
 Result<MeshedShape> tryMesh(const Shape& shape, const MeshOptions& options) {
   Progress progress;
@@ -428,10 +428,72 @@ TEST(MeshShape, HalvesVoxelsForAToleranceUntilThinPartsAreSeen) {
   EXPECT_LT(m.stats.voxelSize, 0.02);
 }
 
-TEST(MeshShape, LeavesWhatIsPaintedToItsVoxels) {
-  const MeshedShape m = meshed(paintedPair(), {.voxelSize = 0.05, .tolerance = 1e-3});
-  EXPECT_EQ(m.stats.tolerance, 0.0);
-  EXPECT_EQ(m.mesh.triangles.size(), meshed(paintedPair(), {.voxelSize = 0.05}).mesh.triangles.size());
+// The area of a mesh's triangles whose corners all have this colour.
+double areaOf(const Mesh& mesh, const glm::vec3& color) {
+  double area = 0.0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    if (mesh.colors[t.x] != color || mesh.colors[t.y] != color || mesh.colors[t.z] != color) continue;
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  return area;
+}
+
+// Squares of two colours whose sides are askew to the lattice and end nowhere near its samples.
+TEST(MeshShape, KeepsPatternsWithFewTriangles) {
+  const Vec3E p = position();
+  const Expr stripe = select(less(0.0, sin(3.0 * p.x + 0.4) * sin(3.0 * p.y)), 1.0, 0.25);
+  const Shape board =
+      rotate(box({2.0, 2.0, 0.1}).paint({.color = Vec3E(stripe, 0.25, 0.25)}), {0.2, 0.1, 0.3});
+  for (const double tolerance : {0.0, 2e-3}) {
+    const MeshedShape m = meshed(board, {.voxelSize = 0.05, .tolerance = tolerance});
+    EXPECT_TRUE(m.stats.watertight && m.stats.manifold);
+    const double one = areaOf(m.mesh, {1.0f, 0.25f, 0.25f}), other = areaOf(m.mesh, {0.25f, 0.25f, 0.25f});
+    const double whole = 2.0 * 16.0 + 4.0 * 4.0 * 0.2;
+    EXPECT_NEAR(one + other, whole, 1e-3 * whole) << "no triangle is of two colours";
+    EXPECT_GT(std::min(one, other), 0.3 * whole);
+    if (tolerance > 0.0) {
+      EXPECT_LT(m.mesh.triangles.size(), 600u);
+    }
+  }
+}
+
+TEST(MeshShape, KeepsBordersOfMaterialsWithinATolerance) {
+  const double tolerance = 1e-3;
+  const MeshedShape m = meshed(paintedPair(), {.voxelSize = 0.02, .tolerance = tolerance});
+  EXPECT_EQ(m.stats.tolerance, tolerance);
+  EXPECT_LE(m.stats.maxDistance, tolerance);
+  EXPECT_TRUE(m.stats.watertight && m.stats.manifold);
+  EXPECT_EQ(m.stats.components, 1u);
+  EXPECT_LT(m.mesh.triangles.size(), meshed(paintedPair(), {.voxelSize = 0.02}).mesh.triangles.size() / 10);
+  ASSERT_EQ(m.mesh.materials.size(), 2u);
+  for (std::size_t t = 0; t < m.mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const glm::uvec3& corners = m.mesh.triangles[t];
+      ASSERT_EQ(m.mesh.colors[corners[k]], m.mesh.materials[m.mesh.triangleMaterial[t]].color);
+      // On the ball of its colour: the red one's centre is at -0.3.
+      const bool red = m.mesh.colors[corners[k]].x > 0.5f;
+      const glm::dvec3 centre = red ? glm::dvec3(-0.3, 0.0, 0.0) : glm::dvec3(0.3, 0.1, 0.0);
+      ASSERT_NEAR(glm::distance(glm::dvec3(m.mesh.positions[corners[k]]), centre), red ? 0.5 : 0.4,
+                  2.0 * tolerance);
+    }
+}
+
+TEST(MeshShape, KeepsColoursThatChangeSlowly) {
+  const Vec3E p = position();
+  const Shape ball = sphere(1.0).paint({.color = Vec3E(0.5 + 0.4 * sin(4.0 * p.x), 0.3, 0.2)});
+  const MeshedShape m = meshed(ball, {.voxelSize = 0.04, .tolerance = 5e-3});
+  EXPECT_LE(m.stats.maxDistance, 5e-3);
+  const MeshedShape plain = meshed(sphere(1.0), {.voxelSize = 0.04, .tolerance = 5e-3});
+  EXPECT_GT(m.mesh.triangles.size(), plain.mesh.triangles.size()) << "colours ask for more";
+  // In between, as a screen shows it: what the tolerance of colours is, and a half for what is off the
+  // surface.
+  for (const glm::uvec3& t : m.mesh.triangles) {
+    const glm::vec3 middle = (m.mesh.positions[t.x] + m.mesh.positions[t.y] + m.mesh.positions[t.z]) / 3.0f;
+    const float red = (m.mesh.colors[t.x].x + m.mesh.colors[t.y].x + m.mesh.colors[t.z].x) / 3.0f,
+                exact = 0.5f + 0.4f * std::sin(4.0f * middle.x);
+    ASSERT_NEAR(std::sqrt(red), std::sqrt(exact), 1.0 / 64 + 0.04);
+  }
 }
 
 TEST(MeshShape, SaysWhichToleranceCannotBeKept) {

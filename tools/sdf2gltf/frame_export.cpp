@@ -98,10 +98,6 @@ Status FrameExport::meshOne(const Part& body, double voxelSize) {
   if (!meshed) return meshed.error();
   line.stages = std::move(meshed->stageSeconds);
   line.stats = meshed->stats;
-  if (options_.tolerance && line.stats.tolerance == 0.0)
-    report.warnings.push_back("part '" + body.name +
-                              "': its colours change over the surface, which coarse triangles would blur; it "
-                              "is meshed with voxels and keeps no tolerance");
   line.peakMemory = peakMemory();
   report.total.seconds += line.seconds;
   for (const auto& [name, seconds] : line.stages) addSeconds(report.total.stages, name, seconds);

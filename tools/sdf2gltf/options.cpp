@@ -73,7 +73,7 @@ void declare(CLI::App& app, Words& words) {
   add("--voxel-size", words.voxelSize, "H",
       "sampling distance in scene units [1/200 of the longest side of all that is exported]");
   add("--tolerance", words.tolerance, "E",
-      "distance that meshes of one colour keep with few triangles, in scene units [none]");
+      "distance from the surface that meshes keep with few triangles, in scene units [none]");
   add("--bounds", words.bounds, "x0,y0,z0,x1,y1,z1", "clip to this box, closed [the scene's bounds]");
   add("-D", words.parameters, "name=value", "set a parameter of the scene; may be repeated")
       ->allow_extra_args(false);

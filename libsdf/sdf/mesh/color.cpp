@@ -2,58 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/surface_paint.h"
 
 namespace sdf {
 namespace {
 
-// How far a vertex on a border looks into a triangle of its own material for its colour, as a share of the
-// way to the centroid, where the material is known: no farther than it must.
-constexpr float kBorderShifts[] = {0.05f, 0.3f, 1.0f};
+// How far a vertex on a border looks into a triangle for its paint, as a share of the way to the centroid,
+// where the material is known: no farther than it must.
+constexpr float kBorderShifts[] = {0.05f, 0.15f, 0.3f, 0.6f, 1.0f};
 constexpr std::size_t kMaterialSamples = 64;
 
 float unit(float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f; }
-float notNegative(float v) { return std::isfinite(v) ? std::max(v, 0.0f) : 0.0f; }
 
 glm::vec3 centroid(const Mesh& mesh, const glm::uvec3& t) {
   return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
-}
-
-// Colours and material at each of `count` points.
-struct SurfaceSamples {
-  std::vector<glm::vec3> colors, ambient;
-  std::vector<int> ids;
-};
-
-template <class Point, class Normal>
-SurfaceSamples sampleSurface(std::size_t count, const Point& point, const Normal& normal,
-                             const LocalField& field, Progress& progress) {
-  constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
-  SurfaceSamples s{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count), std::vector<int>(count)};
-  forEachRun(count, point, field, progress, [&](const PointRun& run) {
-    PointRows normals;
-    float values[kOutputs][kBatchPoints];
-    for (std::size_t i = 0; i < run.count; ++i) normals.set(i, normal(run.first + i));
-    float* out[kOutputs];
-    for (int k = 0; k < kOutputs; ++k) out[k] = values[k];
-    const auto at = [&](SurfaceOutput output) { return values[static_cast<int>(output)]; };
-    const float *const red = at(SurfaceOutput::Red), *const green = at(SurfaceOutput::Green),
-                       *const blue = at(SurfaceOutput::Blue), *const id = at(SurfaceOutput::MaterialId),
-                       *const ambientRed = at(SurfaceOutput::AmbientRed),
-                       *const ambientGreen = at(SurfaceOutput::AmbientGreen),
-                       *const ambientBlue = at(SurfaceOutput::AmbientBlue);
-    run.batch.evaluate(*run.tapes.surface, run.points.rows(normals), run.count, out);
-    for (std::size_t i = 0; i < run.count; ++i) {
-      s.colors[run.first + i] = {unit(red[i]), unit(green[i]), unit(blue[i])};
-      s.ambient[run.first + i] = {notNegative(ambientRed[i]), notNegative(ambientGreen[i]),
-                                  notNegative(ambientBlue[i])};
-      s.ids[run.first + i] = static_cast<int>(std::lround(id[i]));
-    }
-  });
-  return s;
 }
 
 // The shape's materials that occur, and each triangle's place among them. Returns their ids by place.
@@ -84,68 +53,157 @@ void orderByMaterial(Mesh& mesh) {
   for (const std::uint32_t t : order) mesh.triangles.push_back(triangles[t]);
 }
 
-// A vertex where materials meet, as one of them sees it.
-struct BorderPoint {
-  std::uint32_t vertex;
-  std::uint32_t material;
-  glm::vec3 inside;  // centroid of one of the material's triangles
-};
+// Of the paint on the way from a vertex into its triangle, the first beyond a jump, if there is one: a step
+// that is more than what changes otherwise.
+std::size_t beyondJump(const Paint* paint, std::size_t count) {
+  std::size_t largest = 0;
+  float sum = 0.0f, jump = 0.0f;
+  for (std::size_t k = 1; k < count; ++k) {
+    const float step = colorDifference(paint[k - 1], paint[k]);
+    sum += step;
+    if (step > jump) jump = step, largest = k;
+  }
+  return jump > kColorJump && jump > 2.0f * (sum - jump) ? largest : 0;
+}
 
-// Gives each material its own copy of the vertices that it shares with an earlier one. Returns all vertices
-// of borders, originals included; those on creases, which may be borders, too.
-std::vector<BorderPoint> splitBorders(Mesh& mesh) {
-  // Of each vertex the first and the last material; the triangles are ordered by theirs.
-  std::vector<std::uint32_t> first(mesh.positions.size(), ~0u), last(mesh.positions.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = mesh.triangles[t][k];
-      first[v] = std::min(first[v], mesh.triangleMaterial[t]);
-      last[v] = mesh.triangleMaterial[t];
-    }
-  std::vector<char> creased(mesh.positions.size(), 0);
-  for (std::size_t i = 0; i < mesh.copyOf.size(); ++i) creased[mesh.welded + i] = creased[mesh.copyOf[i]] = 1;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t>
-      pointOf;  // (vertex, material) -> its border point
-  std::vector<BorderPoint> points;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const glm::vec3 middle = centroid(mesh, mesh.triangles[t]);
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = mesh.triangles[t][k], material = mesh.triangleMaterial[t];
-      if (first[v] == last[v] && !creased[v]) continue;
-      const auto [it, fresh] = pointOf.try_emplace({v, material}, points.size());
-      if (fresh) {
-        std::uint32_t place = v;
-        if (first[v] != material) {
-          place = static_cast<std::uint32_t>(mesh.positions.size());
-          mesh.positions.push_back(glm::vec3(mesh.positions[v]));
-          mesh.normals.push_back(glm::vec3(mesh.normals[v]));
-          mesh.copyOf.push_back(v < mesh.welded ? v : mesh.copyOf[v - mesh.welded]);
-        }
-        points.push_back({place, material, middle});
+// Colours the corners of triangles at borders, each on its own side, and repeats vertices whose triangles
+// do not agree. Vertices have the paint of their places.
+class BorderPainter {
+ public:
+  BorderPainter(const std::vector<int>& idAt, const LocalField& field, Progress& progress, Mesh& mesh)
+      : idAt_(idAt), field_(field), progress_(progress), mesh_(mesh) {}
+
+  void run() {
+    findVertices();
+    findCorners();
+    readCorners();
+    if (progress_.stopped()) return;
+    taken_.assign(mesh_.positions.size(), 0);
+    for (const Corner& c : corners_)
+      if (c.seen) assign(c);
+    for (const Corner& c : corners_)
+      if (!c.seen) assignUnseen(c);
+  }
+
+ private:
+  struct Corner {
+    std::uint32_t triangle;
+    int corner;
+    float size;  // the triangle's
+    Paint paint{};
+    bool seen = false;  // is its own material seen there?
+  };
+  // A vertex as some of its triangles have it.
+  struct Copy {
+    std::uint32_t vertex;
+    Paint paint;
+  };
+
+  Paint paintOf(std::uint32_t v, int material) const { return {mesh_.colors[v], mesh_.ambient[v], material}; }
+  int materialOf(std::size_t t) const { return idAt_[mesh_.triangleMaterial[t]]; }
+
+  // Those on creases, which may be borders, and those that look otherwise than a triangle's middle.
+  void findVertices() {
+    atBorder_.assign(mesh_.positions.size(), 0);
+    for (std::size_t i = 0; i < mesh_.copyOf.size(); ++i)
+      atBorder_[mesh_.welded + i] = atBorder_[mesh_.copyOf[i]] = kOnCrease;
+    std::vector<glm::vec3> middles;
+    for (const glm::uvec3& t : mesh_.triangles) middles.push_back(centroid(mesh_, t));
+    const std::vector<Paint> paint = readPaintBeside(middles, field_, progress_);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t v = mesh_.triangles[t][k];
+        if (!atBorder_[v] && colorDifference(paintOf(v, 0), paint[t]) > kColorJump) atBorder_[v] = kBeside;
       }
-      mesh.triangles[t][k] = points[it->second].vertex;
-    }
   }
-  return points;
-}
 
-// Colours the vertices of borders, each where its own material is seen.
-void colorBorders(std::vector<BorderPoint> points, const std::vector<int>& idAt, const LocalField& field,
-                  Progress& progress, Mesh& mesh) {
-  for (const float shift : kBorderShifts) {
-    const SurfaceSamples s = sampleSurface(
-        points.size(),
-        [&](std::size_t i) { return glm::mix(mesh.positions[points[i].vertex], points[i].inside, shift); },
-        [&](std::size_t i) { return mesh.normals[points[i].vertex]; }, field, progress);
-    std::vector<BorderPoint> elsewhere;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      mesh.colors[points[i].vertex] = s.colors[i];
-      mesh.ambient[points[i].vertex] = s.ambient[i];
-      if (s.ids[i] != idAt[points[i].material]) elsewhere.push_back(points[i]);
+  // Large triangles first: they know best.
+  void findCorners() {
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const glm::uvec3& v = mesh_.triangles[t];
+      const glm::vec3 a = mesh_.positions[v.x];
+      const float size = glm::length(glm::cross(mesh_.positions[v.y] - a, mesh_.positions[v.z] - a));
+      for (int k = 0; k < 3; ++k)
+        if (atBorder_[v[k]]) corners_.push_back({t, k, size});
     }
-    points = std::move(elsewhere);
+    std::ranges::stable_sort(corners_, std::greater{}, &Corner::size);
   }
-}
+
+  void readCorners() {
+    constexpr std::size_t kShifts = std::size(kBorderShifts);
+    std::vector<glm::vec3> places;
+    for (const Corner& c : corners_) {
+      const glm::uvec3& t = mesh_.triangles[c.triangle];
+      for (const float shift : kBorderShifts)
+        places.push_back(glm::mix(mesh_.positions[t[c.corner]], centroid(mesh_, t), shift));
+    }
+    const std::vector<Paint> all = readPaintBeside(places, field_, progress_);
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      Corner& c = corners_[i];
+      const Paint* paint = &all[kShifts * i];
+      const std::uint32_t v = mesh_.triangles[c.triangle][c.corner];
+      const int own = materialOf(c.triangle);
+      std::size_t k = beyondJump(paint, kShifts);
+      while (k + 1 < kShifts && paint[k].material != own) ++k;
+      c.seen = paint[k].material == own;
+      const bool asItIs =
+          atBorder_[v] == kBeside && k == 0 && colorDifference(paintOf(v, own), paint[0]) <= kColorJump;
+      c.paint = asItIs ? paintOf(v, own) : paint[k];
+    }
+  }
+
+  void assign(const Corner& c) {
+    std::uint32_t& v = mesh_.triangles[c.triangle][c.corner];
+    std::vector<Copy>& copies = copies_[v];
+    for (const Copy& copy : copies)
+      if (copy.paint.material == c.paint.material && colorDifference(copy.paint, c.paint) <= kColorJump) {
+        v = copy.vertex;
+        return;
+      }
+    std::uint32_t own = v;
+    if (taken_[v]) {
+      own = static_cast<std::uint32_t>(mesh_.positions.size());
+      mesh_.positions.push_back(glm::vec3(mesh_.positions[v]));
+      mesh_.normals.push_back(glm::vec3(mesh_.normals[v]));
+      mesh_.colors.emplace_back();
+      mesh_.ambient.emplace_back();
+      mesh_.copyOf.push_back(v < mesh_.welded ? v : mesh_.copyOf[v - mesh_.welded]);
+    } else {
+      taken_[v] = 1;
+    }
+    mesh_.colors[own] = c.paint.color, mesh_.ambient[own] = c.paint.ambient;
+    copies.push_back({own, c.paint});
+    v = own;
+  }
+
+  // Slivers along a border, off by rounding, are as their material is at the vertex, or as their other
+  // corners.
+  void assignUnseen(Corner c) {
+    const glm::uvec3& t = mesh_.triangles[c.triangle];
+    c.paint.material = materialOf(c.triangle);
+    const auto& copies = copies_[t[c.corner]];
+    const auto same =
+        std::ranges::find(copies, c.paint.material, [](const Copy& k) { return k.paint.material; });
+    if (same != copies.end())
+      c.paint = same->paint;
+    else
+      for (const int k : {1, 2})
+        if (const std::uint32_t v = t[(c.corner + k) % 3]; v >= taken_.size() || taken_[v] || !atBorder_[v])
+          c.paint = paintOf(v, c.paint.material);
+    assign(c);
+  }
+
+  static constexpr char kOnCrease = 1, kBeside = 2;
+
+  const std::vector<int>& idAt_;
+  const LocalField& field_;
+  Progress& progress_;
+  Mesh& mesh_;
+  std::vector<char> atBorder_;  // by vertex
+  std::vector<Corner> corners_;
+  std::vector<char> taken_;                                      // by vertex: some triangle's already
+  std::unordered_map<std::uint32_t, std::vector<Copy>> copies_;  // by vertex
+};
 
 // Averages of the attributes that a glTF material holds as single numbers, over some of the material's
 // triangles.
@@ -181,32 +239,18 @@ void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
 
 }  // namespace
 
-void colorMesh(const Shape& shape, const Values& values, const LocalField& field, Progress& progress,
-               Mesh& mesh) {
-  auto normalOf = [&](std::size_t i) { return mesh.normals[i]; };
+void colorMesh(const Shape& shape, const std::vector<int>& materials, const Values& values,
+               const LocalField& field, Progress& progress, Mesh& mesh) {
   const Expr& id = shape.surface[static_cast<int>(Attribute::MaterialId)];
-  std::vector<int> idAt;
-  if (id.isConstant()) {
-    idAt = assignMaterials(
-        shape, std::vector<int>(mesh.triangles.size(), static_cast<int>(id.constantValue())), mesh);
-  } else {
-    const auto atCentroids = sampleSurface(
-        mesh.triangles.size(), [&](std::size_t t) { return centroid(mesh, mesh.triangles[t]); },
-        [&](std::size_t t) { return mesh.normals[mesh.triangles[t].x]; }, field, progress);
-    if (progress.stopped()) return;  // not every triangle has a material
-    idAt = assignMaterials(shape, atCentroids.ids, mesh);
-    orderByMaterial(mesh);
-  }
-  SurfaceSamples samples = sampleSurface(
-      mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; }, normalOf, field, progress);
-  mesh.colors = std::move(samples.colors);
-  mesh.ambient = std::move(samples.ambient);
-  if (mesh.materials.size() > 1) {
-    std::vector<BorderPoint> border = splitBorders(mesh);
-    mesh.colors.resize(mesh.positions.size());
-    mesh.ambient.resize(mesh.positions.size());
-    colorBorders(std::move(border), idAt, field, progress, mesh);
-  }
+  const int only = id.isConstant() ? static_cast<int>(id.constantValue()) : 0;
+  const std::vector<int> idAt = assignMaterials(
+      shape, materials.empty() ? std::vector<int>(mesh.triangles.size(), only) : materials, mesh);
+  if (mesh.materials.size() > 1) orderByMaterial(mesh);
+  const std::vector<Paint> paint = readPaint(
+      mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; },
+      [&](std::size_t i) { return mesh.normals[i]; }, field, progress);
+  for (const Paint& p : paint) mesh.colors.push_back(p.color), mesh.ambient.push_back(p.ambient);
+  if (!materials.empty()) BorderPainter(idAt, field, progress, mesh).run();
   resolveMaterials(shape, values, mesh);
 }
 

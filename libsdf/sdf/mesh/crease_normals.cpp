@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "sdf/mesh/crease.h"
 #include "sdf/mesh/stages.h"
 
 namespace sdf {
@@ -68,6 +70,23 @@ class FanFinder {
   std::vector<Fan> around_;
 };
 
+// One normal for a vertex and its copies where they are those of one smooth piece: at borders of the paint.
+void joinNormals(Mesh& mesh) {
+  std::vector<glm::vec3> sums(mesh.normals.begin(), mesh.normals.begin() + mesh.welded);
+  std::vector<char> smooth(mesh.welded, 0);
+  const auto root = [&](std::size_t copy) { return mesh.copyOf[copy]; };
+  for (std::size_t i = 0; i < mesh.copyOf.size(); ++i) smooth[root(i)] = 1;
+  for (std::size_t i = 0; i < mesh.copyOf.size(); ++i) {
+    const glm::vec3& n = mesh.normals[mesh.welded + i];
+    sums[root(i)] += n;
+    if (glm::dot(n, mesh.normals[root(i)]) < std::cos(kCreaseAngle)) smooth[root(i)] = 0;
+  }
+  for (std::size_t i = 0; i < mesh.copyOf.size(); ++i)
+    if (smooth[root(i)]) mesh.normals[mesh.welded + i] = glm::normalize(sums[root(i)]);
+  for (std::size_t v = 0; v < mesh.welded; ++v)
+    if (smooth[v]) mesh.normals[v] = glm::normalize(sums[v]);
+}
+
 }  // namespace
 
 void splitAtCreases(const FeatureMesh& features, const LocalField& field, Progress& progress, Mesh& mesh) {
@@ -96,6 +115,7 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, Progre
     looked[v] = glm::mix(features.positions[fan.vertex], middle, kInto);
   }
   gradientNormals(looked, field, progress, mesh.normals);
+  joinNormals(mesh);
   fitNormals(mesh.positions, mesh.triangles, mesh.normals);
 }
 

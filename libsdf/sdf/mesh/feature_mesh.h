@@ -8,12 +8,14 @@
 namespace sdf {
 
 /// Triangles, counter-clockwise seen from outside, closed and manifold, and those of their edges along which
-/// the surface has an edge. A vertex without creases lies on one smooth piece of the surface, one with two of
-/// them on a crease, any other at a corner (or where a crease fades out).
+/// the surface has an edge or its paint a border. A vertex without creases lies on one smooth piece of the
+/// surface, one with two of them on a crease, any other at a corner (or where a crease fades out).
 struct FeatureMesh {
   std::vector<glm::vec3> positions;  ///< scene units
   std::vector<glm::uvec3> triangles;
   std::vector<std::array<std::uint32_t, 2>> creases;  ///< pairs of vertices, the lower first; sorted
+  /// Of each triangle, the number among the shape's; where two meet there is a crease. Empty: all are of one.
+  std::vector<int> materials{};
 };
 
 }  // namespace sdf

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "sdf/mesh/balance.h"
+#include "sdf/mesh/borders.h"
 #include "sdf/mesh/certify.h"
 #include "sdf/mesh/remesh.h"
 #include "sdf/mesh/sharpen.h"
@@ -56,15 +57,17 @@ constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
 // cannot mend.
 constexpr double kResolved = 0.25;
+// Where a tolerance is missed by less than this factor, this share of it may keep it.
+constexpr double kFarOff = 2.0, kStricter = 0.6;
 // A mesh of more than these is not tried again with four times as many.
-constexpr std::size_t kMostTriangles = 250'000;
+constexpr std::size_t kMostTriangles = 100'000;
 
-// Is there nothing on the surface but its shape that coarse triangles would blur?
-bool isOfOneColor(const Shape& shape) {
+// Does what is seen on the surface change from place to place?
+bool isPainted(const Shape& shape) {
   for (const Attribute a : {Attribute::Red, Attribute::Green, Attribute::Blue, Attribute::AmbientRed,
                             Attribute::AmbientGreen, Attribute::AmbientBlue, Attribute::MaterialId})
-    if (!shape.surface[static_cast<int>(a)].isConstant()) return false;
-  return true;
+    if (!shape.surface[static_cast<int>(a)].isConstant()) return true;
+  return false;
 }
 
 // Runs the stages of one mesh and keeps their times.
@@ -84,7 +87,8 @@ class Mesher {
       return Error{ErrorKind::Limits,
                    "part '" + name_ + "': a tolerance of " + shown(options_.tolerance) +
                        " is below the rounding of coordinates at this size; take at least " + shown(least)};
-    const bool thins = options_.tolerance > 0.0 && isOfOneColor(shape);
+    const bool thins = options_.tolerance > 0.0;
+    painted_ = isPainted(shape);
     begin("sampling");
     const ModelTapes model = Model(shape).at(options_.values);
     const LocalTapes whole{model.whole(), model.whole()->firstOutputOnly()};
@@ -106,7 +110,7 @@ class Mesher {
           if (!last) continue;
           return checkTolerance().error();
         }
-        const bool kept = remesh(mesh, field, {options_.tolerance}, progress_).kept;
+        const bool kept = thin(mesh, field);
         if (!kept && !last) continue;
       }
       return finish(shape, model, *bounds, h, *sampled, field, mesh);
@@ -125,13 +129,33 @@ class Mesher {
     refineVertices(raw.points, normals, field, progress_);
     begin("creases");
     FeatureMesh mesh = sharpen(std::move(raw.points), normals, std::move(raw.triangles), field, progress_);
-    if (!balanced) return mesh;
-    begin("balancing");
-    balanceVertices(mesh, normals);
-    if (options_.bounds)
-      for (glm::vec3& p : mesh.positions)
-        p = glm::clamp(glm::dvec3(p), options_.bounds->min, options_.bounds->max);
+    if (balanced) {
+      begin("balancing");
+      balanceVertices(mesh, normals);
+      if (options_.bounds)
+        for (glm::vec3& p : mesh.positions)
+          p = glm::clamp(glm::dvec3(p), options_.bounds->min, options_.bounds->max);
+    }
+    if (painted_) {
+      begin("borders");
+      cutAtBorders(mesh, field, progress_);
+    }
     return mesh;
+  }
+
+  // Remeshes it with few triangles; a stricter tolerance makes up for what the first misses by little.
+  bool thin(FeatureMesh& mesh, const BandField& field) {
+    const FeatureMesh whole = std::move(mesh);
+    for (const double share : {1.0, kStricter}) {
+      mesh = whole;
+      const RemeshResult r =
+          remesh(mesh, field, {.tolerance = share * options_.tolerance, .painted = painted_}, progress_);
+      measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
+      const double distance = std::max(r.maxDistance, result_.stats.maxDistance);
+      if (distance <= options_.tolerance) return true;
+      if (distance > kFarOff * options_.tolerance) return false;
+    }
+    return false;
   }
 
   // Measures, checks and colours what was made.
@@ -149,7 +173,7 @@ class Mesher {
     Mesh& mesh = result_.mesh;
     splitAtCreases(features, field, progress_, mesh);
     begin("colouring");
-    colorMesh(shape, options_.values, field, progress_, mesh);
+    colorMesh(shape, features.materials, options_.values, field, progress_, mesh);
     end();
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     result_.stats.voxels = band.sampleCount();
@@ -270,6 +294,7 @@ class Mesher {
   const MeshOptions& options_;
   Progress& progress_;
   MeshedShape result_;
+  bool painted_ = false;
   std::size_t stage_ = 0;
   Clock::time_point began_;
 };

@@ -16,8 +16,8 @@ namespace sdf {
 
 struct MeshOptions {
   double voxelSize = 0.0;  ///< scene units; 0 takes 1/200 of the longest side of the bounds
-  /// Distance between mesh and surface that a shape of one colour is to keep with few triangles, scene units;
-  /// its voxels are halved up to three times for it, and for what is thinner than they are. 0: none.
+  /// Distance between mesh and surface to be kept with few triangles, scene units; voxels are halved up to
+  /// three times for it, and for what is thinner than they are. 0: none.
   double tolerance = 0.0;
   std::optional<Box> bounds{};  ///< clips the shape, closed and watertight
   Values values{};              ///< of the shape's inputs; its bounds hold for all in their ranges

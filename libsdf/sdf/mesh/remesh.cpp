@@ -4,6 +4,7 @@
 
 #include "sdf/mesh/remesh_changes.h"
 #include "sdf/mesh/remesh_measure.h"
+#include "sdf/mesh/remesh_paint.h"
 
 namespace sdf {
 namespace {
@@ -47,7 +48,7 @@ class Remesher {
         outer_(progress),
         quiet_(progress),
         mesh_(mesh),
-        changes_(mesh_, field, kOvershoot * options.tolerance, quiet_) {}
+        changes_(mesh_, field, kOvershoot * options.tolerance, options.painted, quiet_) {}
 
   RemeshResult run() {
     changes_.split();
@@ -62,9 +63,11 @@ class Remesher {
     adjust(0.0f);
     report(0.7);
     if (!overBudget()) keepTolerance();
+    if (!overBudget() && options_.painted) keepColors();
     if (overBudget()) keepBudget();
     report(1.0);
-    return {measured_.largest, measured_.rms, measured_.largest <= options_.tolerance && !quiet_.stopped()};
+    return {measured_.largest, measured_.rms, colors_.largest,
+            measured_.largest <= options_.tolerance && !quiet_.stopped()};
   }
   FeatureMesh take() const { return mesh_.compacted(); }
 
@@ -103,6 +106,16 @@ class Remesher {
     measure();
   }
 
+  // Splits what blurs the colours, down to a voxel.
+  void keepColors() {
+    for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
+      colors_ = measureColors(mesh_, static_cast<float>(options_.tolerance), field_, quiet_);
+      if (colors_.exceeding.empty()) break;
+      changes_.splitTriangles(colors_.exceeding);
+    }
+    measure();
+  }
+
   // Goes on collapsing in the order of the errors, as far as the budget asks.
   void keepBudget() {
     for (double by = kOvershoot * kGiveWay; overBudget() && !quiet_.stopped(); by *= kGiveWay) {
@@ -131,6 +144,7 @@ class Remesher {
   RemeshTopology mesh_;
   RemeshChanges changes_;
   DenseDistances measured_;
+  ColorErrors colors_;
 };
 
 }  // namespace

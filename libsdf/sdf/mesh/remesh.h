@@ -11,12 +11,16 @@ namespace sdf {
 struct RemeshOptions {
   double tolerance;              ///< distance between mesh and surface, scene units; positive
   std::size_t maxTriangles = 0;  ///< a budget: the tolerance gives way until it is met; 0: none
+  /// Does what is seen on the surface change from place to place? Then borders of materials and colours are
+  /// held, too (remesh_paint.h).
+  bool painted = false;
 };
 
 /// What was measured of the mesh that remesh left.
 struct RemeshResult {
   double maxDistance = 0.0;  ///< scene units; at most the tolerance, unless a budget made it give way
   double rmsDistance = 0.0;  ///< weighted by area
+  double colorError = 0.0;   ///< of a painted mesh: ColorErrors::largest
   bool kept = false;         ///< maxDistance is within the tolerance that was asked for
 };
 

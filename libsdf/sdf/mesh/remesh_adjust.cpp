@@ -19,6 +19,8 @@ constexpr float kShape = 1e-5f;
 
 // What each square of a vertex's distance from having six neighbours counts for in loose sweeps.
 constexpr float kEven = 0.3f;
+// A fan whose distances are below this share of the tolerance is flat.
+constexpr float kFlat = 0.02f;
 // How far vertices are moved at once: of the way to the balance, and of the spokes' length.
 constexpr float kBalance = 0.7f, kDescend = 0.04f;
 
@@ -34,6 +36,18 @@ float shapeOf(const Fans& fans, const Fan& fan) {
   return sum;
 }
 
+// Where a fan's distances are a small part of the tolerance there is nothing to balance.
+void dropFlat(Fans& fans, std::vector<FanError>& errors, std::vector<std::uint32_t>& chosen,
+              float tolerance) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (errors[i].sound && errors[i].largest < kFlat * tolerance) continue;
+    chosen[kept] = chosen[i], fans.all[kept] = fans.all[i], errors[kept] = errors[i];
+    ++kept;
+  }
+  chosen.resize(kept), fans.all.resize(kept), errors.resize(kept);
+}
+
 float spokeLength(const Fans& fans, std::size_t i) {
   const Fan& fan = fans.all[i];
   float sum = 0.0f;
@@ -42,6 +56,10 @@ float spokeLength(const Fans& fans, std::size_t i) {
 }
 
 }  // namespace
+
+bool RemeshChanges::worsens(const FanError& before, const FanError& after) const {
+  return after.largest > std::max(before.largest, tolerance_);
+}
 
 std::size_t RemeshChanges::relocate(float loose) {
   std::size_t moved = 0;
@@ -64,8 +82,9 @@ std::size_t RemeshChanges::relocate(float loose) {
       before.addAround(mesh_, v);
     }
     std::vector<FanError> old, errors;
-    evaluateFans(before, tolerance_, field_, progress_, old);
+    evaluate(before, old);
     if (progress_.stopped()) return moved;
+    dropFlat(before, old, chosen, tolerance_);
     std::vector<float> best(chosen.size());
     std::vector<glm::vec3> to(chosen.size()), normal(chosen.size());
     for (std::size_t i = 0; i < chosen.size(); ++i)
@@ -81,11 +100,11 @@ std::size_t RemeshChanges::relocate(float loose) {
         evaluateFans(after, tolerance_, field_, progress_, errors);
         moveToOffsets(after, errors);
       }
-      evaluateFans(after, tolerance_, field_, progress_, errors);
+      evaluate(after, errors);
       if (progress_.stopped()) return moved;
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         const float energy = errors[i].energy + kShape * shapeOf(after, after.all[i]);
-        if (!errors[i].sound || !(energy < best[i])) continue;
+        if (!errors[i].sound || !(energy < best[i]) || worsens(old[i], errors[i])) continue;
         best[i] = energy;
         to[i] = after.all[i].centre;
         normal[i] = errors[i].normal;
@@ -126,10 +145,10 @@ void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
     fans.addAround(mesh_, v);
   }
   std::vector<FanError> errors;
-  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  evaluate(fans, errors);
   const std::vector<FanError> old = errors;
   for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += old[i].onto;
-  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  evaluate(fans, errors);
   if (progress_.stopped()) return;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (old[i].sound && !errors[i].sound) continue;
@@ -154,12 +173,12 @@ std::size_t RemeshChanges::flip(float loose) {
     after.addFlipped(mesh_, h);
   }
   std::vector<FanError> old, errors;
-  evaluateFans(before, tolerance_, field_, progress_, old);
-  evaluateFans(after, tolerance_, field_, progress_, errors);
+  evaluate(before, old);
+  evaluate(after, errors);
   if (progress_.stopped()) return 0;
   std::vector<Candidate> gains;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    if (!errors[i].sound) continue;
+    if (!errors[i].sound || worsens(old[i], errors[i])) continue;
     const float then = errors[i].energy + kShape * shapeOf(after, after.all[i]),
                 now = old[i].energy + kShape * shapeOf(before, before.all[i]);
     const float even = (loose > 0.0f ? kEven : 0.0f) * evenness(edges[i]);

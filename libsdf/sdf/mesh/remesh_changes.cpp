@@ -4,13 +4,18 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/mesh/remesh_paint.h"
 #include "sdf/mesh/surface_points.h"
 
 namespace sdf {
 
-RemeshChanges::RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance,
+RemeshChanges::RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance, bool painted,
                              Progress& progress)
-    : mesh_(mesh), field_(field), tolerance_(static_cast<float>(tolerance)), progress_(progress) {
+    : mesh_(mesh),
+      field_(field),
+      tolerance_(static_cast<float>(tolerance)),
+      painted_(painted),
+      progress_(progress) {
   grow();
   readNormals();
 }
@@ -20,6 +25,11 @@ void RemeshChanges::setTolerance(double tolerance) {
   lastFlips_ = lastSplits_ = 0;
   std::fill(tried_.begin(), tried_.end(), 0);
   std::fill(settled_.begin(), settled_.end(), 0);
+}
+
+void RemeshChanges::evaluate(const Fans& fans, std::vector<FanError>& errors) const {
+  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  if (painted_ && !progress_.stopped()) addPaintErrors(fans, tolerance_, field_, progress_, errors);
 }
 
 void RemeshChanges::grow() {

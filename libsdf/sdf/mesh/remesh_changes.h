@@ -15,8 +15,10 @@ namespace sdf {
 /// and ties by number; all are evaluated in one batch, and those that keep the tolerance are made.
 class RemeshChanges {
  public:
-  /// Distances are held to `tolerance`.
-  RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance, Progress& progress);
+  /// Distances are held to `tolerance`, and where the mesh is `painted` so is what is seen on it
+  /// (addPaintErrors).
+  RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance, bool painted,
+                Progress& progress);
 
   /// Collapses edges, those first along which the surface turns least, until no collapse keeps the tolerance
   /// or `maxTriangles` are left. Along creases a little more
@@ -46,17 +48,22 @@ class RemeshChanges {
     std::uint32_t where;  // a half-edge or a vertex
     bool operator<(const Candidate& o) const { return cost != o.cost ? cost < o.cost : where < o.where; }
   };
+  void evaluate(const Fans& fans, std::vector<FanError>& errors) const;
+  // Is the tolerance exceeded by more than before?
+  bool worsens(const FanError& before, const FanError& after) const;
   void readNormals();
   float collapseCost(std::uint32_t h) const;
   float creaseCost(std::uint32_t h) const;
   std::uint32_t collapsible(std::uint32_t h) const;
-  std::vector<Candidate> collapseCandidates() const;
-  bool collapseRound(std::size_t most, bool strict);
+  // The cheapest; are there more?
+  std::vector<Candidate> collapseCandidates(bool& more) const;
+  bool collapseRound(std::size_t most, bool strict, bool& more);
   // Is the edge long enough to be resolved when it is halved?
   bool maySplit(std::uint32_t edge) const;
   std::uint32_t longestSide(std::uint32_t h) const;
   std::vector<Candidate> splitCandidates();
-  std::size_t splitRound(const std::vector<Candidate>& candidates);
+  // The new vertices lie on the surface, or to either side of it as balances the distances.
+  std::size_t splitRound(const std::vector<Candidate>& candidates, bool onto);
   void moveToOffsets(Fans& fans, const std::vector<FanError>& errors) const;
   bool claim(std::uint32_t v);
   bool claimEdge(std::uint32_t h);
@@ -66,6 +73,7 @@ class RemeshChanges {
   RemeshTopology& mesh_;
   const LocalField& field_;
   float tolerance_;
+  bool painted_;
   Progress& progress_;
   std::uint32_t round_ = 1;
   std::uint32_t lastFlips_ = 0, lastSplits_ = 0;  // rounds

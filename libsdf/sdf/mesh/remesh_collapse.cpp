@@ -14,7 +14,7 @@ namespace {
 // number below which all are taken.
 constexpr double kShare = 0.35;
 constexpr std::size_t kFew = 500;
-// A round that removes less than this share of the triangles is the last.
+// A round of all candidates that removes less than this share of the triangles is the last.
 constexpr double kStale = 2e-3;
 // What a collapse costs is about eight times the chord's error; above this many tolerances none can succeed.
 // An edge as long as the tolerance allows in the best mesh has 12.
@@ -67,7 +67,7 @@ std::uint32_t RemeshChanges::collapsible(std::uint32_t h) const {
   return RemeshTopology::kNone;
 }
 
-std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates() const {
+std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates(bool& more) const {
   std::vector<Candidate> all(mesh_.halfEdges(), {HUGE_VALF, 0});
   tbb::parallel_for(std::uint32_t{0}, mesh_.halfEdges(), [&](std::uint32_t h) {
     if (!mesh_.alive(h) || h > mesh_.twin(h)) return;
@@ -79,7 +79,8 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates() const 
   });
   std::erase_if(all, [](const Candidate& c) { return !(c.cost < HUGE_VALF); });
   const auto share = static_cast<std::size_t>(kShare * static_cast<double>(all.size()));
-  if (share > kFew) {
+  more = share > kFew;
+  if (more) {
     std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(share), all.end());
     all.resize(share);
   }
@@ -87,11 +88,11 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates() const 
   return all;
 }
 
-bool RemeshChanges::collapseRound(std::size_t most, bool strict) {
+bool RemeshChanges::collapseRound(std::size_t most, bool strict, bool& more) {
   ++round_;
   std::vector<std::uint32_t> chosen;
   bool any = false;
-  for (const Candidate& c : collapseCandidates()) {
+  for (const Candidate& c : collapseCandidates(more)) {
     if (chosen.size() >= most) break;
     any = true;
     if (!mesh_.canCollapse(c.where)) {
@@ -107,7 +108,7 @@ bool RemeshChanges::collapseRound(std::size_t most, bool strict) {
   std::vector<FanError> errors;
   evaluateFans(fans, tolerance_, field_, progress_, errors);
   moveToOffsets(fans, errors);
-  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  evaluate(fans, errors);
   if (progress_.stopped()) return false;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::uint32_t h = chosen[i], v = mesh_.to(h);
@@ -127,9 +128,10 @@ bool RemeshChanges::collapseRound(std::size_t most, bool strict) {
 void RemeshChanges::collapse(std::size_t maxTriangles, bool strict) {
   while (!progress_.stopped() && mesh_.liveTriangles() > std::max<std::size_t>(maxTriangles, 4)) {
     const std::size_t before = mesh_.liveTriangles();
-    if (!collapseRound((before - maxTriangles + 1) / 2, strict)) return;
+    bool more = false;
+    if (!collapseRound((before - maxTriangles + 1) / 2, strict, more)) return;
     const auto gone = static_cast<double>(before - mesh_.liveTriangles());
-    if (before > kFew && gone < kStale * static_cast<double>(before)) return;
+    if (!more && before > kFew && gone < kStale * static_cast<double>(before)) return;
   }
 }
 

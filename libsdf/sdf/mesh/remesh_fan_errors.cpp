@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <span>
 
@@ -17,8 +16,6 @@ namespace {
 constexpr float kCosine = 0.5f;
 // A triangle's least height: in tolerances, and in units of its corners' rounding.
 constexpr float kHeight = 0.02f, kRounding = 16.0f * 0x1p-24f;
-// Larger distances count as so many tolerances: their 16th power is to stay finite.
-constexpr float kLargestShare = 100.0f;
 // Sides of a crease that meet at less than 5 degrees (cosine) are one.
 constexpr float kSmooth = 0.9962f;
 
@@ -138,10 +135,11 @@ class Judge {
       if (std::abs(c) < kSmooth) d = glm::length(leastStep(r.normal, o.normal, r.distance, o.distance));
     }
     if (!(d <= e.largest)) e.largest = d, e.worst = s.triangle;
-    if (s.weight == 0.5f && !(d <= e.spoke)) {
+    if (s.kind == Sample::Spoke && !(d <= e.spoke)) {
       const bool second = s.at != s.of && samples_[i - 1].of == s.of;
       e.spoke = d, e.worstSpoke = second ? view_.after(s.triangle) : s.triangle;
     }
+    if (s.kind == Sample::Inner) return;
     addEnergy(d, e);
     if (!(glm::dot(facets_[s.triangle], r.normal) > kCosine)) e.sound = false;
     const auto spread = [&](std::uint32_t t) {
@@ -149,7 +147,7 @@ class Judge {
       low = std::min(low, r.distance), high = std::max(high, r.distance);
     };
     spread(s.triangle);
-    if (s.weight == 0.5f && s.at == s.of && view_.fan.closed)
+    if (s.kind == Sample::Spoke && s.at == s.of && view_.fan.closed)
       spread(s.triangle == 0 ? view_.fan.count - 1 : s.triangle - 1);
   }
 
@@ -158,7 +156,7 @@ class Judge {
   void extremaOnSpokes(FanError& e) {
     for (std::size_t i = 1; i < samples_.size(); ++i) {
       const Sample& s = samples_[i];
-      if (s.weight != 0.5f) continue;
+      if (s.kind != Sample::Spoke) continue;
       const Reading& r = readings_[i];
       const glm::vec3 half = s.of - view_.fan.centre;
       const float slope = glm::dot(r.normal, half),
@@ -182,8 +180,8 @@ class Judge {
     };
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const Sample& s = samples_[i];
-      if (s.weight == 1.0f) continue;
-      if (s.weight != 0.5f) {
+      if (s.kind == Sample::Centre || s.kind == Sample::Inner) continue;
+      if (s.kind == Sample::Centroid) {
         put(s.triangle, 0, i);
         continue;
       }
@@ -231,7 +229,7 @@ class Judge {
     const bool two = view_.fan.creases == 2;
     const auto sector = [&](const Sample& s) { return two && view_.inSecond(s.triangle) ? 1 : 0; };
     for (std::size_t i = 0; i < samples_.size(); ++i)
-      if (samples_[i].weight == 1.0f) normals[sector(samples_[i])] += readings_[i].normal;
+      if (samples_[i].kind == Sample::Centre) normals[sector(samples_[i])] += readings_[i].normal;
     e.normal = normals[0];
     e.onto = -readings_[0].distance * readings_[0].normal;
     const bool apart = two && std::abs(glm::dot(normals[0], normals[1])) < kSmooth;
@@ -241,6 +239,7 @@ class Judge {
     for (Balance& side : sides_) side.clear();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const int k = apart ? sector(samples_[i]) : 0;
+      if (samples_[i].kind == Sample::Inner) continue;
       sides_[k].add(readings_[i].distance, samples_[i].weight * glm::dot(readings_[i].normal, normals[k]));
     }
     e.offset = apart ? leastStep(normals[0], normals[1], sides_[0].solve(), sides_[1].solve())
@@ -282,42 +281,22 @@ class Judge {
   std::vector<Three>& three_;
 };
 
-// An order in which points that share their tapes follow one another: a band's leaves are 8 voxels wide.
-// Sorted within the chunks that tasks take; they hold some hundred fans that lie near one another.
-std::vector<std::uint32_t> byRegion(const std::vector<glm::vec3>& points, const LocalField& field) {
-  std::vector<std::uint32_t> order(points.size());
-  const std::size_t chunks = (points.size() + kRunChunk - 1) / kRunChunk;
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-    const std::size_t first = chunk * kRunChunk, count = std::min(points.size() - first, kRunChunk);
-    const float width = 8.0f * static_cast<float>(field.finder()->at(points[first]).voxel);
-    std::pair<std::uint64_t, std::uint32_t> keys[kRunChunk];
-    for (std::size_t i = 0; i < count; ++i) {
-      const glm::vec3 cell = glm::floor(points[first + i] / width);
-      std::uint64_t key = 0;
-      for (int axis = 0; axis < 3; ++axis)
-        key = key << 21 | (static_cast<std::uint64_t>(static_cast<std::int64_t>(cell[axis])) & 0x1fffff);
-      keys[i] = {key, static_cast<std::uint32_t>(first + i)};
-    }
-    std::sort(keys, keys + count);
-    for (std::size_t i = 0; i < count; ++i) order[first + i] = keys[i].second;
-  });
-  return order;
-}
-
 }  // namespace
 
 void evaluateFans(const Fans& fans, float tolerance, const LocalField& field, Progress& progress,
                   std::vector<FanError>& errors) {
+  if (fans.all.empty()) return errors.clear();
+  const auto spacing = static_cast<float>(field.finder()->at(fans.all[0].centre).voxel);
   std::vector<std::size_t> first{0};
   for (std::size_t i = 0; i < fans.all.size(); ++i)
-    first.push_back(first.back() + FanView(fans, i, tolerance).samples());
+    first.push_back(first.back() + FanView(fans, i, tolerance, spacing).samples());
   std::vector<glm::vec3> points(first.back());
   std::vector<Reading> readings(first.back());
   tbb::parallel_for(std::size_t{0}, fans.all.size(), [&](std::size_t i) {
     std::size_t k = first[i];
-    FanView(fans, i, tolerance).forEachSample([&](const Sample& s) { points[k++] = s.at; });
+    FanView(fans, i, tolerance, spacing).forEachSample([&](const Sample& s) { points[k++] = s.at; });
   });
-  const std::vector<std::uint32_t> order = byRegion(points, field);
+  const std::vector<std::uint32_t> order = orderByRegion(points, field);
   forEachRun(
       points.size(), [&](std::size_t i) { return points[order[i]]; }, field, progress,
       [&](const PointRun& run) {
@@ -330,7 +309,7 @@ void evaluateFans(const Fans& fans, float tolerance, const LocalField& field, Pr
   tbb::enumerable_thread_specific<Rooms> rooms;
   if (progress.stopped()) return;
   tbb::parallel_for(std::size_t{0}, fans.all.size(), [&](std::size_t i) {
-    const FanView view(fans, i, tolerance);
+    const FanView view(fans, i, tolerance, spacing);
     const std::span<Reading> own(readings.data() + first[i], first[i + 1] - first[i]);
     std::size_t k = 0;
     view.forEachSample([&](const Sample& s) {

@@ -17,10 +17,16 @@ inline constexpr float kBeside = 4.0f;
 /// A distance to be read at `at` for the point `of` of the mesh, which moves by `weight` times what the
 /// centre does.
 struct Sample {
+  enum Kind { Centre, Centroid, Inner, Spoke };
+  Kind kind;
   glm::vec3 of, at;
   float weight;
   std::uint32_t triangle;  // of the fan
 };
+
+/// Triangles with sides longer than `spacing` are looked at in between, too, so many times along a side at
+/// most.
+inline constexpr int kMostSteps = 8;
 
 /// What was read: signed distance at Sample::of, and the unit gradient.
 struct Reading {
@@ -32,10 +38,13 @@ struct Reading {
 struct FanView {
   const Fan& fan;
   std::span<const Fans::Spoke> rim;
-  float beside;
+  float beside, spacing;
 
-  FanView(const Fans& fans, std::size_t i, float tolerance)
-      : fan(fans.all[i]), rim(fans.rim.data() + fan.first, fan.count), beside(kBeside * tolerance) {}
+  FanView(const Fans& fans, std::size_t i, float tolerance, float spacing)
+      : fan(fans.all[i]),
+        rim(fans.rim.data() + fan.first, fan.count),
+        beside(kBeside * tolerance),
+        spacing(spacing) {}
 
   const glm::vec3& end(std::uint32_t i) const { return rim[i].end; }
   std::uint32_t after(std::uint32_t i) const { return i + 1 == fan.count ? 0 : i + 1; }
@@ -55,27 +64,49 @@ struct FanView {
   template <class Take>
   void forEachSample(const Take& take) const {
     const std::uint32_t n = fan.triangles();
-    if (hasCentre() && fan.creases == 0) take(Sample{fan.centre, fan.centre, 1.0f, 0});
+    if (hasCentre() && fan.creases == 0) take(Sample{Sample::Centre, fan.centre, fan.centre, 1.0f, 0});
     if (hasCentre() && fan.creases > 0)
       forEachSector([&](std::uint32_t first, std::uint32_t count) {
         const std::uint32_t middle = (first + count / 2) % fan.count;
-        take(Sample{fan.centre, besideOf(fan.centre, glm::vec3(0.0f), middle), 1.0f, middle});
+        take(Sample{Sample::Centre, fan.centre, besideOf(fan.centre, glm::vec3(0.0f), middle), 1.0f, middle});
       });
     for (std::uint32_t i = 0; i < n; ++i) {
       const glm::vec3 c = centroid(i);
-      take(Sample{c, c, 1.0f / 3.0f, i});
+      take(Sample{Sample::Centroid, c, c, 1.0f / 3.0f, i});
+      forEachInner(i, take);
     }
     const std::uint32_t begin = fan.closed ? 0 : 1, spokes = fan.closed ? fan.count : fan.count - 1;
     for (std::uint32_t i = begin; i < spokes; ++i) {
       const glm::vec3 p = 0.5f * (fan.centre + end(i)), along = end(i) - fan.centre;
       const std::uint32_t before = i == 0 ? fan.count - 1 : i - 1;
       if (!rim[i].crease) {
-        take(Sample{p, p, 0.5f, i});
+        take(Sample{Sample::Spoke, p, p, 0.5f, i});
         continue;
       }
-      take(Sample{p, besideOf(p, along, i), 0.5f, i});
-      take(Sample{p, besideOf(p, along, before), 0.5f, before});
+      take(Sample{Sample::Spoke, p, besideOf(p, along, i), 0.5f, i});
+      take(Sample{Sample::Spoke, p, besideOf(p, along, before), 0.5f, before});
     }
+  }
+
+  int steps(std::uint32_t i) const {
+    const glm::vec3 &a = end(i), &b = end(after(i));
+    const float longest =
+        std::max({glm::distance(fan.centre, a), glm::distance(fan.centre, b), glm::distance(a, b)});
+    return static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0f, static_cast<float>(kMostSteps)));
+  }
+
+  // The nodes of a grid inside the triangle; three steps have one, which is its centroid.
+  template <class Take>
+  void forEachInner(std::uint32_t i, const Take& take) const {
+    const int n = steps(i);
+    if (n < 4) return;
+    for (int j = 1; j < n; ++j)
+      for (int k = 1; j + k < n; ++k) {
+        const float u = static_cast<float>(j) / static_cast<float>(n),
+                    v = static_cast<float>(k) / static_cast<float>(n), w = 1.0f - u - v;
+        const glm::vec3 p = w * fan.centre + u * end(i) + v * end(after(i));
+        take(Sample{Sample::Inner, p, p, w, i});
+      }
   }
 
   // Calls take(first triangle, number of triangles) for each sector, from the first crease on.
@@ -92,8 +123,9 @@ struct FanView {
   }
 
   std::size_t samples() const {
-    const std::size_t centre = hasCentre() ? std::max(1u, fan.creases) : 0;
-    return centre + fan.triangles() + (fan.closed ? fan.count : fan.count - 2) + fan.creases;
+    std::size_t count = 0;
+    forEachSample([&](const Sample&) { ++count; });
+    return count;
   }
 
   // Which sector a triangle belongs to, for two of them.

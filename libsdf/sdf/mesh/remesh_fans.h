@@ -28,6 +28,7 @@ struct Fans {
     glm::vec3 end;
     std::uint32_t vertex;
     bool crease;
+    int material;  ///< of the triangle from here to the next
   };
   std::vector<Fan> all;
   std::vector<Spoke> rim;
@@ -45,8 +46,13 @@ struct Fans {
 
  private:
   void begin(const glm::vec3& centre);
-  void add(const RemeshTopology& mesh, std::uint32_t vertex, bool crease);
+  void add(const RemeshTopology& mesh, std::uint32_t vertex, bool crease, std::uint32_t triangle);
 };
+
+/// Large distances weigh much: the largest decides. Those beyond so many tolerances count as that, for their
+/// power is to stay finite.
+inline constexpr int kEnergyPower = 16;
+inline constexpr float kLargestShare = 100.0f;
 
 /// What was found of one fan.
 struct FanError {
@@ -54,7 +60,7 @@ struct FanError {
   std::uint32_t worst = 0;  ///< the triangle that has it
   float spoke = 0.0f;       ///< the same at the spokes' middles
   std::uint32_t worstSpoke = 0;
-  float energy = 0.0f;      ///< sum over the samples of (distance / tolerance)^16
+  float energy = 0.0f;      ///< sum over the samples of (distance / tolerance)^kEnergyPower
   bool sound = true;        ///< no triangle is a needle or turned away from the gradient
   glm::vec3 normal{0.0f};   ///< of the surface at the centre, of the first sector; unit
   glm::vec3 offset{0.0f};   ///< off or onto the surface: makes the largest distance to either side equal

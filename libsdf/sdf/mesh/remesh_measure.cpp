@@ -36,6 +36,8 @@ void addPoints(const glm::vec3 (&corners)[3], float cell, std::vector<glm::vec3>
   }
 }
 
+}  // namespace
+
 std::vector<float> distancesAt(const std::vector<glm::vec3>& points, const LocalField& field,
                                Progress& progress) {
   std::vector<float> all(points.size());
@@ -48,8 +50,6 @@ std::vector<float> distancesAt(const std::vector<glm::vec3>& points, const Local
       });
   return all;
 }
-
-}  // namespace
 
 DenseDistances measureDensely(const RemeshTopology& mesh, const LocalField& field, double tolerance,
                               Progress& progress) {

@@ -9,6 +9,10 @@
 
 namespace sdf {
 
+/// First-order distances at these points, absolute.
+std::vector<float> distancesAt(const std::vector<glm::vec3>& points, const LocalField& field,
+                               Progress& progress);
+
 struct DenseDistances {
   double largest = 0.0;                  ///< scene units
   double rms = 0.0;                      ///< weighted by area

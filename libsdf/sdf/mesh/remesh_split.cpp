@@ -3,12 +3,17 @@
 #include <glm/geometric.hpp>
 
 #include "sdf/mesh/remesh_changes.h"
+#include "sdf/mesh/remesh_measure.h"
 
 namespace sdf {
 namespace {
 
 // Splitting halves an edge and so quarters its error: more rounds than these do not help.
 constexpr int kRounds = 16;
+
+// A triangle whose distances are beyond the tolerance is split where they come from: at a side that has this
+// share of the tolerance in its middle, else at the longest.
+constexpr float kOnSide = 0.7f;
 
 // Voxels: what exceeds the tolerance on shorter edges is not resolved by the field.
 constexpr double kShortest = 1.0 / 16;
@@ -44,7 +49,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
     fans.addAround(mesh_, v);
   }
   std::vector<FanError> errors;
-  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  evaluate(fans, errors);
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const FanError& e = errors[i];
@@ -59,7 +64,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
   return all;
 }
 
-std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates) {
+std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool onto) {
   ++round_;
   std::vector<std::uint32_t> chosen;
   Fans fans;
@@ -72,11 +77,12 @@ std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates) 
   }
   if (chosen.empty()) return 0;
   std::vector<FanError> errors;
-  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  evaluate(fans, errors);
   const Fans middles = fans;
   const std::vector<FanError> atMiddles = errors;
-  moveToOffsets(fans, errors);
-  evaluateFans(fans, tolerance_, field_, progress_, errors);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    fans.all[i].centre += onto ? errors[i].onto : errors[i].offset;
+  evaluate(fans, errors);
   if (progress_.stopped()) return 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::uint32_t v =
@@ -92,7 +98,7 @@ bool RemeshChanges::split() {
   for (int i = 0; i < kRounds && !progress_.stopped(); ++i) {
     const std::vector<Candidate> candidates = splitCandidates();
     if (candidates.empty()) return true;
-    splitRound(candidates);
+    splitRound(candidates, false);
     flip();
     relocate();
   }
@@ -100,13 +106,25 @@ bool RemeshChanges::split() {
 }
 
 void RemeshChanges::splitTriangles(const std::vector<std::uint32_t>& triangles) {
+  std::vector<glm::vec3> middles;
+  for (const std::uint32_t t : triangles)
+    for (std::uint32_t k = 0; k < 3; ++k)
+      middles.push_back(0.5f * (mesh_.positions[mesh_.from(t + k)] + mesh_.positions[mesh_.to(t + k)]));
+  const std::vector<float> distances = distancesAt(middles, field_, progress_);
+  if (progress_.stopped()) return;
   std::vector<Candidate> all;
-  for (const std::uint32_t t : triangles) {
-    const std::uint32_t h = longestSide(t);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto first = distances.begin() + static_cast<std::ptrdiff_t>(3 * i),
+               worst = std::max_element(first, first + 3);
+    const std::uint32_t h = *worst > kOnSide * tolerance_
+                                ? triangles[i] + static_cast<std::uint32_t>(worst - first)
+                                : longestSide(triangles[i]);
     if (maySplit(h)) all.push_back({0.0f, std::min(h, mesh_.twin(h))});
   }
   std::sort(all.begin(), all.end());
-  splitRound(all);
+  splitRound(all, true);
+  flip();
+  relocate();
 }
 
 }  // namespace sdf

@@ -19,6 +19,7 @@ RemeshTopology::RemeshTopology(const FeatureMesh& mesh)
     : positions(mesh.positions),
       twin_(3 * mesh.triangles.size()),
       out_(mesh.positions.size(), kNone),
+      materials_(mesh.materials),
       crease_(3 * mesh.triangles.size(), 0),
       creases_(mesh.positions.size(), 0),
       live_(mesh.triangles.size()) {
@@ -54,8 +55,11 @@ FeatureMesh RemeshTopology::compacted() const {
     number[v] = static_cast<Index>(mesh.positions.size());
     mesh.positions.push_back(positions[v]);
   }
-  for (Index h = 0; h < from_.size(); h += 3)
-    if (alive(h)) mesh.triangles.emplace_back(number[from_[h]], number[from_[h + 1]], number[from_[h + 2]]);
+  for (Index h = 0; h < from_.size(); h += 3) {
+    if (!alive(h)) continue;
+    mesh.triangles.emplace_back(number[from_[h]], number[from_[h + 1]], number[from_[h + 2]]);
+    if (hasMaterials()) mesh.materials.push_back(material(h));
+  }
   for (Index h = 0; h < from_.size(); ++h)
     if (alive(h) && isCrease(h) && from(h) < to(h)) mesh.creases.push_back({number[from(h)], number[to(h)]});
   std::sort(mesh.creases.begin(), mesh.creases.end());
@@ -139,6 +143,10 @@ RemeshTopology::Index RemeshTopology::split(Index h, const glm::vec3& p) {
   positions.push_back(p);
   out_.push_back(h);
   creases_.push_back(crease ? 2 : 0);
+  if (hasMaterials()) {
+    const int first = material(h), second = material(g);
+    materials_.push_back(first), materials_.push_back(second);
+  }
   from_.resize(x + 6), twin_.resize(x + 6), crease_.resize(x + 6, 0);
   set(x, m, b, c), set(y, b, m, d);
   from_[next(h)] = m, from_[g] = m;

@@ -26,6 +26,9 @@ class RemeshTopology {
   Index apex(Index h) const { return from_[previous(h)]; }
   Index twin(Index h) const { return twin_[h]; }
   bool isCrease(Index h) const { return crease_[h] != 0; }
+  /// Of the triangle; the flip of an edge, which is no crease, keeps it.
+  int material(Index h) const { return materials_.empty() ? 0 : materials_[h / 3]; }
+  bool hasMaterials() const { return !materials_.empty(); }
   bool alive(Index h) const { return from_[h] != kNone; }
   bool vertexAlive(Index v) const { return out_[v] != kNone; }
   /// An outgoing half-edge; the next one counter-clockwise is turned(h).
@@ -57,6 +60,7 @@ class RemeshTopology {
   void set(Index h, Index a, Index b, Index c);
 
   std::vector<Index> from_, twin_, out_;
+  std::vector<int> materials_;         // by triangle; empty where all are of one
   std::vector<std::uint8_t> crease_;   // by half-edge
   std::vector<std::uint8_t> creases_;  // by vertex; 3 stands for more
   std::size_t live_ = 0;

@@ -68,9 +68,9 @@ std::uint32_t openVertex(const std::vector<glm::uvec3>& triangles, std::size_t v
 
 /// Fills colors, ambient, triangleMaterial and materials, orders the triangles by material, and repeats
 /// vertices where materials meet (copyOf), each copy coloured on its own side of the border. positions,
-/// normals, triangles and welded are given; `values` are the inputs' that the field was made for. Once
-/// progress is stopped the mesh may be left unfinished.
-void colorMesh(const Shape& shape, const Values& values, const LocalField& field, Progress& progress,
-               Mesh& mesh);
+/// normals, triangles and welded are given; `materials` are FeatureMesh's, `values` the inputs' that the
+/// field was made for. Once progress is stopped the mesh may be left unfinished.
+void colorMesh(const Shape& shape, const std::vector<int>& materials, const Values& values,
+               const LocalField& field, Progress& progress, Mesh& mesh);
 
 }  // namespace sdf

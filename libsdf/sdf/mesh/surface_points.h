@@ -1,8 +1,9 @@
 // Evaluating the scene at points on a mesh, each with the tapes of its own leaf.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <span>
+#include <vector>
 
 #include "sdf/base/progress.h"
 #include "sdf/eval/batch.h"
@@ -29,6 +30,9 @@ inline constexpr std::size_t kRunChunk = 4096;
 void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point,
                 const LocalField& field, Progress& progress,
                 const std::function<void(const PointRun&)>& work);
+
+/// An order in which points that share their tapes follow one another, kept within chunks of kRunChunk.
+std::vector<std::uint32_t> orderByRegion(const std::vector<glm::vec3>& points, const LocalField& field);
 
 /// First-order distances and gradients of one run: |f| / |grad f| is the distance to the zero set up to
 /// second order (Taubin 1994).

@@ -1,0 +1,242 @@
+#include "sdf/mesh/borders.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <unordered_map>
+
+#include "sdf/mesh/surface_paint.h"
+
+namespace sdf {
+namespace {
+
+constexpr std::uint32_t kNone = ~0u;
+
+// How far inside its corners and sides a triangle looks for its paint, as a share of the way to the centroid.
+constexpr float kInto = 0.1f;
+constexpr int kHalvings = 7;
+// No piece of an edge is shorter than this share of it.
+constexpr float kShortest = 1.0f / 64;
+
+using Edge = std::array<std::uint32_t, 2>;
+
+Edge edgeOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+bool differ(const Paint& a, const Paint& b) {
+  return a.material != b.material || colorDifference(a, b) > kColorJump;
+}
+
+// Some way between points that look different, and the part of it where that changes most.
+struct Search {
+  std::uint32_t where;  // a triangle or an edge
+  int side;             // of the triangle
+  glm::vec3 from, to;
+  Paint atFirst, atLast;
+  float first = 0.0f, last = 1.0f;
+
+  float middle() const { return 0.5f * (first + last); }
+  void halve(const Paint& atMiddle) {
+    const bool near = atFirst.material != atLast.material
+                          ? atMiddle.material == atFirst.material
+                          : colorDifference(atFirst, atMiddle) <= colorDifference(atMiddle, atLast);
+    (near ? first : last) = middle();
+    (near ? atFirst : atLast) = atMiddle;
+  }
+};
+
+class BorderCutter {
+ public:
+  BorderCutter(FeatureMesh& mesh, const LocalField& field, Progress& progress)
+      : mesh_(mesh), field_(field), progress_(progress) {}
+
+  void run() {
+    whole_ = static_cast<std::uint32_t>(mesh_.positions.size());
+    readCorners();
+    findCrossings();
+    if (progress_.stopped()) return;
+    splitCreases();
+    std::vector<glm::uvec3> triangles = std::move(mesh_.triangles);
+    mesh_.triangles.clear();
+    for (std::size_t t = 0; t < triangles.size(); ++t) cut(t, triangles[t]);
+    addBorders();
+  }
+
+ private:
+  const glm::vec3& position(std::size_t t, int k) const { return mesh_.positions[mesh_.triangles[t][k % 3]]; }
+  // A point of a triangle, a little inside.
+  glm::vec3 inside(std::size_t t, const glm::vec3& p) const {
+    return glm::mix(p, (position(t, 0) + position(t, 1) + position(t, 2)) / 3.0f, kInto);
+  }
+
+  void readCorners() {
+    std::vector<glm::vec3> points;
+    points.reserve(3 * mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) points.push_back(inside(t, position(t, k)));
+    corners_ = readPaintBeside(points, field_, progress_);
+    cutSides_.assign(mesh_.triangles.size(), {});
+  }
+
+  // Leaves those that end at a border: what has become alike only changes fast.
+  void halve(std::vector<Search>& searches) const {
+    std::vector<glm::vec3> points;
+    for (const Search& s : searches) points.push_back(s.from), points.push_back(s.to);
+    const std::vector<Paint> ends = readPaintBeside(points, field_, progress_);
+    for (std::size_t s = 0; s < searches.size(); ++s)
+      searches[s].atFirst = ends[2 * s], searches[s].atLast = ends[2 * s + 1];
+    points.resize(searches.size());
+    for (int i = 0; i < kHalvings; ++i) {
+      std::ranges::transform(searches, points.begin(),
+                             [](const Search& s) { return glm::mix(s.from, s.to, s.middle()); });
+      const std::vector<Paint> paint = readPaintBeside(points, field_, progress_);
+      for (std::size_t s = 0; s < searches.size(); ++s) searches[s].halve(paint[s]);
+    }
+    std::erase_if(searches, [](const Search& s) { return !differ(s.atFirst, s.atLast); });
+  }
+
+  void findCrossings() {
+    std::vector<Search> searches;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const Paint &a = corners_[3 * t + k], &b = corners_[3 * t + (k + 1) % 3];
+        if (differ(a, b))
+          searches.push_back({t, k, inside(t, position(t, k)), inside(t, position(t, k + 1)), {}, {}});
+      }
+    halve(searches);
+    for (std::size_t s = 0; s < searches.size();) {
+      std::size_t end = s + 1;
+      while (end < searches.size() && searches[end].where == searches[s].where) ++end;
+      // A border that ends in the triangle crosses one side.
+      if (end - s > 1)
+        for (std::size_t i = s; i < end; ++i) addCrossing(searches[i]);
+      s = end;
+    }
+  }
+
+  // The first of an edge's two triangles decides where.
+  void addCrossing(const Search& s) {
+    cutSides_[s.where][s.side] = true;
+    const glm::uvec3& t = mesh_.triangles[s.where];
+    const std::uint32_t a = t[s.side], b = t[(s.side + 1) % 3];
+    const auto [it, fresh] =
+        crossings_.try_emplace(keyOf(a, b), static_cast<std::uint32_t>(mesh_.positions.size()));
+    if (fresh)
+      mesh_.positions.push_back(glm::mix(mesh_.positions[a], mesh_.positions[b],
+                                         std::clamp(s.middle(), kShortest, 1.0f - kShortest)));
+  }
+
+  static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
+    const Edge e = edgeOf(a, b);
+    return std::uint64_t{e[0]} << 32 | e[1];
+  }
+  std::uint32_t crossingAt(std::uint32_t a, std::uint32_t b) const {
+    const auto it = crossings_.find(keyOf(a, b));
+    return it == crossings_.end() ? kNone : it->second;
+  }
+
+  void splitCreases() {
+    std::vector<Edge> pieces;
+    for (const auto& [a, b] : mesh_.creases)
+      if (const std::uint32_t m = crossingAt(a, b); m != kNone)
+        pieces.push_back({a, m}), pieces.push_back({b, m});
+      else
+        pieces.push_back({a, b});
+    mesh_.creases = std::move(pieces);
+  }
+
+  void add(const glm::uvec3& triangle, const Paint& paint) {
+    mesh_.triangles.push_back(triangle);
+    mesh_.materials.push_back(paint.material);
+    paint_.push_back(paint);
+  }
+
+  // A polygon as a fan of triangles around its last vertex at an odd place: these lie in sides of a triangle,
+  // the others may lie beside them in the same side.
+  void addPolygon(const std::array<std::uint32_t, 6>& around, const Paint& paint) {
+    std::uint32_t corners[6];
+    std::size_t n = 0, apex = 0;
+    for (int i = 0; i < 6; ++i) {
+      if (around[i] == kNone) continue;
+      if (i % 2 == 1) apex = n;
+      corners[n++] = around[i];
+    }
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      add({corners[apex], corners[(apex + i) % n], corners[(apex + i + 1) % n]}, paint);
+  }
+
+  void cut(std::size_t number, const glm::uvec3& t) {
+    const Paint* paint = &corners_[3 * number];
+    const auto& sides = cutSides_[number];
+    const std::uint32_t x[3]{crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
+    const int cuts = sides[0] + sides[1] + sides[2];
+    if (cuts == 0) return addPolygon({t.x, x[0], t.y, x[1], t.z, x[2]}, paint[0]);
+    if (cuts == 3) {
+      const auto middle = static_cast<std::uint32_t>(mesh_.positions.size());
+      mesh_.positions.push_back((mesh_.positions[x[0]] + mesh_.positions[x[1]] + mesh_.positions[x[2]]) /
+                                3.0f);
+      for (int k = 0; k < 3; ++k) {
+        add({t[k], x[k], middle}, paint[k]);
+        add({x[k], t[(k + 1) % 3], middle}, paint[(k + 1) % 3]);
+        mesh_.creases.push_back({x[k], middle});
+      }
+      return;
+    }
+    int k = 0;  // the corner whose sides are cut
+    while (!sides[k] || !sides[(k + 2) % 3]) ++k;
+    const std::uint32_t after = x[k], across = x[(k + 1) % 3], before = x[(k + 2) % 3];
+    add({t[k], after, before}, paint[k]);
+    addPolygon({before, after, t[(k + 1) % 3], across, t[(k + 2) % 3], kNone}, paint[(k + 1) % 3]);
+    mesh_.creases.push_back({after, before});
+  }
+
+  // What differs on both sides of an edge.
+  void addBorders() {
+    struct Side {
+      Edge edge;
+      std::uint32_t triangle;
+      auto operator<=>(const Side&) const = default;
+    };
+    std::vector<Side> sides;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k)
+        sides.push_back({edgeOf(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]), t});
+    std::ranges::sort(sides);
+    std::vector<Search> searches;
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+      const auto& [edge, s] = sides[i];
+      const std::uint32_t t = sides[i + 1].triangle;
+      if (!differ(paint_[s], paint_[t])) continue;
+      // At a crossing a border is certain; elsewhere a colour may only change fast.
+      if (paint_[s].material != paint_[t].material || edge[1] >= whole_) {
+        mesh_.creases.push_back(edge);
+      } else {
+        const glm::vec3 middle = 0.5f * (mesh_.positions[edge[0]] + mesh_.positions[edge[1]]);
+        searches.push_back(
+            {static_cast<std::uint32_t>(edges.size()), 0, inside(s, middle), inside(t, middle), {}, {}});
+        edges.push_back(edge);
+      }
+    }
+    halve(searches);
+    for (const Search& s : searches) mesh_.creases.push_back(edges[s.where]);
+    for (Edge& c : mesh_.creases) c = edgeOf(c[0], c[1]);
+    std::ranges::sort(mesh_.creases);
+    mesh_.creases.erase(std::unique(mesh_.creases.begin(), mesh_.creases.end()), mesh_.creases.end());
+  }
+
+  FeatureMesh& mesh_;
+  const LocalField& field_;
+  Progress& progress_;
+  std::uint32_t whole_ = 0;     // vertices that were there
+  std::vector<Paint> corners_;  // of each triangle's three, inside
+  std::vector<std::array<bool, 3>> cutSides_;
+  std::unordered_map<std::uint64_t, std::uint32_t> crossings_;  // by edge: the vertex in it
+  std::vector<Paint> paint_;                                    // of each triangle of the new mesh
+};
+
+}  // namespace
+
+void cutAtBorders(FeatureMesh& mesh, const LocalField& field, Progress& progress) {
+  BorderCutter(mesh, field, progress).run();
+}
+
+}  // namespace sdf

@@ -1,0 +1,38 @@
+// What remeshing holds of a surface besides its distance: the borders of its materials, and its colours.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "sdf/base/progress.h"
+#include "sdf/mesh/local_field.h"
+#include "sdf/mesh/remesh_fans.h"
+
+namespace sdf {
+
+/// The largest difference (colorDifference) between a colour and what is interpolated between a triangle's
+/// corners: four steps of a byte.
+inline constexpr float kColorTolerance = 1.0f / 64;
+
+/// Borders lie within so many tolerances of the distance.
+inline constexpr float kBorderTolerances = 2.5f;
+
+/// Adds to the errors of fans what their triangles do to the paint: a triangle that shows another material
+/// than its own farther than kBorderTolerances from its sides is not sound; and a colour that is as far off
+/// as kColorTolerance counts as a distance as large as `tolerance`, on triangles with a side longer than a
+/// voxel (LocalField::Local::voxel). Colours are those of the surface next to the triangle's corners,
+/// centroid and sides' midpoints, all taken so far inside. Fans that are not sound, or far off, are left as
+/// they are.
+void addPaintErrors(const Fans& fans, float tolerance, const LocalField& field, Progress& progress,
+                    std::vector<FanError>& errors);
+
+struct ColorErrors {
+  double largest = 0.0;                  ///< unit as kColorTolerance; of all triangles
+  std::vector<std::uint32_t> exceeding;  ///< first half-edges of triangles with a side longer than a voxel
+};
+
+/// Colours' errors at points all over each triangle, half a voxel apart at most. `tolerance` is the
+/// distance's. Cost: the area in voxels.
+ColorErrors measureColors(const RemeshTopology& mesh, float tolerance, const LocalField& field,
+                          Progress& progress);
+
+}  // namespace sdf
