@@ -24,7 +24,7 @@ constexpr int kDepthForSides = 3;
 // How much higher than where the surface is proven to be a flattened prism is.
 constexpr double kSpare = 1.2;
 // A prism that would not get flatter than that stays as it is.
-constexpr double kFlatter = 0.5;
+constexpr double kFlatter = 0.9;
 
 struct Part {
   Prism prism;
@@ -122,19 +122,26 @@ class PrismProver {
     proof.sides = std::min(proof.sides, b.least - b.values.magnitude());
     most_[part.triangle] = std::max(most_[part.triangle], b.most);
     if (bound > goal_ && canFlatten) {
-      Part flat = part;
-      flat.flattened = true;
-      flat.bound = bound;
-      for (glm::dvec3& o : flat.prism.offsets) o *= kSpare * share;
-      next_.push_back(flat);
+      next_.push_back(flattened(part, kSpare * share, bound));
     } else {
       proof.bound = std::max(proof.bound, bound);
     }
   }
 
+  static Part flattened(Part part, double share, double bound) {
+    part.flattened = true;
+    part.bound = bound;
+    for (glm::dvec3& o : part.prism.offsets) o *= share;
+    return part;
+  }
+
   void tighten(const Part& part, const PrismBounds& b, PrismProof& proof) {
     const double share = b.least > 0.0 ? b.values.magnitude() / b.least * (1.0 + 1e-12) : kInfinity;
     const double bound = std::min(part.bound, share * longest(part.prism.offsets));
+    if (bound > goal_ && kSpare * share < kFlatter) {
+      next_.push_back(flattened(part, kSpare * share, bound));
+      return;
+    }
     if (bound > goal_ && part.depth < kDepthForGoal && divide(part)) return;
     proof.bound = std::max(proof.bound, bound);
   }
