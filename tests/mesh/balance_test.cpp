@@ -78,11 +78,11 @@ TEST(Balance, MovesCurvedCreasesAlongTheirFaces) {
   const Balanced b = balanced(cylinder(0.8, 0.5), h);
   ASSERT_FALSE(b.after.creases.empty());
   double before = 0.0, after = 0.0;
-  for (const auto& [u, v] : b.after.creases) {
+  for (const auto& crease : b.after.creases) {
     const auto off = [&](const FeatureMesh& mesh) {
-      const glm::dvec3 middle = 0.5 * (glm::dvec3(mesh.positions[u]) + glm::dvec3(mesh.positions[v]));
+      const glm::dvec3 from(mesh.positions[crease[0]]), to(mesh.positions[crease[1]]);
       double most = 0.0;
-      for (const glm::dvec3& p : {middle, glm::dvec3(mesh.positions[u])}) {
+      for (const glm::dvec3& p : {0.5 * (from + to), from}) {
         EXPECT_NEAR(std::abs(p.y), 0.5, 1e-6);
         most = std::max(most, std::abs(std::hypot(p.x, p.z) - 0.8));
       }

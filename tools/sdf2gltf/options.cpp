@@ -90,7 +90,7 @@ void declare(CLI::App& app, Words& words) {
   app.add_flag("--compress", words.compress,
                "write smaller .glb and .gltf files, for readers that know EXT_meshopt_compression");
   app.add_flag("--certify", words.certify,
-               "prove how far mesh and surface are from each other at most, both ways; of smooth parts");
+               "prove how far mesh and surface are from each other at most, both ways");
   app.add_flag("-q,--quiet", words.quiet, "print errors only");
   app.footer(
       "Files appear under their names only when complete; of a sequence, finished frames stay if a later one "

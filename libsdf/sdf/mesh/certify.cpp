@@ -6,174 +6,213 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 
-#include "sdf/mesh/certify_cell.h"
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/certify_cells.h"
+#include "sdf/mesh/certify_prisms.h"
+#include "sdf/mesh/certify_shell.h"
 #include "sdf/mesh/stages.h"
 
 namespace sdf {
 namespace {
 
-// Cells with no more triangles in reach are proven one by one, each with its parts, by one task.
-constexpr std::size_t kTask = 2000;
+// Cells with no more triangles are tasks: proven by one thread with one tape.
+constexpr std::size_t kTask = 400;
+// How often offsets are halved where their prisms reach too far.
+constexpr int kRounds = 7;
+// Of the voxel size: what faces are lifted by at first, at least.
+constexpr double kLeastOffset = 1.0;
+// How much smaller than the finest cells a task may be.
+constexpr double kSmallestTask = 0.5;
+constexpr double kSpace = 1e-9;  // of a region's side
+
+// A part of space, with what can matter in it.
+struct Region {
+  Box box;
+  TapePtr tape;                          // holds in the box and all over the triangles' prisms
+  std::vector<std::uint32_t> operands;   // of the model's union, those that the tape is of
+  std::vector<std::uint32_t> triangles;  // those whose prisms may meet the box
+  bool free = false;                     // of the surface
+};
 
 class Certifier {
  public:
   Certifier(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
             const ModelTapes& model, const CertifyOptions& options, Progress& progress)
-      : mesh_{{positions.begin(), positions.end()}, triangles, std::vector<Interval>(positions.size())},
+      : shell_(positions, triangles, kLeastOffset * options.finest),
         model_(model),
         options_(options),
-        progress_(progress) {}
+        progress_(progress),
+        proofs_(triangles.size()) {}
 
   Certificate run() {
-    std::vector<CertifyCell> tasks = descend();
-    tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) { evaluateCorners(tasks[i]); });
-    std::vector<Certificate> results(tasks.size());
-    std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
-      if (progress_.stopped()) return;
-      prover().beginTask();
-      prove(tasks[i], results[i]);
-      progress_.update(static_cast<double>(++done) / tasks.size());
+    const std::vector<Region> tasks = descend();
+    provePrisms(tasks);
+    if (progress_.stopped()) return {};
+    const ShellDegree degree(shell_);
+    std::vector<CellProof> found(tasks.size());
+    inParallel(tasks.size(), 0.5, [&](std::size_t i) {
+      found[i] = CellProver(shell_, degree, proofs_, readings_.local())
+                     .prove(*tasks[i].tape, tasks[i].box.grown(0.5 * kSpace * tasks[i].box.longestSide()),
+                            tasks[i].triangles, options_.finest);
     });
-    Certificate all;
-    for (const Certificate& one : results) join(one, all);
-    return all;
+    return summary(found);
   }
 
  private:
-  CellProver& prover() { return provers_.local(); }
-
-  CertifyCell root() const {
-    Box all = options_.bounds;
-    CertifyCell cell;
-    cell.triangles.resize(mesh_.triangles.size());
-    std::iota(cell.triangles.begin(), cell.triangles.end(), 0u);
-    for (const glm::uvec3& t : mesh_.triangles)
-      for (int k = 0; k < 3; ++k) all = unite(all, {mesh_.positions[t[k]], mesh_.positions[t[k]]});
-    const glm::dvec3 c = all.centre(), half(0.5 * (1.0 + 1e-6) * all.longestSide());
-    cell.box = {c - half, c + half};
-    cell.tape = model_.whole();
-    cell.operands = model_.all();
-    return cell;
+  template <class F>
+  void inParallel(std::size_t count, double done, const F& f) {
+    std::atomic<std::size_t> some{0};
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      if (progress_.stopped()) return;
+      f(i);
+      progress_.update(done + 0.5 * static_cast<double>(++some) / static_cast<double>(count));
+    });
   }
 
-  // The cells that are tasks; level by level.
-  std::vector<CertifyCell> descend() {
-    std::vector<CertifyCell> open{root()}, tasks;
+  Region root() const {
+    Box all = options_.bounds;
+    Region region;
+    region.triangles.resize(shell_.size());
+    std::iota(region.triangles.begin(), region.triangles.end(), 0u);
+    for (std::uint32_t t = 0; t < shell_.size(); ++t) all = unite(all, shell_.flatBoxOf(t));
+    const glm::dvec3 c = all.centre(), half(0.5 * (1.0 + 1e-6) * all.longestSide());
+    region.box = {c - half, c + half};
+    region.tape = model_.whole()->firstOutputOnly();
+    region.operands = model_.all();
+    return region;
+  }
+
+  // The regions that are tasks; level by level.
+  std::vector<Region> descend() {
+    std::vector<Region> open{root()}, tasks;
     while (!open.empty() && !progress_.stopped()) {
-      std::vector<std::vector<CertifyCell>> found(open.size());
+      std::vector<std::vector<Region>> found(open.size());
       tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
         for (int k = 0; k < 8; ++k)
-          if (CertifyCell part = child(open[i], k); !settled(part)) found[i].push_back(std::move(part));
+          if (Region part = child(open[i], k); !part.free || !part.triangles.empty())
+            found[i].push_back(std::move(part));
       });
       open.clear();
       for (auto& list : found)
-        for (CertifyCell& part : list) (isTask(part) ? tasks : open).push_back(std::move(part));
+        for (Region& part : list) (isTask(part) ? tasks : open).push_back(std::move(part));
     }
     return tasks;
   }
 
-  bool isTask(const CertifyCell& cell) const {
-    return (cell.triangles.size() <= kTask && cell.box.longestSide() < 0.3 * options_.bounds.longestSide()) ||
-           cell.box.longestSide() <= options_.finest;
+  // So much larger that what rounding leaves between neighbours is covered.
+  static Box spacious(const Box& box) { return box.grown(kSpace * box.longestSide()); }
+
+  bool isTask(const Region& r) const {
+    const double side = r.box.longestSide();
+    return (r.triangles.size() <= kTask && side < 0.3 * options_.bounds.longestSide()) ||
+           side <= kSmallestTask * options_.finest;
   }
 
-  // The k-th eighth of a cell, with its own tape.
-  CertifyCell child(const CertifyCell& cell, int k) {
-    CertifyCell part;
-    const glm::dvec3 middle = cell.box.centre();
+  // The k-th eighth of a region, with its own tape.
+  Region child(const Region& region, int k) {
+    Region part;
+    const glm::dvec3 middle = region.box.centre();
     for (int i = 0; i < 3; ++i) {
       const bool upper = k >> i & 1;
-      part.box.min[i] = upper ? middle[i] : cell.box.min[i];
-      part.box.max[i] = upper ? cell.box.max[i] : middle[i];
+      part.box.min[i] = upper ? middle[i] : region.box.min[i];
+      part.box.max[i] = upper ? region.box.max[i] : middle[i];
     }
-    const Box reach = part.reach(options_.goal);
-    Box region = reach;
-    for (const std::uint32_t t : cell.triangles)
-      if (const Box box = mesh_.boxOf(t); !intersect(box, reach).empty()) {
+    Box reach = spacious(part.box);
+    for (const std::uint32_t t : region.triangles)
+      if (const Box box = shell_.boxOf(t); !intersect(box, spacious(part.box)).empty()) {
         part.triangles.push_back(t);
-        region = unite(region, box);
+        reach = unite(reach, box);
       }
-    specialise(cell, region, part);
-    part.free =
-        prover().isFree(*part.tape, part.box, std::min<double>(part.tape->lipschitz(), model_.slope()));
+    specialise(region, reach, part);
+    const Interval v = evaluate(*part.tape, part.box, scratch_.local().intervals);
+    part.free = !v.nan && (v.lo > 0.0 || v.hi < 0.0);
     return part;
   }
 
-  void specialise(const CertifyCell& cell, const Box& region, CertifyCell& part) {
-    part.tape = cell.tape;
-    part.operands = cell.operands;
+  void specialise(const Region& region, const Box& reach, Region& part) {
+    part.tape = region.tape;
+    part.operands = region.operands;
     if (part.operands.size() > 1 && model_.slope() < kInfinity) {
-      part.operands = model_.near(region, cell.box.longestSide(), cell.operands);
-      if (part.operands.empty()) part.operands = {cell.operands.front()};
-      if (part.operands.size() < cell.operands.size()) part.tape = model_.link(part.operands);
+      part.operands = model_.near(reach, region.box.longestSide(), region.operands);
+      if (part.operands.empty()) part.operands = {region.operands.front()};
+      if (part.operands.size() < region.operands.size())
+        part.tape = model_.link(part.operands)->firstOutputOnly();
     }
     if (part.tape->decisionCount() == 0) return;
     Scratch& s = scratch_.local();
-    evaluate(*part.tape, region, s.intervals, s.decisions);
+    evaluate(*part.tape, reach, s.intervals, s.decisions);
     if (TapePtr special = part.tape->specialised(s.decisions.data(), 1)) part.tape = std::move(special);
   }
 
-  // Neither surface nor mesh.
-  bool settled(const CertifyCell& cell) const {
-    return cell.free && std::none_of(cell.triangles.begin(), cell.triangles.end(), [&](std::uint32_t t) {
-             return !intersect(mesh_.boxOf(t), cell.box).empty();
-           });
+  // Is the vertex in the half-open box? Each is in one task's.
+  static bool isIn(const Box& box, const glm::dvec3& p) {
+    return !glm::any(glm::lessThan(p, box.min)) && !glm::any(glm::greaterThanEqual(p, box.max));
   }
 
-  // The field at those corners of the mesh that lie in the cell; each lies in one.
-  void evaluateCorners(const CertifyCell& cell) {
-    Scratch& s = scratch_.local();
-    for (const std::uint32_t t : cell.triangles)
-      for (int k = 0; k < 3; ++k) {
-        const glm::uvec3& v = mesh_.triangles[t];
-        const glm::dvec3& p = mesh_.positions[v[k]];
-        if (glm::any(glm::lessThan(p, cell.box.min)) || glm::any(glm::greaterThanEqual(p, cell.box.max)))
-          continue;
-        mesh_.values[v[k]] = evaluate(*cell.tape, {p, p}, s.intervals);
+  // Proves all triangles; where that fails for prisms that reach too far, with smaller ones.
+  void provePrisms(const std::vector<Region>& tasks) {
+    std::vector<std::vector<std::uint32_t>> own(tasks.size());
+    inParallel(tasks.size(), 0.0, [&](std::size_t i) {
+      for (const std::uint32_t t : tasks[i].triangles)
+        if (isIn(tasks[i].box, shell_.positions()[shell_.triangle(t).x])) own[i].push_back(t);
+      prove(tasks[i], own[i]);
+    });
+    for (int round = 1; round < kRounds && !progress_.stopped() && shrink(); ++round)
+      tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+        std::vector<std::uint32_t> again;
+        for (const std::uint32_t t : own[i])
+          if (!proofs_[t].looked) again.push_back(t);
+        prove(tasks[i], again);
+      });
+  }
+
+  void prove(const Region& task, const std::vector<std::uint32_t>& triangles) {
+    if (triangles.empty() || progress_.stopped()) return;
+    sdf::provePrisms(*task.tape, shell_, triangles, options_.goal, readings_.local(), proofs_);
+    // Tapes are the model's up to distances of a task's side, and more.
+    for (const std::uint32_t t : triangles)
+      proofs_[t].sides = std::min(proofs_[t].sides, task.box.longestSide());
+  }
+
+  // Halves the offsets at triangles whose field does not rise through the prism; false where there are none.
+  bool shrink() {
+    std::vector<bool> halved(shell_.positions().size(), false);
+    bool any = false;
+    for (std::uint32_t t = 0; t < shell_.size(); ++t)
+      if (proofs_[t].looked && proofs_[t].rise <= 0.0)
+        for (int k = 0; k < 3; ++k) halved[shell_.triangle(t)[k]] = any = true;
+    for (std::uint32_t v = 0; v < halved.size(); ++v)
+      if (halved[v]) shell_.halveOffset(v);
+    for (std::uint32_t t = 0; t < shell_.size(); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (halved[shell_.triangle(t)[k]]) proofs_[t] = {};
+    return any;
+  }
+
+  Certificate summary(const std::vector<CellProof>& found) const {
+    Certificate all;
+    const auto unproven = [&](std::uint64_t count, const glm::dvec3& at, double size) {
+      if (all.unproven == 0) all.firstUnproven = at, all.unprovenSize = size;
+      all.unproven += count;
+    };
+    for (std::uint32_t t = 0; t < shell_.size(); ++t) {
+      const PrismProof& p = proofs_[t];
+      if (!p.proven() || p.bound > options_.limit) {
+        unproven(1, shell_.centre(t), shell_.flatBoxOf(t).longestSide());
+      } else if (p.bound > all.toSurface) {
+        all.toSurface = all.toMesh = p.bound;
+        all.widest = shell_.centre(t);
       }
-  }
-
-  void prove(const CertifyCell& cell, Certificate& into) {
-    if (progress_.stopped()) return;
-    ++into.cells;
-    CellBounds bounds = prover().bySlope(cell, options_.goal);
-    if (bounds.larger() <= options_.goal) return keep(cell, bounds, into);
-    if (cell.box.longestSide() > options_.finest) {
-      for (int k = 0; k < 8; ++k)
-        if (const CertifyCell part = child(cell, k); !settled(part)) prove(part, into);
-      return;
     }
-    for (const CellBounds& other : {prover().bySlope(cell, 2.0 * options_.goal), prover().bySize(cell)}) {
-      bounds.toSurface = std::min(bounds.toSurface, other.toSurface);
-      bounds.toMesh = std::min(bounds.toMesh, other.toMesh);
+    all.cells = shell_.size();
+    for (const CellProof& c : found) {
+      all.cells += c.cells;
+      if (c.unproven > 0) unproven(c.unproven, c.first, c.size);
     }
-    keep(cell, bounds, into);
-  }
-
-  void keep(const CertifyCell& cell, const CellBounds& bounds, Certificate& into) const {
-    Certificate one;
-    if (bounds.larger() <= options_.limit) {
-      one.toSurface = bounds.toSurface;
-      one.toMesh = bounds.toMesh;
-      one.widest = cell.box.centre();
-    } else {
-      one.unproven = 1;
-      one.firstUnproven = cell.box.centre();
-      one.unprovenSize = cell.box.longestSide();
-    }
-    join(one, into);
-  }
-
-  static void join(const Certificate& one, Certificate& all) {
-    if (one.bound() > all.bound()) all.widest = one.widest;
-    all.toSurface = std::max(all.toSurface, one.toSurface);
-    all.toMesh = std::max(all.toMesh, one.toMesh);
-    if (all.unproven == 0) all.firstUnproven = one.firstUnproven, all.unprovenSize = one.unprovenSize;
-    all.unproven += one.unproven;
-    all.cells += one.cells;
+    return all;
   }
 
   struct Scratch {
@@ -181,12 +220,13 @@ class Certifier {
     std::vector<Decision> decisions;
   };
 
-  CertifiedMesh mesh_;
+  Shell shell_;
   const ModelTapes& model_;
   const CertifyOptions& options_;
   Progress& progress_;
+  std::vector<PrismProof> proofs_;
   tbb::enumerable_thread_specific<Scratch> scratch_;
-  tbb::enumerable_thread_specific<CellProver> provers_{[this] { return CellProver(mesh_, options_); }};
+  tbb::enumerable_thread_specific<ProofReading> readings_;
 };
 
 }  // namespace

@@ -1,0 +1,203 @@
+#include "sdf/mesh/certify_prisms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace sdf {
+namespace {
+
+// How often a triangle is quartered for a smaller bound, and so that the field is seen to rise.
+constexpr int kDepthForGoal = 5;
+constexpr int kDepthForRise = 7;
+// Where the slope is not known, parts are seldom better.
+constexpr int kDepthForSlope = 2;
+// Parts of all triangles that are looked at together, at most, and of one of them at least.
+constexpr int kMostParts = 40'000, kFewestParts = 200;
+// Where the least rise is a smaller share of the largest, parts are divided: the sides' values are bounded by
+// it.
+constexpr double kEven = 0.25;
+// Of the largest rise: sides whose values are proven to be above that are high enough.
+constexpr double kHigh = 0.4;
+constexpr int kDepthForSides = 3;
+// How much higher than where the surface is proven to be a flattened prism is.
+constexpr double kSpare = 1.2;
+// A prism that would not get flatter than that stays as it is.
+constexpr double kFlatter = 0.9;
+
+struct Part {
+  Prism prism;
+  std::uint32_t triangle;
+  int depth;
+  bool flattened;  // no higher than where the surface was proven to be
+  double bound;    // from what it was flattened from
+};
+
+double longest(const std::array<glm::dvec3, 3>& all) {
+  return std::max({glm::length(all[0]), glm::length(all[1]), glm::length(all[2])});
+}
+
+double longestSide(const Prism& p) {
+  return longest({p.corners[1] - p.corners[0], p.corners[2] - p.corners[1], p.corners[0] - p.corners[2]});
+}
+
+// Quarters a triangle, and its prism with it.
+void quarter(const Part& part, std::vector<Part>& out) {
+  const auto& c = part.prism.corners;
+  const auto& o = part.prism.offsets;
+  const std::array<glm::dvec3, 6> p{
+      c[0], c[1], c[2], 0.5 * (c[0] + c[1]), 0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0])};
+  const std::array<glm::dvec3, 6> q{
+      o[0], o[1], o[2], 0.5 * (o[0] + o[1]), 0.5 * (o[1] + o[2]), 0.5 * (o[2] + o[0])};
+  for (const auto& [i, j, k] : {std::array{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {4, 5, 3}})
+    out.push_back({{{p[i], p[j], p[k]}, {q[i], q[j], q[k]}},
+                   part.triangle,
+                   part.depth + 1,
+                   part.flattened,
+                   part.bound});
+}
+
+// Parts no larger than their prism is high are not divided for its sake.
+bool mayDivideForRise(const Part& part) {
+  return part.depth < kDepthForRise &&
+         (part.depth < 2 || longestSide(part.prism) > longest(part.prism.offsets));
+}
+
+class PrismProver {
+ public:
+  PrismProver(const Tape& tape, double goal, ProofReading& reading)
+      : tape_(tape), goal_(goal), reading_(reading) {}
+
+  // All parts of all triangles, level by level, so that vectors are full.
+  void prove(const Shell& shell, std::span<const std::uint32_t> triangles, std::vector<PrismProof>& proofs) {
+    std::vector<Part> parts;
+    looked_.assign(triangles.size(), 0);
+    most_.assign(triangles.size(), 0.0);
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      parts.push_back({shell.prism(triangles[i]), i, 0, false, kInfinity});
+      proofs[triangles[i]] = {true, 0.0, kInfinity, kInfinity};
+    }
+    std::vector<Prism> prisms;
+    std::vector<PrismBounds> bounds;
+    for (; !parts.empty(); parts.swap(next_)) {
+      prisms.clear();
+      for (const Part& p : parts) prisms.push_back(p.prism);
+      bounds.resize(parts.size());
+      reading_.prisms(tape_, prisms, bounds.data());
+      next_.clear();
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        PrismProof& proof = proofs[triangles[parts[i].triangle]];
+        if (proof.rise > 0.0)
+          parts[i].flattened ? tighten(parts[i], bounds[i], proof) : look(parts[i], bounds[i], proof);
+      }
+    }
+    lookAtSides(shell, triangles, proofs);
+  }
+
+ private:
+  bool divide(const Part& part) {
+    if (looked_[part.triangle] >= std::max(kFewestParts, kMostParts / static_cast<int>(looked_.size())))
+      return false;
+    looked_[part.triangle] += 4;
+    quarter(part, next_);
+    return true;
+  }
+
+  void look(const Part& part, const PrismBounds& b, PrismProof& proof) {
+    const bool hasSlope = b.most < kInfinity;
+    if (b.least < kEven * b.most && (hasSlope ? mayDivideForRise(part) : part.depth < kDepthForSlope) &&
+        divide(part))
+      return;
+    if (!(b.least > 0.0) || !hasSlope) {  // a field that may jump has no zero for sure
+      proof = {true, kInfinity, 0.0, -kInfinity};
+      return;
+    }
+    // Lines cross the surface within this share of their half.
+    const double share = b.values.magnitude() / b.least * (1.0 + 1e-12);
+    const double bound = share * longest(part.prism.offsets);
+    const bool canFlatten = kSpare * share < kFlatter;
+    if (bound > goal_ && !canFlatten && part.depth < kDepthForGoal && divide(part)) return;
+    proof.rise = std::min(proof.rise, b.least);
+    proof.sides = std::min(proof.sides, b.least - b.values.magnitude());
+    most_[part.triangle] = std::max(most_[part.triangle], b.most);
+    if (bound > goal_ && canFlatten) {
+      next_.push_back(flattened(part, kSpare * share, bound));
+    } else {
+      proof.bound = std::max(proof.bound, bound);
+    }
+  }
+
+  static Part flattened(Part part, double share, double bound) {
+    part.flattened = true;
+    part.bound = bound;
+    for (glm::dvec3& o : part.prism.offsets) o *= share;
+    return part;
+  }
+
+  void tighten(const Part& part, const PrismBounds& b, PrismProof& proof) {
+    const double share = b.least > 0.0 ? b.values.magnitude() / b.least * (1.0 + 1e-12) : kInfinity;
+    const double bound = std::min(part.bound, share * longest(part.prism.offsets));
+    if (bound > goal_ && kSpare * share < kFlatter) {
+      next_.push_back(flattened(part, kSpare * share, bound));
+      return;
+    }
+    if (bound > goal_ && part.depth < kDepthForGoal && divide(part)) return;
+    proof.bound = std::max(proof.bound, bound);
+  }
+
+  // Where the rise promises little of the values on the prisms' sides, beside creases, these are looked at
+  // themselves.
+  void lookAtSides(const Shell& shell, std::span<const std::uint32_t> triangles,
+                   std::vector<PrismProof>& proofs) {
+    std::vector<Part> parts;
+    std::vector<double> found(triangles.size(), kInfinity);
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      const PrismProof& proof = proofs[triangles[i]];
+      if (!(proof.rise > 0.0) || proof.sides > kHigh * most_[i]) continue;
+      for (const bool outer : {true, false}) {
+        Part side{shell.prism(triangles[i]), i, 0, outer, 0.0};
+        for (int k = 0; k < 3; ++k)
+          side.prism.corners[k] +=
+              (outer ? 1.0 : -1.0) * std::exchange(side.prism.offsets[k], glm::dvec3(0.0));
+        parts.push_back(side);
+      }
+    }
+    std::vector<Prism> prisms;
+    std::vector<PrismBounds> bounds;
+    for (; !parts.empty(); parts.swap(next_)) {
+      prisms.clear();
+      for (const Part& p : parts) prisms.push_back(p.prism);
+      bounds.resize(parts.size());
+      reading_.prisms(tape_, prisms, bounds.data());
+      next_.clear();
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::uint32_t t = parts[i].triangle;
+        const double least = parts[i].flattened ? bounds[i].values.lo : -bounds[i].values.hi;
+        if (least < kHigh * most_[t] && parts[i].depth < kDepthForSides)
+          quarter(parts[i], next_);
+        else
+          found[t] = std::min(found[t], least);
+      }
+    }
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+      if (PrismProof& proof = proofs[triangles[i]]; found[i] < kInfinity)
+        proof.sides = std::max(proof.sides, found[i]);
+  }
+
+  const Tape& tape_;
+  const double goal_;
+  ProofReading& reading_;
+  std::vector<int> looked_;   // parts of each triangle
+  std::vector<double> most_;  // largest rise in each
+  std::vector<Part> next_;
+};
+
+}  // namespace
+
+void provePrisms(const Tape& tape, const Shell& shell, std::span<const std::uint32_t> triangles, double goal,
+                 ProofReading& reading, std::vector<PrismProof>& proofs) {
+  PrismProver(tape, goal, reading).prove(shell, triangles, proofs);
+}
+
+}  // namespace sdf
