@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <glm/vector_relational.hpp>
 #include <random>
 
 #include "mesh/scenes.h"
@@ -40,7 +41,7 @@ class PointNumbers {
     auto it = std::lower_bound(sorted_.begin(), sorted_.end(), p.x - tolerance_,
                                [](const Entry& e, float x) { return e.at.x < x; });
     for (; it != sorted_.end() && it->at.x <= p.x + tolerance_; ++it)
-      if (glm::distance(it->at, p) <= tolerance_) return it->number;
+      if (glm::all(glm::lessThanEqual(glm::abs(it->at - p), glm::vec3(tolerance_)))) return it->number;
     return -1;
   }
 
@@ -71,7 +72,11 @@ std::vector<Quad> canonical(std::vector<Quad> quads) {
   return sorted(std::move(quads));
 }
 
-// Holds the extraction of a grid to OpenVDB's: the same points but for rounding, and the same quads.
+// Voxels that our points keep off samples, along each axis: OpenVDB's may lie on them, several in one place.
+constexpr double kOffSamples = 1.0 / 4096;
+
+// Holds the extraction of a grid to OpenVDB's: the same points but for rounding and for what keeps them off
+// samples, and the same quads.
 void expectOpenVdbsSurface(openvdb::FloatGrid& grid, std::size_t atLeast = 1) {
   const double h = grid.voxelSize().x();
   std::vector<openvdb::Vec3s> points;
@@ -87,7 +92,8 @@ void expectOpenVdbsSurface(openvdb::FloatGrid& grid, std::size_t atLeast = 1) {
   // Sums and products of numbers of the points' size, in float there and here.
   float size = static_cast<float>(h);
   for (const glm::vec3& p : surface.points) size = std::max(size, glm::length(p));
-  const PointNumbers numbers(points, static_cast<float>(8 * kRoundoff) * size);
+  const PointNumbers numbers(points,
+                             static_cast<float>(8 * kRoundoff) * size + static_cast<float>(kOffSamples * h));
   std::vector<std::uint32_t> number, numberThere;
   for (const glm::vec3& p : surface.points) {
     const std::int64_t n = numbers.at(p);

@@ -25,6 +25,10 @@ constexpr std::size_t kBlocksATask = 32;
 constexpr float kNotZero =
     std::numeric_limits<float>::min();  // leaves sums of samples that differ in sign alone
 
+// Share of an edge that crossings keep away from its ends: where a sample is 0, the cells around it would
+// have one and the same point, and triangles no area.
+constexpr float kOffSample = 1.0f / 4096;
+
 // The samples of a plane of constant x are the bits 8 y + z of a word.
 using Plane = std::uint64_t;
 constexpr Plane kFirstY = 0xffull, kFirstZ = 0x0101010101010101ull, kLastZ = kFirstZ << 7;
@@ -300,7 +304,7 @@ class Extraction {
     }
     for (int e = 0; e < kCellEdges; ++e) {
       const float from = corner[lowerCorner(e)], to = corner[lowerCorner(e) | cornerBit(e / 4)];
-      crossing[e] = from / (from + to + kNotZero);
+      crossing[e] = std::clamp(from / (from + to + kNotZero), kOffSample, 1.0f - kOffSample);
     }
     for (unsigned patch = 0; patch < count; ++patch)
       for (int axis = 0; axis < 3; ++axis) {
