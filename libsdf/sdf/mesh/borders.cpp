@@ -21,10 +21,6 @@ using Edge = std::array<std::uint32_t, 2>;
 
 Edge edgeOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-bool differ(const Paint& a, const Paint& b) {
-  return a.material != b.material || colorDifference(a, b) > kColorJump;
-}
-
 // Some way between points that look different, and the part of it where that changes most.
 struct Search {
   std::uint32_t where;  // a triangle or an edge
@@ -76,14 +72,17 @@ class BorderCutter {
     cutSides_.assign(mesh_.triangles.size(), {});
   }
 
-  // Leaves those that end at a border: what has become alike only changes fast.
-  void halve(std::vector<Search>& searches) const {
+  void readEnds(std::vector<Search>& searches) const {
     std::vector<glm::vec3> points;
     for (const Search& s : searches) points.push_back(s.from), points.push_back(s.to);
     const std::vector<Paint> ends = readPaintBeside(points, field_, progress_);
     for (std::size_t s = 0; s < searches.size(); ++s)
       searches[s].atFirst = ends[2 * s], searches[s].atLast = ends[2 * s + 1];
-    points.resize(searches.size());
+  }
+
+  // Leaves those that end at a border: what has become alike only changes fast.
+  void halve(std::vector<Search>& searches) const {
+    std::vector<glm::vec3> points(searches.size());
     for (int i = 0; i < kHalvings; ++i) {
       std::ranges::transform(searches, points.begin(),
                              [](const Search& s) { return glm::mix(s.from, s.to, s.middle()); });
@@ -99,7 +98,7 @@ class BorderCutter {
       for (int k = 0; k < 3; ++k) {
         const Paint &a = corners_[3 * t + k], &b = corners_[3 * t + (k + 1) % 3];
         if (differ(a, b))
-          searches.push_back({t, k, inside(t, position(t, k)), inside(t, position(t, k + 1)), {}, {}});
+          searches.push_back({t, k, inside(t, position(t, k)), inside(t, position(t, k + 1)), a, b});
       }
     halve(searches);
     for (std::size_t s = 0; s < searches.size();) {
@@ -118,18 +117,14 @@ class BorderCutter {
     const glm::uvec3& t = mesh_.triangles[s.where];
     const std::uint32_t a = t[s.side], b = t[(s.side + 1) % 3];
     const auto [it, fresh] =
-        crossings_.try_emplace(keyOf(a, b), static_cast<std::uint32_t>(mesh_.positions.size()));
+        crossings_.try_emplace(edgeKey(a, b), static_cast<std::uint32_t>(mesh_.positions.size()));
     if (fresh)
       mesh_.positions.push_back(glm::mix(mesh_.positions[a], mesh_.positions[b],
                                          std::clamp(s.middle(), kShortest, 1.0f - kShortest)));
   }
 
-  static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
-    const Edge e = edgeOf(a, b);
-    return std::uint64_t{e[0]} << 32 | e[1];
-  }
   std::uint32_t crossingAt(std::uint32_t a, std::uint32_t b) const {
-    const auto it = crossings_.find(keyOf(a, b));
+    const auto it = crossings_.find(edgeKey(a, b));
     return it == crossings_.end() ? kNone : it->second;
   }
 
@@ -216,6 +211,7 @@ class BorderCutter {
         edges.push_back(edge);
       }
     }
+    readEnds(searches);
     halve(searches);
     for (const Search& s : searches) mesh_.creases.push_back(edges[s.where]);
     for (Edge& c : mesh_.creases) c = edgeOf(c[0], c[1]);

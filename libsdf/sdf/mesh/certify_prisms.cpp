@@ -78,6 +78,17 @@ class PrismProver {
       parts.push_back({shell.prism(triangles[i]), i, 0, false, kInfinity});
       proofs[triangles[i]] = {true, 0.0, kInfinity, kInfinity};
     }
+    readInRounds(std::move(parts), [&](const Part& part, const PrismBounds& bounds) {
+      PrismProof& proof = proofs[triangles[part.triangle]];
+      if (proof.rise > 0.0) part.flattened ? tighten(part, bounds, proof) : look(part, bounds, proof);
+    });
+    lookAtSides(shell, triangles, proofs);
+  }
+
+ private:
+  // Calls take(part, bounds) for the parts, then for those that this has put into next_, and so on.
+  template <class Take>
+  void readInRounds(std::vector<Part> parts, const Take& take) {
     std::vector<Prism> prisms;
     std::vector<PrismBounds> bounds;
     for (; !parts.empty(); parts.swap(next_)) {
@@ -86,16 +97,10 @@ class PrismProver {
       bounds.resize(parts.size());
       reading_.prisms(tape_, prisms, bounds.data());
       next_.clear();
-      for (std::size_t i = 0; i < parts.size(); ++i) {
-        PrismProof& proof = proofs[triangles[parts[i].triangle]];
-        if (proof.rise > 0.0)
-          parts[i].flattened ? tighten(parts[i], bounds[i], proof) : look(parts[i], bounds[i], proof);
-      }
+      for (std::size_t i = 0; i < parts.size(); ++i) take(parts[i], bounds[i]);
     }
-    lookAtSides(shell, triangles, proofs);
   }
 
- private:
   bool divide(const Part& part) {
     if (looked_[part.triangle] >= std::max(kFewestParts, kMostParts / static_cast<int>(looked_.size())))
       return false;
@@ -163,23 +168,14 @@ class PrismProver {
         parts.push_back(side);
       }
     }
-    std::vector<Prism> prisms;
-    std::vector<PrismBounds> bounds;
-    for (; !parts.empty(); parts.swap(next_)) {
-      prisms.clear();
-      for (const Part& p : parts) prisms.push_back(p.prism);
-      bounds.resize(parts.size());
-      reading_.prisms(tape_, prisms, bounds.data());
-      next_.clear();
-      for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::uint32_t t = parts[i].triangle;
-        const double least = parts[i].flattened ? bounds[i].values.lo : -bounds[i].values.hi;
-        if (least < kHigh * most_[t] && parts[i].depth < kDepthForSides)
-          quarter(parts[i], next_);
-        else
-          found[t] = std::min(found[t], least);
-      }
-    }
+    readInRounds(std::move(parts), [&](const Part& part, const PrismBounds& bounds) {
+      const std::uint32_t t = part.triangle;
+      const double least = part.flattened ? bounds.values.lo : -bounds.values.hi;
+      if (least < kHigh * most_[t] && part.depth < kDepthForSides)
+        quarter(part, next_);
+      else
+        found[t] = std::min(found[t], least);
+    });
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
       if (PrismProof& proof = proofs[triangles[i]]; found[i] < kInfinity)
         proof.sides = std::max(proof.sides, found[i]);

@@ -156,7 +156,7 @@ class BorderPainter {
     std::uint32_t& v = mesh_.triangles[c.triangle][c.corner];
     std::vector<Copy>& copies = copies_[v];
     for (const Copy& copy : copies)
-      if (copy.paint.material == c.paint.material && colorDifference(copy.paint, c.paint) <= kColorJump) {
+      if (!differ(copy.paint, c.paint)) {
         v = copy.vertex;
         return;
       }

@@ -1,5 +1,6 @@
 // A closed triangle mesh that knows its creases: what is handed from the finding of edges to remeshing.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -17,5 +18,10 @@ struct FeatureMesh {
   /// Of each triangle, the number among the shape's; where two meet there is a crease. Empty: all are of one.
   std::vector<int> materials{};
 };
+
+/// One number for the edge between two vertices, whichever comes first.
+inline std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
 
 }  // namespace sdf

@@ -96,10 +96,11 @@ struct FanView {
   }
 
   // The nodes of a grid inside the triangle; three steps have one, which is its centroid.
+  static constexpr int kLeastSteps = 4;
   template <class Take>
   void forEachInner(std::uint32_t i, const Take& take) const {
     const int n = steps(i);
-    if (n < 4) return;
+    if (n < kLeastSteps) return;
     for (int j = 1; j < n; ++j)
       for (int k = 1; j + k < n; ++k) {
         const float u = static_cast<float>(j) / static_cast<float>(n),
@@ -123,9 +124,11 @@ struct FanView {
   }
 
   std::size_t samples() const {
-    std::size_t count = 0;
-    forEachSample([&](const Sample&) { ++count; });
-    return count;
+    const std::size_t centre = hasCentre() ? std::max(1u, fan.creases) : 0;
+    std::size_t inner = 0;
+    for (std::uint32_t i = 0; i < fan.triangles(); ++i)
+      if (const auto n = static_cast<std::size_t>(steps(i)); n >= kLeastSteps) inner += (n - 1) * (n - 2) / 2;
+    return centre + fan.triangles() + inner + (fan.closed ? fan.count : fan.count - 2) + fan.creases;
   }
 
   // Which sector a triangle belongs to, for two of them.

@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
 // Rounds in which edges that one crossing does not explain are halved.
 constexpr int kHalvings = 3;
 // The side of a crossing is the piece of its edge's end if their normals are no more than 25 degrees apart.
@@ -60,7 +56,7 @@ class Sharpener {
     touched_.assign(mesh_.positions.size(), 0);
     for (std::uint32_t i = 0; i < crossings_.size(); ++i) {
       const auto [a, b] = crossings_[i].edge;
-      crossingOf_.emplace(keyOf(a, b), i);
+      crossingOf_.emplace(edgeKey(a, b), i);
       touched_[a] = touched_[b] = 1;
     }
   }
@@ -116,7 +112,7 @@ class Sharpener {
 
   std::uint32_t crossingAt(std::uint32_t a, std::uint32_t b) const {
     if (!touched_[a] || !touched_[b]) return kNone;
-    const auto it = crossingOf_.find(keyOf(a, b));
+    const auto it = crossingOf_.find(edgeKey(a, b));
     return it == crossingOf_.end() ? kNone : it->second;
   }
 

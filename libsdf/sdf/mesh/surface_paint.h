@@ -22,6 +22,11 @@ float colorDifference(const Paint& a, const Paint& b);
 /// Colours that differ by more at one place have a border between them: some ten steps of a byte.
 inline constexpr float kColorJump = 0.04f;
 
+/// Is there a border between the two, if they are of one place?
+inline bool differ(const Paint& a, const Paint& b) {
+  return a.material != b.material || colorDifference(a, b) > kColorJump;
+}
+
 /// The paint at `count` points for which point(i) yields the position and normal(i) the unit normal. What is
 /// no number reads as 0.
 std::vector<Paint> readPaint(std::size_t count, const std::function<glm::vec3(std::size_t)>& point,
