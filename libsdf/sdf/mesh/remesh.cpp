@@ -12,6 +12,8 @@ namespace {
 // Edges are collapsed until the error is this many tolerances, as relocation lessens the largest errors to
 // three quarters: measured on balls, tori and blends. With more, more has to be split in the end.
 constexpr double kOvershoot = 1.3;
+// Vertices on the surface have the error on one side: so much of it leaves the rest to do its work.
+constexpr double kRough = 0.7;
 // Cycles of adjusting and collapsing, of collapsing after splits, and sweeps over all vertices that adjusting
 // takes at most.
 constexpr int kCycles = 2, kCleanings = 2, kSweeps = 6;
@@ -19,10 +21,11 @@ constexpr int kCycles = 2, kCleanings = 2, kSweeps = 6;
 constexpr double kSettled = 0.01;
 // First sweeps let a change raise the energy by so much: it may open the way to a better shape.
 constexpr float kLoose = 0.3f;
-// What exceeds the tolerance between the samples is halved so often at most. Samples are held to a little
-// less than the tolerance, which covers what they miss.
+// What exceeds the tolerance between the samples is halved so often at most.
 constexpr int kHalvings = 16;
-constexpr double kHeld = 0.985;
+// Shares of the tolerance that hold for changes, and where all is measured closely: what changes let pass
+// between their samples, and the close ones between theirs.
+constexpr double kHeld = 0.98, kMeasured = 0.998;
 // Where halving makes more triangles exceed it, so many times the fewest and some, it is given up.
 constexpr std::size_t kRunaway = 2, kFew = 20;
 // Each time that a budget is not met the tolerance gives way by so much.
@@ -83,7 +86,7 @@ class Remesher {
     }
   }
 
-  void measure() { measured_ = measureDensely(mesh_, field_, kHeld * options_.tolerance, quiet_); }
+  void measure() { measured_ = measureDensely(mesh_, field_, kMeasured * options_.tolerance, quiet_); }
 
   void keepTolerance() {
     changes_.setTolerance(kHeld * options_.tolerance);
@@ -147,10 +150,20 @@ class Remesher {
   ColorErrors colors_;
 };
 
+// Takes out what the normals alone show to be far more than is needed.
+void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
+                 Progress& progress) {
+  Quiet quiet(progress);
+  RemeshTopology topology(mesh);
+  RemeshChanges(topology, field, kRough * options.tolerance, options.painted, quiet).collapseRoughly();
+  mesh = topology.compacted();
+}
+
 }  // namespace
 
 RemeshResult remesh(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
                     Progress& progress) {
+  thinRoughly(mesh, field, options, progress);
   Remesher remesher(mesh, field, options, progress);
   const RemeshResult result = remesher.run();
   mesh = remesher.take();

@@ -135,25 +135,32 @@ float RemeshChanges::evenness(std::uint32_t h) const {
 }
 
 void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
-  ++round_;
-  std::vector<std::uint32_t> chosen;
-  Fans fans;
-  for (const std::uint32_t v : vertices) {
-    if (mesh_.creasesAt(v) != 0 && mesh_.creasesAt(v) != 2) continue;
-    if (!claim(v)) continue;
-    chosen.push_back(v);
-    fans.addAround(mesh_, v);
-  }
-  std::vector<FanError> errors;
-  evaluate(fans, errors);
-  const std::vector<FanError> old = errors;
-  for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += old[i].onto;
-  evaluate(fans, errors);
-  if (progress_.stopped()) return;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (old[i].sound && !errors[i].sound) continue;
-    mesh_.positions[chosen[i]] = fans.all[i].centre;
-    touch(chosen[i]);
+  std::vector<std::uint32_t> waiting;
+  for (const std::uint32_t v : vertices)
+    if (mesh_.creasesAt(v) == 0 || mesh_.creasesAt(v) == 2) waiting.push_back(v);
+  while (!waiting.empty() && !progress_.stopped()) {
+    ++round_;
+    std::vector<std::uint32_t> chosen, later;
+    Fans fans;
+    for (const std::uint32_t v : waiting) {
+      if (!claim(v)) {
+        later.push_back(v);
+        continue;
+      }
+      chosen.push_back(v);
+      fans.addAround(mesh_, v);
+    }
+    std::vector<FanError> old, errors;
+    evaluate(fans, old);
+    for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += old[i].onto;
+    evaluate(fans, errors);
+    if (progress_.stopped()) return;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (old[i].sound && !errors[i].sound) continue;
+      mesh_.positions[chosen[i]] = fans.all[i].centre;
+      touch(chosen[i]);
+    }
+    waiting = std::move(later);
   }
 }
 

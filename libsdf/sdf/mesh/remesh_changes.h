@@ -25,6 +25,10 @@ class RemeshChanges {
   /// than the tolerance is let pass unless `strict`. Edges that failed are tried anew only when something
   /// near them has changed.
   void collapse(std::size_t maxTriangles = 0, bool strict = false);
+  /// The same by what normals at the vertices foretell of the distances, at a reading or two for each
+  /// collapse instead of a hundred: for what is far finer than the tolerance asks. Vertices stay on the
+  /// surface.
+  void collapseRoughly();
   /// Moves each vertex once to where the largest distances around it are balanced, if that lessens them;
   /// returns the number of those that moved. Where nothing changed since the last time nothing is tried.
   std::size_t relocate(float loose = 0.0f);
@@ -36,7 +40,7 @@ class RemeshChanges {
   bool split();
   /// Puts these vertices onto the surface.
   void project(const std::vector<std::uint32_t>& vertices);
-  /// Splits these triangles' longest sides.
+  /// Splits these triangles where they are farthest off, and adjusts what is new.
   void splitTriangles(const std::vector<std::uint32_t>& triangles);
 
   float evenness(std::uint32_t h) const;
@@ -53,11 +57,19 @@ class RemeshChanges {
   bool worsens(const FanError& before, const FanError& after) const;
   void readNormals();
   float collapseCost(std::uint32_t h) const;
+  std::uint32_t alongCrease(std::uint32_t h) const;
   float creaseCost(std::uint32_t h) const;
+  float chordError(std::uint32_t h) const;
   std::uint32_t collapsible(std::uint32_t h) const;
   // The cheapest; are there more?
   std::vector<Candidate> collapseCandidates(bool& more) const;
-  bool collapseRound(std::size_t most, bool strict, bool& more);
+  enum class Care { Rough, Usual, Strict };
+  void collapse(std::size_t maxTriangles, Care care);
+  bool collapseRound(std::size_t most, Care care, bool& more);
+  // What the collapses make of the edges; the fans' centres move to where they would be.
+  void tryCollapses(const std::vector<std::uint32_t>& edges, Care care, Fans& fans,
+                    std::vector<FanError>& errors) const;
+  void estimate(Fans& fans, std::vector<FanError>& errors) const;
   // Is the edge long enough to be resolved when it is halved?
   bool maySplit(std::uint32_t edge) const;
   std::uint32_t longestSide(std::uint32_t h) const;

@@ -27,14 +27,27 @@ constexpr float kFlat = 1e-3f;
 
 }  // namespace
 
-// Distance of the crease vertex from(h) from the chord that a collapse leaves in its place.
-float RemeshChanges::creaseCost(std::uint32_t h) const {
+// The other neighbour of the crease vertex from(h) along its crease.
+std::uint32_t RemeshChanges::alongCrease(std::uint32_t h) const {
   std::uint32_t e = mesh_.turned(h);
   while (e != h && !mesh_.isCrease(e)) e = mesh_.turned(e);
-  const glm::vec3 p = mesh_.positions[mesh_.from(h)], a = mesh_.positions[mesh_.to(e)],
+  return mesh_.to(e);
+}
+
+// Distance of the crease vertex from(h) from the chord that a collapse leaves in its place.
+float RemeshChanges::creaseCost(std::uint32_t h) const {
+  const glm::vec3 p = mesh_.positions[mesh_.from(h)], a = mesh_.positions[alongCrease(h)],
                   along = mesh_.positions[mesh_.to(h)] - a;
   const float length = glm::length(along);
   return length > 0.0f ? 2.0f * glm::length(glm::cross(p - a, along)) / length : 0.0f;
+}
+
+// How far that chord is from the crease, taken as a parabola through its ends and the vertex.
+float RemeshChanges::chordError(std::uint32_t h) const {
+  const glm::vec3 p = mesh_.positions[mesh_.from(h)];
+  const float a = glm::distance(p, mesh_.positions[alongCrease(h)]),
+              b = glm::distance(p, mesh_.positions[mesh_.to(h)]);
+  return a > 0.0f && b > 0.0f ? 0.5f * creaseCost(h) * (a + b) * (a + b) / (4.0f * a * b) : 0.0f;
 }
 
 // How far the surface turns along the edge, times its length.
@@ -88,7 +101,21 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates(bool& mo
   return all;
 }
 
-bool RemeshChanges::collapseRound(std::size_t most, bool strict, bool& more) {
+void RemeshChanges::tryCollapses(const std::vector<std::uint32_t>& edges, Care care, Fans& fans,
+                                 std::vector<FanError>& errors) const {
+  for (const std::uint32_t h : edges) fans.addCollapsed(mesh_, h);
+  if (care == Care::Rough) {
+    estimate(fans, errors);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      if (mesh_.isCrease(edges[i])) errors[i].largest = std::max(errors[i].largest, chordError(edges[i]));
+  } else {
+    evaluateFans(fans, tolerance_, field_, progress_, errors);
+    moveToOffsets(fans, errors);
+    evaluate(fans, errors);
+  }
+}
+
+bool RemeshChanges::collapseRound(std::size_t most, Care care, bool& more) {
   ++round_;
   std::vector<std::uint32_t> chosen;
   bool any = false;
@@ -104,15 +131,12 @@ bool RemeshChanges::collapseRound(std::size_t most, bool strict, bool& more) {
   if (!any) return false;
   std::sort(chosen.begin(), chosen.end());
   Fans fans;
-  for (const std::uint32_t h : chosen) fans.addCollapsed(mesh_, h);
   std::vector<FanError> errors;
-  evaluateFans(fans, tolerance_, field_, progress_, errors);
-  moveToOffsets(fans, errors);
-  evaluate(fans, errors);
+  tryCollapses(chosen, care, fans, errors);
   if (progress_.stopped()) return false;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::uint32_t h = chosen[i], v = mesh_.to(h);
-    const float limit = tolerance_ * (mesh_.isCrease(h) && !strict ? kCrease : 1.0f);
+    const float limit = tolerance_ * (mesh_.isCrease(h) && care == Care::Usual ? kCrease : 1.0f);
     if (!errors[i].sound || !(errors[i].largest <= limit) || !mesh_.canCollapse(h)) {
       tried_[h] = tried_[mesh_.twin(h)] = round_;
       continue;
@@ -126,12 +150,19 @@ bool RemeshChanges::collapseRound(std::size_t most, bool strict, bool& more) {
 }
 
 void RemeshChanges::collapse(std::size_t maxTriangles, bool strict) {
+  collapse(maxTriangles, strict ? Care::Strict : Care::Usual);
+}
+
+void RemeshChanges::collapseRoughly() { collapse(0, Care::Rough); }
+
+void RemeshChanges::collapse(std::size_t maxTriangles, Care care) {
   while (!progress_.stopped() && mesh_.liveTriangles() > std::max<std::size_t>(maxTriangles, 4)) {
     const std::size_t before = mesh_.liveTriangles();
     bool more = false;
-    if (!collapseRound((before - maxTriangles + 1) / 2, strict, more)) return;
+    if (!collapseRound((before - maxTriangles + 1) / 2, care, more)) return;
     const auto gone = static_cast<double>(before - mesh_.liveTriangles());
-    if (!more && before > kFew && gone < kStale * static_cast<double>(before)) return;
+    const bool enough = care == Care::Rough || (!more && before > kFew);
+    if (enough && gone < kStale * static_cast<double>(before)) return;
   }
 }
 

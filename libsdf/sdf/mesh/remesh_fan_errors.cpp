@@ -12,13 +12,6 @@
 namespace sdf {
 namespace {
 
-// Facets' normals stay within 60 degrees of the gradient.
-constexpr float kCosine = 0.5f;
-// A triangle's least height: in tolerances, and in units of its corners' rounding.
-constexpr float kHeight = 0.02f, kRounding = 16.0f * 0x1p-24f;
-// Sides of a crease that meet at less than 5 degrees (cosine) are one.
-constexpr float kSmooth = 0.9962f;
-
 // The t in reach that makes the largest |d + a t| least, all a being positive: where the largest d + a t and
 // the largest -(d + a t) are equal.
 class Balance {
@@ -46,12 +39,6 @@ class Balance {
   std::vector<std::pair<float, float>> lines_;
   float reach_ = 0.0f;
 };
-
-// The least step that moves by s along a and by t along b.
-glm::vec3 leastStep(const glm::vec3& a, const glm::vec3& b, float s, float t) {
-  const float c = glm::dot(a, b), det = 1.0f - c * c;
-  return ((s - c * t) * a + (t - c * s) * b) / det;
-}
 
 // A triangle's readings at its centroid and at the middles of both spokes.
 struct Three {
@@ -112,15 +99,10 @@ class Judge {
   void facets(FanError& e) {
     const Fan& fan = view_.fan;
     for (std::uint32_t i = 0; i < fan.triangles(); ++i) {
-      const glm::vec3 &a = fan.centre, &b = view_.end(i), &c = view_.end(view_.after(i));
-      const glm::vec3 area = glm::cross(b - a, c - a);
-      const float size = glm::length(area);
-      const float longest =
-          std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
-      const float scale = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), longest});
-      if (!(size > longest * std::max(kHeight * tolerance_, kRounding * scale))) e.sound = false;
-      facets_.push_back(size > 0.0f ? area / size : area);
-      areas_.push_back(size);
+      const Facet facet(fan.centre, view_.end(i), view_.end(view_.after(i)), tolerance_);
+      if (!facet.sound) e.sound = false;
+      facets_.push_back(facet.size > 0.0f ? facet.area / facet.size : facet.area);
+      areas_.push_back(facet.size);
     }
   }
 
@@ -132,7 +114,7 @@ class Judge {
     if (s.at != s.of && i > 0 && samples_[i - 1].of == s.of) {
       const Reading& o = readings_[i - 1];
       const float c = glm::dot(r.normal, o.normal);
-      if (std::abs(c) < kSmooth) d = glm::length(leastStep(r.normal, o.normal, r.distance, o.distance));
+      if (std::abs(c) < kOneSide) d = glm::length(leastStep(r.normal, o.normal, r.distance, o.distance));
     }
     if (!(d <= e.largest)) e.largest = d, e.worst = s.triangle;
     if (s.kind == Sample::Spoke && !(d <= e.spoke)) {
@@ -141,7 +123,7 @@ class Judge {
     }
     if (s.kind == Sample::Inner) return;
     addEnergy(d, e);
-    if (!(glm::dot(facets_[s.triangle], r.normal) > kCosine)) e.sound = false;
+    if (!(glm::dot(facets_[s.triangle], r.normal) > kFacing)) e.sound = false;
     const auto spread = [&](std::uint32_t t) {
       auto& [low, high] = spread_[t];
       low = std::min(low, r.distance), high = std::max(high, r.distance);
@@ -232,7 +214,7 @@ class Judge {
       if (samples_[i].kind == Sample::Centre) normals[sector(samples_[i])] += readings_[i].normal;
     e.normal = normals[0];
     e.onto = -readings_[0].distance * readings_[0].normal;
-    const bool apart = two && std::abs(glm::dot(normals[0], normals[1])) < kSmooth;
+    const bool apart = two && std::abs(glm::dot(normals[0], normals[1])) < kOneSide;
     if (apart)
       e.onto =
           leastStep(readings_[0].normal, readings_[1].normal, -readings_[0].distance, -readings_[1].distance);
@@ -260,6 +242,7 @@ class Judge {
     }
     float areas = 0.0f, weights = 0.0f;
     for (const float a : areas_) areas += a;
+    if (!(areas > 0.0f)) return;
     glm::vec3 sum(0.0f);
     for (std::uint32_t i = 0; i < fan.triangles(); ++i) {
       const float w = spread_[i].second - spread_[i].first + 1e-2f * tolerance_ * areas_[i] / areas;

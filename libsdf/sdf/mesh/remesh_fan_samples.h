@@ -34,6 +34,33 @@ struct Reading {
   glm::vec3 normal;
 };
 
+/// Facets' normals stay within 60 degrees of the gradient (cosine).
+inline constexpr float kFacing = 0.5f;
+/// Sides of a crease that meet at less than 5 degrees (cosine) are one.
+inline constexpr float kOneSide = 0.9962f;
+
+/// The area vector, twice as long as the triangle is large; whether its least height is above a share of the
+/// tolerance and the corners' rounding.
+struct Facet {
+  glm::vec3 area;
+  float size;
+  bool sound;
+  Facet(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float tolerance)
+      : area(glm::cross(b - a, c - a)), size(glm::length(area)) {
+    constexpr float kHeight = 0.02f, kRounding = 16.0f * 0x1p-24f;  // in tolerances, and of the coordinates
+    const float longest =
+        std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
+    const float scale = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), longest});
+    sound = size > longest * std::max(kHeight * tolerance, kRounding * scale);
+  }
+};
+
+/// The least step that moves by s along a and by t along b, which are unit and not parallel.
+inline glm::vec3 leastStep(const glm::vec3& a, const glm::vec3& b, float s, float t) {
+  const float c = glm::dot(a, b), det = 1.0f - c * c;
+  return ((s - c * t) * a + (t - c * s) * b) / det;
+}
+
 /// One fan with its rim at hand.
 struct FanView {
   const Fan& fan;
@@ -59,17 +86,23 @@ struct FanView {
     return length > beside ? p + way * (beside / length) : p + way;
   }
 
-  // Calls take(sample) for each: at the centre, once for each sector; in each triangle; on each spoke,
-  // creases from either side.
+  // Calls take(sample) for those at the centre, one for each sector.
+  template <class Take>
+  void forEachCentre(const Take& take) const {
+    if (!hasCentre()) return;
+    if (fan.creases == 0) return take(Sample{Sample::Centre, fan.centre, fan.centre, 1.0f, 0});
+    forEachSector([&](std::uint32_t first, std::uint32_t count) {
+      const std::uint32_t middle = (first + count / 2) % fan.count;
+      take(Sample{Sample::Centre, fan.centre, besideOf(fan.centre, glm::vec3(0.0f), middle), 1.0f, middle});
+    });
+  }
+  std::size_t centres() const { return hasCentre() ? std::max(1u, fan.creases) : 0; }
+
+  // Calls take(sample) for each: at the centre; in each triangle; on each spoke, creases from either side.
   template <class Take>
   void forEachSample(const Take& take) const {
     const std::uint32_t n = fan.triangles();
-    if (hasCentre() && fan.creases == 0) take(Sample{Sample::Centre, fan.centre, fan.centre, 1.0f, 0});
-    if (hasCentre() && fan.creases > 0)
-      forEachSector([&](std::uint32_t first, std::uint32_t count) {
-        const std::uint32_t middle = (first + count / 2) % fan.count;
-        take(Sample{Sample::Centre, fan.centre, besideOf(fan.centre, glm::vec3(0.0f), middle), 1.0f, middle});
-      });
+    forEachCentre(take);
     for (std::uint32_t i = 0; i < n; ++i) {
       const glm::vec3 c = centroid(i);
       take(Sample{Sample::Centroid, c, c, 1.0f / 3.0f, i});
@@ -92,7 +125,7 @@ struct FanView {
     const glm::vec3 &a = end(i), &b = end(after(i));
     const float longest =
         std::max({glm::distance(fan.centre, a), glm::distance(fan.centre, b), glm::distance(a, b)});
-    return static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0f, static_cast<float>(kMostSteps)));
+    return longest > spacing ? static_cast<int>(std::min(std::ceil(longest / spacing), 1.0f * kMostSteps)) : 1;
   }
 
   // The nodes of a grid inside the triangle; three steps have one, which is its centroid.
@@ -124,11 +157,10 @@ struct FanView {
   }
 
   std::size_t samples() const {
-    const std::size_t centre = hasCentre() ? std::max(1u, fan.creases) : 0;
     std::size_t inner = 0;
     for (std::uint32_t i = 0; i < fan.triangles(); ++i)
       if (const auto n = static_cast<std::size_t>(steps(i)); n >= kLeastSteps) inner += (n - 1) * (n - 2) / 2;
-    return centre + fan.triangles() + inner + (fan.closed ? fan.count : fan.count - 2) + fan.creases;
+    return centres() + fan.triangles() + inner + (fan.closed ? fan.count : fan.count - 2) + fan.creases;
   }
 
   // Which sector a triangle belongs to, for two of them.
