@@ -57,10 +57,10 @@ constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
 // cannot mend.
 constexpr double kResolved = 0.25;
-// Where a tolerance is missed by less than this factor, this share of it may keep it.
-constexpr double kFarOff = 2.0, kStricter = 0.6;
+// What misses the tolerance is held to this share of what would have kept it, down to the least.
+constexpr double kStricter = 0.95, kStrictest = 0.5;
 // A mesh of more than these is not tried again with four times as many.
-constexpr std::size_t kMostTriangles = 100'000;
+constexpr std::size_t kMostTriangles = 1'000'000;
 
 // Does what is seen on the surface change from place to place?
 bool isPainted(const Shape& shape) {
@@ -143,19 +143,16 @@ class Mesher {
     return mesh;
   }
 
-  // Remeshes it with few triangles; a stricter tolerance makes up for what the first misses by little.
+  // Remeshes it with few triangles, and what misses the tolerance by little once more by a stricter one.
   bool thin(FeatureMesh& mesh, const BandField& field) {
-    const FeatureMesh whole = std::move(mesh);
-    for (const double share : {1.0, kStricter}) {
-      mesh = whole;
-      const RemeshResult r =
-          remesh(mesh, field, {.tolerance = share * options_.tolerance, .painted = painted_}, progress_);
+    for (double held = options_.tolerance;;) {
+      const RemeshResult r = remesh(mesh, field, {.tolerance = held, .painted = painted_}, progress_);
       measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
-      const double distance = std::max(r.maxDistance, result_.stats.maxDistance);
-      if (distance <= options_.tolerance) return true;
-      if (distance > kFarOff * options_.tolerance) return false;
+      const double missed = std::max(r.maxDistance, result_.stats.maxDistance) / options_.tolerance;
+      if (missed <= 1.0) return true;
+      held *= kStricter / missed;
+      if (progress_.stopped() || held < kStrictest * options_.tolerance) return false;
     }
-    return false;
   }
 
   // Measures, checks and colours what was made.

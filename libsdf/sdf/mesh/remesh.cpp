@@ -59,13 +59,14 @@ class Remesher {
     changes_.collapse();
     report(0.4);
     for (int i = 0; i < kCycles; ++i) {
-      adjust(kLoose);
-      adjust(0.0f);
+      adjust(kLoose, Sampling::Few);
+      adjust(0.0f, Sampling::Few);
       changes_.collapse();
     }
     adjust(0.0f);
     report(0.7);
     if (!overBudget()) keepTolerance();
+    if (!overBudget()) halveExceeding();
     if (!overBudget() && options_.painted) keepColors();
     if (overBudget()) keepBudget();
     report(1.0);
@@ -79,9 +80,9 @@ class Remesher {
     return options_.maxTriangles != 0 && mesh_.liveTriangles() > options_.maxTriangles;
   }
 
-  void adjust(float loose) {
+  void adjust(float loose, Sampling sampling = Sampling::All) {
     for (int i = 0; i < kSweeps && !quiet_.stopped(); ++i) {
-      const std::size_t changed = changes_.flip(loose) + changes_.relocate(loose);
+      const std::size_t changed = changes_.flip(loose, sampling) + changes_.relocate(loose, sampling);
       if (static_cast<double>(changed) < kSettled * static_cast<double>(mesh_.liveTriangles())) return;
     }
   }
@@ -98,6 +99,10 @@ class Remesher {
       adjust(0.0f);
       changes_.split();
     }
+  }
+
+  // Splits what exceeds the tolerance anywhere.
+  void halveExceeding() {
     std::size_t fewest = mesh_.liveTriangles();
     for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
       measure();
@@ -116,7 +121,7 @@ class Remesher {
       if (colors_.exceeding.empty()) break;
       changes_.splitTriangles(colors_.exceeding);
     }
-    measure();
+    halveExceeding();
   }
 
   // Goes on collapsing in the order of the errors, as far as the budget asks.

@@ -34,7 +34,7 @@ struct RemeshResult {
 /// Distances are first-order, f / |grad f| (Taubin 1994), at points of the mesh. While it is changed they are
 /// taken at each triangle's corners, centroid and edges' midpoints, and at the extrema that their gradients
 /// foretell: between them the distance is a quadratic function up to terms of third order in the triangle's
-/// size. At the end they are taken all over the triangles, twice as closely as the field resolves
+/// size. At the end they are taken all over the triangles, thrice as closely as the field resolves
 /// features (LocalField::Local::voxel), and what exceeds the tolerance is split. Along creases the points are
 /// read from both sides, and their distance is that to the line where both sides' tangent planes meet.
 ///

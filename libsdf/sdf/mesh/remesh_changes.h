@@ -27,14 +27,14 @@ class RemeshChanges {
   void collapse(std::size_t maxTriangles = 0, bool strict = false);
   /// The same by what normals at the vertices foretell of the distances, at a reading or two for each
   /// collapse instead of a hundred: for what is far finer than the tolerance asks. Vertices stay on the
-  /// surface.
+  /// surface. Ends when few of those that are tried can be made.
   void collapseRoughly();
   /// Moves each vertex once to where the largest distances around it are balanced, if that lessens them;
   /// returns the number of those that moved. Where nothing changed since the last time nothing is tried.
-  std::size_t relocate(float loose = 0.0f);
+  std::size_t relocate(float loose = 0.0f, Sampling sampling = Sampling::All);
   /// Replaces edges by the other diagonal where that lessens the distances; returns the number of
   /// flips. Both let the distances' energy rise by the share `loose`.
-  std::size_t flip(float loose = 0.0f);
+  std::size_t flip(float loose = 0.0f, Sampling sampling = Sampling::All);
   /// Splits edges until none of the triangles exceeds the tolerance at its samples, and adjusts what is new;
   /// false if that was not reached.
   bool split();
@@ -52,7 +52,7 @@ class RemeshChanges {
     std::uint32_t where;  // a half-edge or a vertex
     bool operator<(const Candidate& o) const { return cost != o.cost ? cost < o.cost : where < o.where; }
   };
-  void evaluate(const Fans& fans, std::vector<FanError>& errors) const;
+  void evaluate(const Fans& fans, Sampling sampling, std::vector<FanError>& errors) const;
   // Is the tolerance exceeded by more than before?
   bool worsens(const FanError& before, const FanError& after) const;
   void readNormals();

@@ -109,9 +109,9 @@ void RemeshChanges::tryCollapses(const std::vector<std::uint32_t>& edges, Care c
     for (std::size_t i = 0; i < edges.size(); ++i)
       if (mesh_.isCrease(edges[i])) errors[i].largest = std::max(errors[i].largest, chordError(edges[i]));
   } else {
-    evaluateFans(fans, tolerance_, field_, progress_, errors);
+    evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
     moveToOffsets(fans, errors);
-    evaluate(fans, errors);
+    evaluate(fans, Sampling::All, errors);
   }
 }
 
@@ -152,8 +152,6 @@ bool RemeshChanges::collapseRound(std::size_t most, Care care, bool& more) {
 void RemeshChanges::collapse(std::size_t maxTriangles, bool strict) {
   collapse(maxTriangles, strict ? Care::Strict : Care::Usual);
 }
-
-void RemeshChanges::collapseRoughly() { collapse(0, Care::Rough); }
 
 void RemeshChanges::collapse(std::size_t maxTriangles, Care care) {
   while (!progress_.stopped() && mesh_.liveTriangles() > std::max<std::size_t>(maxTriangles, 4)) {

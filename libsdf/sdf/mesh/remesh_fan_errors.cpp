@@ -266,10 +266,12 @@ class Judge {
 
 }  // namespace
 
-void evaluateFans(const Fans& fans, float tolerance, const LocalField& field, Progress& progress,
-                  std::vector<FanError>& errors) {
+void evaluateFans(const Fans& fans, float tolerance, Sampling sampling, const LocalField& field,
+                  Progress& progress, std::vector<FanError>& errors) {
   if (fans.all.empty()) return errors.clear();
-  const auto spacing = static_cast<float>(field.finder()->at(fans.all[0].centre).voxel);
+  const float spacing = sampling == Sampling::Few
+                            ? HUGE_VALF
+                            : static_cast<float>(field.finder()->at(fans.all[0].centre).voxel);
   std::vector<std::size_t> first{0};
   for (std::size_t i = 0; i < fans.all.size(); ++i)
     first.push_back(first.back() + FanView(fans, i, tolerance, spacing).samples());

@@ -125,7 +125,8 @@ struct FanView {
     const glm::vec3 &a = end(i), &b = end(after(i));
     const float longest =
         std::max({glm::distance(fan.centre, a), glm::distance(fan.centre, b), glm::distance(a, b)});
-    return longest > spacing ? static_cast<int>(std::min(std::ceil(longest / spacing), 1.0f * kMostSteps)) : 1;
+    return longest > spacing ? static_cast<int>(std::min(std::ceil(longest / spacing), 1.0f * kMostSteps))
+                             : 1;
   }
 
   // The nodes of a grid inside the triangle; three steps have one, which is its centroid.

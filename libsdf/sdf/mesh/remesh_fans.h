@@ -69,8 +69,12 @@ struct FanError {
   glm::vec3 descent{0.0f};  ///< along the surface, the way on which the energy falls most; unit, or 0
 };
 
+/// Where fans are read: at the corners, centroids and middles of edges, or in large triangles, which may span
+/// what the field resolves, also all over them.
+enum class Sampling { Few, All };
+
 /// Evaluates all fans in parallel; `errors` receives one entry for each.
-void evaluateFans(const Fans& fans, float tolerance, const LocalField& field, Progress& progress,
-                  std::vector<FanError>& errors);
+void evaluateFans(const Fans& fans, float tolerance, Sampling sampling, const LocalField& field,
+                  Progress& progress, std::vector<FanError>& errors);
 
 }  // namespace sdf

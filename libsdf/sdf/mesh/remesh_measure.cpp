@@ -12,9 +12,9 @@ namespace {
 // Points evaluated at a time, to bound the memory.
 constexpr std::size_t kPoints = std::size_t{1} << 20;
 
-// Steps along each side at least. What lies between two of them is at most 1 / (4 * 36) of a quadratic
+// Steps along each side at least. What lies between two of them is at most 1 / (4 * 81) of a quadratic
 // error's span larger.
-constexpr int kLeast = 6;
+constexpr int kLeast = 9;
 
 // Adds the triangle's corners, and the nodes of a grid no coarser than `cell`: rows along the longest side.
 void addPoints(const glm::vec3 (&corners)[3], float cell, std::vector<glm::vec3>& points) {
@@ -63,7 +63,7 @@ DenseDistances measureDensely(const RemeshTopology& mesh, const LocalField& fiel
       const glm::vec3 corners[3]{mesh.positions[mesh.from(h)], mesh.positions[mesh.from(h + 1)],
                                  mesh.positions[mesh.from(h + 2)]};
       addPoints(corners,
-                static_cast<float>(finder->at((corners[0] + corners[1] + corners[2]) / 3.0f).voxel) / 2.0f,
+                static_cast<float>(finder->at((corners[0] + corners[1] + corners[2]) / 3.0f).voxel) / 3.0f,
                 points);
     }
     ends.push_back(points.size());

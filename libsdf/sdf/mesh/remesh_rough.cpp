@@ -33,6 +33,8 @@ constexpr std::uint32_t kMostSpokes = 14;
 
 }  // namespace
 
+void RemeshChanges::collapseRoughly() { collapse(0, Care::Rough); }
+
 void RemeshChanges::estimate(Fans& fans, std::vector<FanError>& errors) const {
   errors.assign(fans.all.size(), {});
   if (fans.all.empty()) return;
