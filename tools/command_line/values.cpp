@@ -11,7 +11,7 @@ namespace {
 
 // A flag's number; `wanted` says which numbers are right, in words and as a test.
 template <class Test>
-Result<double> numberFor(const char* flag, const std::string& text, const char* wanted, Test right) {
+Result<double> numberFor(const char* flag, const std::string& text, const std::string& wanted, Test right) {
   const std::optional<double> value = number(text);
   if (value && right(*value)) return *value;
   return usage(std::string(flag) + " needs " + wanted + ", got '" + text + "'");
@@ -25,6 +25,12 @@ std::string described(const CLI::ParseError& error, const std::string& program) 
     message = message.substr(0, message.find(':')) + " takes one value and can be given once";
   }
   return message + "; see " + program + " --help";
+}
+
+template <int most>
+Result<double> countTo(const char* flag, const std::string& text) {
+  return numberFor(flag, text, "a whole number from 1 to " + std::to_string(most),
+                   [](double v) { return v >= 1.0 && v <= most && v == std::floor(v); });
 }
 
 }  // namespace
@@ -55,10 +61,11 @@ Result<double> positive(const char* flag, const std::string& text) {
   return numberFor(flag, text, "a number above 0", [](double v) { return v > 0.0; });
 }
 
-Result<double> count(const char* flag, const std::string& text) {
-  return numberFor(flag, text, "a whole number from 1 to 100000",
-                   [](double v) { return v >= 1.0 && v <= 100'000.0 && v == std::floor(v); });
+Result<double> count(const char* flag, const std::string& text) { return countTo<100'000>(flag, text); }
+Result<double> largeCount(const char* flag, const std::string& text) {
+  return countTo<1'000'000'000>(flag, text);
 }
+Result<double> smallCount(const char* flag, const std::string& text) { return countTo<16>(flag, text); }
 
 Result<double> seconds(const char* flag, const std::string& text) {
   return numberFor(flag, text, "a finite number of seconds", [](double) { return true; });

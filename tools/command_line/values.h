@@ -31,6 +31,10 @@ std::vector<double> numbers(const std::string& text);
 Result<double> positive(const char* flag, const std::string& text);
 /// A whole number from 1 to 100000.
 Result<double> count(const char* flag, const std::string& text);
+/// A whole number from 1 to 1000000000.
+Result<double> largeCount(const char* flag, const std::string& text);
+/// A whole number from 1 to 16.
+Result<double> smallCount(const char* flag, const std::string& text);
 /// Any finite number of seconds.
 Result<double> seconds(const char* flag, const std::string& text);
 

@@ -23,7 +23,8 @@ std::filesystem::path targetOf(const Options& options, int i) {
 /// What can be known of the files to write before the work that fills them.
 Status checkTargets(const Options& options) {
   for (int i = 0; i < filesOf(options); ++i)
-    if (Status s = checkWritable(targetOf(options, i)); !s) return s;
+    for (int level = 0; level < options.levels.value_or(1); ++level)
+      if (Status s = checkWritable(levelName(targetOf(options, i), level)); !s) return s;
   return options.report ? checkWritable(*options.report) : okStatus();
 }
 
@@ -49,11 +50,16 @@ Status exportFrames(const Options& options, ProgressLine& progress, std::ostream
     FrameExport frame(options, progress, frameSubject(options, i));
     const std::filesystem::path target = targetOf(options, i);
     if (Status s = frame.load(frameTime(options, i), voxelSize); !s) return s;
-    if (Status s = frame.mesh(exportedParts(frame.scene, target), *voxelSize); !s) return s;
-    if (Status s = frame.write(target); !s) return s;
-    tell(options, frame.report, progress, out);
     written.parameters = frame.scene.parameters;
-    written.files.push_back(std::move(frame.report));
+    for (int level = 0; level < options.levels.value_or(1); ++level) {
+      if (Status s =
+              frame.mesh(exportedParts(frame.scene, target), *voxelSize, levelTolerance(options, level));
+          !s)
+        return s;
+      if (Status s = frame.write(levelName(target, level)); !s) return s;
+      tell(options, frame.report, progress, out);
+      written.files.push_back(frame.report);
+    }
   }
   return okStatus();
 }

@@ -1,5 +1,9 @@
 #include "frame_export.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +20,10 @@ namespace {
 /// Voxels along the longest side, unless told otherwise: a side of a thousand pixels then has five to a
 /// voxel.
 constexpr double kDefaultVoxels = 200.0;
+/// With --triangles: the first try has this share of the diagonal for its tolerance; each aims at this share
+/// of the budget, and what is above the other will do.
+constexpr double kFirstTolerance = 1000.0, kAim = 0.95, kEnough = 0.9;
+constexpr int kTries = 6;
 constexpr std::string_view kStepsAreNotBaked =
     "ambient_occlusion: what counts steps depends on who looks and is not baked; take kind = 'taps'";
 
@@ -40,7 +48,9 @@ Status FrameExport::load(double time, std::optional<double>& voxelSize) {
   report.time = time;
   report.total.name = "total";
   if (Status s = loadParts(time); !s) return s;
-  return chooseVoxelSize(voxelSize);
+  if (Status s = chooseVoxelSize(voxelSize); !s) return s;
+  loaded_ = report.total;
+  return okStatus();
 }
 
 Status FrameExport::loadParts(double time) {
@@ -67,34 +77,84 @@ Status FrameExport::chooseVoxelSize(std::optional<double>& voxelSize) {
     if (box.empty()) continue;
     // Rather now than after the other parts: the mesher knows best how to word why it cannot be meshed.
     if (!box.finite()) {
-      Result<MeshedShape> refused = meshShape(part.shape, part.name, meshOptions(0.0), progress_);
+      Result<MeshedShape> refused = meshShape(part.shape, part.name, meshOptions(0.0, 0.0), progress_);
       if (!refused) return refused.error();
     }
     all = unite(all, box);
   }
+  diagonal_ = all.finite() ? glm::length(all.size()) : 0.0;
   if (!voxelSize) voxelSize = all.finite() ? all.longestSide() / kDefaultVoxels : 0.0;
   return okStatus();
 }
 
-Status FrameExport::mesh(const std::vector<Part>& bodies, double voxelSize) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::string place = " (" + std::to_string(i + 1) + " of " + std::to_string(bodies.size()) + ")";
-    progress_.setSubject(subject_ + (subject_.empty() ? "" : ", ") + "part '" + bodies[i].name + "'" + place);
-    if (Status s = meshOne(bodies[i], voxelSize); !s) return s;
-  }
-  if (Status s = interrupted(); !s) return s;
+Status FrameExport::mesh(const std::vector<Part>& bodies, double voxelSize, double tolerance) {
+  report.total = loaded_;
+  report.warnings.clear();
+  if (Status s = options_.triangles
+                     ? meshWithin(static_cast<std::size_t>(*options_.triangles), bodies, voxelSize)
+                     : meshAll(bodies, voxelSize, tolerance);
+      !s)
+    return s;
   if (Status s = bake(); !s) return s;
   compressParts();
   return okStatus();
 }
 
-Status FrameExport::meshOne(const Part& body, double voxelSize) {
+// Triangles grow about as the tolerance falls, so that some tries find the one that leaves few of the budget.
+Status FrameExport::meshWithin(std::size_t triangles, const std::vector<Part>& bodies, double voxelSize) {
+  const auto budget = static_cast<double>(triangles);
+  struct Try {
+    std::vector<ExportPart> parts;
+    std::vector<ReportLine> lines;
+  } best;
+  double tolerance = diagonal_ / kFirstTolerance, coarsest = HUGE_VAL, finest = 0.0;
+  std::size_t most = 0, fewest = std::numeric_limits<std::size_t>::max();
+  for (int i = 0; i < kTries; ++i) {
+    if (Status s = meshAll(bodies, voxelSize, tolerance); !s) return s;
+    const std::size_t count = combined(parts).triangles;
+    fewest = std::min(fewest, count);
+    if (count <= triangles) {
+      coarsest = std::min(coarsest, tolerance);
+      if (count > most) most = count, best = {std::move(parts), std::move(report.parts)};
+    } else {
+      finest = std::max(finest, tolerance);
+    }
+    if (static_cast<double>(most) > kEnough * budget) break;
+    tolerance *= static_cast<double>(count) / (kAim * budget);
+    if (!(tolerance > finest && tolerance < coarsest)) {
+      if (finest == 0.0 || !(coarsest < HUGE_VAL)) break;  // of flat faces, the same for any tolerance
+      tolerance = std::sqrt(finest * coarsest);
+    }
+  }
+  if (most == 0)
+    return Error{ErrorKind::Limits,
+                 "--triangles: " + std::to_string(triangles) +
+                     " are too few for what is exported; the fewest that were reached are " +
+                     std::to_string(fewest)};
+  parts = std::move(best.parts);
+  report.parts = std::move(best.lines);
+  return okStatus();
+}
+
+Status FrameExport::meshAll(const std::vector<Part>& bodies, double voxelSize, double tolerance) {
+  parts.clear();
+  report.parts.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string place = " (" + std::to_string(i + 1) + " of " + std::to_string(bodies.size()) + ")";
+    progress_.setSubject(subject_ + (subject_.empty() ? "" : ", ") + "part '" + bodies[i].name + "'" + place);
+    if (Status s = meshOne(bodies[i], voxelSize, tolerance); !s) return s;
+  }
+  return interrupted();
+}
+
+Status FrameExport::meshOne(const Part& body, double voxelSize, double tolerance) {
   ReportLine& line = report.parts.emplace_back();
   line.name = body.name;
   if (!isGltf(options_.output) && scene.parts.size() > 1)
     for (const Part& one : scene.parts) line.united.push_back(one.name);
-  Result<MeshedShape> meshed = timed(
-      line.seconds, [&] { return meshShape(body.shape, body.name, meshOptions(voxelSize), progress_); });
+  Result<MeshedShape> meshed = timed(line.seconds, [&] {
+    return meshShape(body.shape, body.name, meshOptions(voxelSize, tolerance), progress_);
+  });
   if (!meshed) return meshed.error();
   line.stages = std::move(meshed->stageSeconds);
   line.stats = meshed->stats;
@@ -137,9 +197,9 @@ Status FrameExport::write(const std::filesystem::path& target) {
   return okStatus();
 }
 
-MeshOptions FrameExport::meshOptions(double voxelSize) const {
+MeshOptions FrameExport::meshOptions(double voxelSize, double tolerance) const {
   return {.voxelSize = voxelSize,
-          .tolerance = options_.tolerance.value_or(0.0),
+          .tolerance = tolerance,
           .bounds = clip,
           .certify = options_.certify,
           .maxMemory = options_.maxMemory};

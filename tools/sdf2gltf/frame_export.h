@@ -22,8 +22,9 @@ class FrameExport {
   /// Runs the script at this time and fills `scene` and `clip`; of the bounds it makes the voxel size, if
   /// that is none yet. Errors: the scene's, also those of parts without bounds.
   Status load(double time, std::optional<double>& voxelSize);
-  /// Meshes the bodies into `parts`, bakes their light and compresses them, if that is asked for.
-  Status mesh(const std::vector<Part>& bodies, double voxelSize);
+  /// Meshes the bodies into `parts`, in the place of what is there, with this tolerance or with as many
+  /// triangles as are asked for; bakes their light and compresses them, if that is asked for.
+  Status mesh(const std::vector<Part>& bodies, double voxelSize, double tolerance);
   /// Writes `parts` to a file.
   Status write(const std::filesystem::path& target);
 
@@ -35,15 +36,19 @@ class FrameExport {
  private:
   Status loadParts(double time);
   Status chooseVoxelSize(std::optional<double>& voxelSize);
-  Status meshOne(const Part& body, double voxelSize);
+  Status meshAll(const std::vector<Part>& bodies, double voxelSize, double tolerance);
+  Status meshWithin(std::size_t triangles, const std::vector<Part>& bodies, double voxelSize);
+  Status meshOne(const Part& body, double voxelSize, double tolerance);
   Status bake();
   void compressParts();
-  MeshOptions meshOptions(double voxelSize) const;
+  MeshOptions meshOptions(double voxelSize, double tolerance) const;
   Status interrupted() const;
 
   const Options& options_;
   ProgressLine& progress_;
   std::string subject_;
+  ReportLine loaded_;      // what loading took
+  double diagonal_ = 0.0;  // of the bounds of all parts
 };
 
 }  // namespace sdf::exporter

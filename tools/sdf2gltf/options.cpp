@@ -1,6 +1,7 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <vector>
 
 #include "command_line/frames.h"
@@ -19,8 +20,8 @@ namespace {
 /// The command line's words, before they are looked at closer. All are text, so that messages are our own.
 struct Words {
   std::string scene, output;
-  std::optional<std::string> voxelSize, tolerance, bounds, time, frames, fps, only, report, threads,
-      maxMemory;
+  std::optional<std::string> voxelSize, tolerance, triangles, levels, bounds, time, frames, fps, only, report,
+      threads, maxMemory;
   std::vector<std::string> parameters;
   bool animate = false, bake = false, compress = false, certify = false, quiet = false;
 };
@@ -50,6 +51,17 @@ Status checkSequence(const Words& words) {
   return okStatus();
 }
 
+Status checkDetail(const Words& words) {
+  if (words.triangles && words.tolerance)
+    return usage("--triangles finds the tolerance that so many triangles keep; leave --tolerance out");
+  if (words.triangles && words.animate)
+    return usage("--triangles counts those of one moment; with --animate, say --tolerance");
+  if (words.levels && !words.tolerance)
+    return usage("--lod takes four times the tolerance for each level; say --tolerance of the first");
+  if (words.levels && words.animate) return usage("--lod: leave --animate out, or call it for each level");
+  return okStatus();
+}
+
 // Precondition: checkExtension(words.output).
 Status checkBake(const Words& words) {
   if (!words.bake || isGltf(words.output)) return okStatus();
@@ -74,6 +86,9 @@ void declare(CLI::App& app, Words& words) {
       "sampling distance in scene units [1/200 of the longest side of all that is exported]");
   add("--tolerance", words.tolerance, "E",
       "distance from the surface that meshes keep with few triangles, in scene units [none]");
+  add("--triangles", words.triangles, "N", "the smallest tolerance that so many triangles keep");
+  add("--lod", words.levels, "N",
+      "write N levels of detail, OUT and OUT_lod1 on, each with 4 times the tolerance");
   add("--bounds", words.bounds, "x0,y0,z0,x1,y1,z1", "clip to this box, closed [the scene's bounds]");
   add("-D", words.parameters, "name=value", "set a parameter of the scene; may be repeated")
       ->allow_extra_args(false);
@@ -113,9 +128,11 @@ Result<Options> interpreted(const Words& words) {
 
   constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
   if (Status s = checkExtension(words.output); !s) return s.error();
-  for (const Status& s : {checkBake(words), checkCompress(words), checkSequence(words),
+  for (const Status& s : {checkBake(words), checkCompress(words), checkSequence(words), checkDetail(words),
                           take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
                           take<double>("--tolerance", words.tolerance, options.tolerance, positive),
+                          take<int>("--triangles", words.triangles, options.triangles, largeCount),
+                          take<int>("--lod", words.levels, options.levels, smallCount),
                           take<double>("--time", words.time, options.time, seconds),
                           take<int>("--frames", words.frames, options.frames, count),
                           take<double>("--fps", words.fps, options.framesPerSecond, positive),
@@ -132,6 +149,18 @@ Result<Options> interpreted(const Words& words) {
 }  // namespace
 
 double frameTime(const Options& options, int i) { return options.time + i / options.framesPerSecond; }
+
+double levelTolerance(const Options& options, int level) {
+  constexpr double kBetweenLevels = 4.0;  // and as many triangles
+  return options.tolerance.value_or(0.0) * std::pow(kBetweenLevels, level);
+}
+
+std::filesystem::path levelName(const std::filesystem::path& output, int level) {
+  if (level == 0) return output;
+  std::filesystem::path name = output.stem();
+  name += "_lod" + std::to_string(level) + output.extension().string();
+  return output.parent_path() / name;
+}
 
 std::string frameSubject(const Options& options, int i) {
   return options.frames ? "frame " + std::to_string(i + 1) + " of " + std::to_string(*options.frames) : "";

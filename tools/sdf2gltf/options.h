@@ -17,6 +17,8 @@ struct Options {
   std::filesystem::path output;
   std::optional<double> voxelSize;
   std::optional<double> tolerance;
+  std::optional<int> triangles;  ///< of a file at most
+  std::optional<int> levels;     ///< of detail: files, each of them with four times the tolerance
   std::optional<Box> bounds;
   std::map<std::string, double> parameters;
   double time = 0.0;
@@ -35,6 +37,10 @@ struct Options {
 
 /// The scene's time in the i-th frame, seconds.
 double frameTime(const Options& options, int i);
+/// The tolerance of a level of detail, counted from 0.
+double levelTolerance(const Options& options, int level);
+/// Where it is written: scene.glb, scene_lod1.glb and so on.
+std::filesystem::path levelName(const std::filesystem::path& output, int level);
 /// "frame 2 of 24"; "" where there is but one.
 std::string frameSubject(const Options& options, int i);
 

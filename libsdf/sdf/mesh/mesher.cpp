@@ -223,11 +223,12 @@ class Mesher {
   Status checkClaims(const FeatureMesh& mesh, const Box& bounds, double voxel,
                      const std::vector<float>& distances) const {
     const MeshStats& stats = result_.stats;
-    // Refinement may move a vertex by a voxel, and the surface be as far from it.
-    double farthest = voxel;
+    // Refinement may move a vertex by a voxel, remeshing by the tolerance, and the surface be as far from it.
+    const double near = std::max(voxel, stats.tolerance);
+    double farthest = near;
     const glm::vec3* outside = nullptr;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-      if (const double d = beyond(bounds, mesh.positions[i]); d > farthest && distances[i] < voxel)
+      if (const double d = beyond(bounds, mesh.positions[i]); d > farthest && distances[i] < near)
         farthest = d, outside = &mesh.positions[i];
     if (outside)
       return sceneError(name_, "the surface leaves the bounds " + place(bounds.min) + " to " +
@@ -240,7 +241,7 @@ class Mesher {
       const std::uint32_t open = openVertex(mesh.triangles, mesh.positions.size());
       return sceneError(name_, "the mesh is torn open at " + place(mesh.positions[open]) + advice);
     }
-    if (stats.maxDistance > kFarthestVoxels * voxel)
+    if (stats.maxDistance > std::max(kFarthestVoxels * voxel, stats.tolerance))
       return sceneError(name_, "the mesh is off by about " + shown(stats.maxDistance) + ", " +
                                    shown(stats.maxDistance / voxel) + " voxels, at " + place(stats.farthest) +
                                    advice);
@@ -255,14 +256,15 @@ class Mesher {
     // Three times the measured distance is what a proof may well come to. Vertices are floats, a rounding
     // off.
     const double goal = std::max(2.5 * stats.maxDistance, 0x1p-22 * bounds.longestSide());
-    const Certificate proof = certify(mesh.positions, mesh.triangles, model,
-                                      {bounds, goal, voxel, kFarthestVoxels * voxel}, progress_);
+    const double limit = std::max(kFarthestVoxels * voxel, goal);
+    const Certificate proof =
+        certify(mesh.positions, mesh.triangles, model, {bounds, goal, voxel, limit}, progress_);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     stats.provenDistance = proof.bound();
     if (proof.proven()) return okStatus();
     return Error{
         ErrorKind::Limits,
-        "part '" + name_ + "': no distance below " + shown(kFarthestVoxels * voxel) +
+        "part '" + name_ + "': no distance below " + shown(limit) +
             " is proven between mesh and surface in " + std::to_string(proof.unproven) +
             " cells, the first of side " + shown(proof.unprovenSize) + " around " +
             place(proof.firstUnproven) +
