@@ -92,7 +92,9 @@ struct FanView {
     const glm::vec3 &a = end(i), &b = end(after(i));
     const float longest =
         std::max({glm::distance(fan.centre, a), glm::distance(fan.centre, b), glm::distance(a, b)});
-    return static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0f, static_cast<float>(kMostSteps)));
+    // A centre that is no number, which no fan is sound with, gets one step.
+    return static_cast<int>(
+        std::min(std::max(1.0f, std::ceil(longest / spacing)), static_cast<float>(kMostSteps)));
   }
 
   // The nodes of a grid inside the triangle; three steps have one, which is its centroid.
