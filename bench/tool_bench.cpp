@@ -1,19 +1,11 @@
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "benches.h"
+#include "exporter.h"
 #include "handwritten.h"
 #include "shapes.h"
-
-extern char** environ;
 
 namespace sdf::bench {
 namespace {
@@ -24,49 +16,12 @@ const char* const kMetals = "sdf2gltf metals.lua";
 constexpr int kBalls[] = {2000, 20000};
 std::string ballsName(int count) { return "sdf2gltf " + std::to_string(count) + " balls"; }
 
-// A folder that goes with this object.
-class WorkFolder {
- public:
-  WorkFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sdf_bench_XXXXXX").string();
-    if (::mkdtemp(name.data())) path_ = name;
-  }
-  ~WorkFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::string operator/(const std::string& file) const { return (path_ / file).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-// Runs the exporter to its end; true if it succeeded.
-bool run(std::vector<std::string> words) {
-  words.insert(words.begin(), SDF2GLTF);
-  std::vector<char*> arguments;
-  for (std::string& w : words) arguments.push_back(w.data());
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  int status = -1;
-  if (::posix_spawn(&child, SDF2GLTF, nullptr, nullptr, arguments.data(), environ) != 0) return false;
-  return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
 std::string sample(const std::string& name) { return SDF_SAMPLES "/" + name; }
 
 // Peak memory in MB of an export at N = 512, as the exporter reports it; NaN if it fails.
 double peakMegabytes(const std::string& scene) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const WorkFolder folder;
-  const std::string report = folder / "report.json";
-  const std::string voxel = std::to_string(2.0 * kRegion / 512);
-  if (!run({scene, "-o", folder / "out.glb", "--quiet", "--voxel-size", voxel, "--report", report}))
-    return kNone;
-  std::ifstream in(report);
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  const nlohmann::json::json_pointer peak("/outputs/0/total/peak_memory_bytes");
-  return json.contains(peak) ? json[peak].get<double>() * 1e-6 : kNone;
+  const std::optional<Exported> done = exported({scene, "--voxel-size", std::to_string(2.0 * kRegion / 512)});
+  return done ? done->peakMegabytes : std::numeric_limits<double>::quiet_NaN();
 }
 
 // The scene in samples/bench that belongs to a shape: its name begins with the shape's.
@@ -84,7 +39,7 @@ void add(const std::string& name, const std::vector<std::string>& words) {
     std::vector<std::string> all = words;
     all.insert(all.end(), {"-o", folder / "out.glb", "--quiet"});
     for (auto _ : state)
-      if (!run(all)) state.SkipWithError("the export failed");
+      if (runExporter(all) != 0) state.SkipWithError("the export failed");
   })->Unit(benchmark::kMillisecond);
 }
 

@@ -131,12 +131,65 @@ TEST(MeasureDistance, KnowsHowFarTheChordsOfASphereSag) {
       SCOPED_TRACE(testing::Message() << "voxel " << h << ", corners at " << corners);
       const Octahedron mesh(static_cast<float>(corners));
       const double face = corners / std::sqrt(3.0), middle = r - face;
-      const double between = r - std::hypot(face, std::sqrt(corners * corners - face * face) / 2.0);
       const MeshStats s = distanceTo(sphere(r), h, mesh.positions, mesh.triangles);
       EXPECT_NEAR(s.maxDistance, std::max(middle, corners - r), precision);
-      EXPECT_NEAR(s.rmsDistance, std::sqrt((middle * middle + 3.0 * between * between) / 4.0), precision);
     }
   }
+}
+
+// A triangle in the plane y = 0 below the surface y = height * quadratic(x, z).
+double meanSquareAbove(const Triangles& triangles, const std::vector<glm::vec3>& p,
+                       double (*quadratic)(double, double)) {
+  constexpr int kSteps = 200;
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; i + j < kSteps; ++j)
+      for (const double third : {1.0 / 3.0, 2.0 / 3.0}) {
+        if (third > 0.5 && i + j + 1 == kSteps) continue;
+        const double u = (i + third) / kSteps, v = (j + third) / kSteps;
+        const glm::dvec3 at = (1.0 - u - v) * glm::dvec3(p[triangles[0].x]) +
+                              u * glm::dvec3(p[triangles[0].y]) + v * glm::dvec3(p[triangles[0].z]);
+        const double d = quadratic(at.x, at.z);
+        sum += d * d;
+        ++count;
+      }
+  return sum / count;
+}
+
+TEST(MeasureDistance, AveragesQuadraticDistancesExactly) {
+  constexpr double kHeight = 1.0 / 256;
+  struct Quadratic {
+    double (*value)(double, double);
+    Expr (*formula)(const Expr&, const Expr&);
+    double slope;  // at most, over the triangles
+  };
+  // A bowl and a trough, both of either sign as below a balanced triangle, a saddle, and a slope.
+  const Quadratic quadratics[] = {{[](double x, double z) { return x * x + z * z - 0.2; },
+                                   [](const Expr& x, const Expr& z) { return x * x + z * z - 0.2; }, 3.0},
+                                  {[](double x, double) { return x * x - 0.1; },
+                                   [](const Expr& x, const Expr&) { return x * x - 0.1; }, 2.0},
+                                  {[](double x, double z) { return x * z + 0.01; },
+                                   [](const Expr& x, const Expr& z) { return x * z + 0.01; }, 1.5},
+                                  {[](double x, double z) { return x - 0.5 * z; },
+                                   [](const Expr& x, const Expr& z) { return x - 0.5 * z; }, 1.2}};
+  const std::vector<glm::vec3> shapes[] = {{{-0.5f, 0, -0.3f}, {0, 0, 0.6f}, {0.5f, 0, -0.3f}},
+                                           {{-1, 0, 0}, {-1, 0, 0.1f}, {1, 0, 0.2f}},
+                                           {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}};
+  const Triangles triangle{{0, 1, 2}};
+  for (std::size_t i = 0; i < std::size(quadratics); ++i)
+    for (std::size_t k = 0; k < std::size(shapes); ++k) {
+      SCOPED_TRACE(testing::Message() << "quadratic " << i << ", triangle " << k);
+      const Quadratic& q = quadratics[i];
+      const Vec3E p = position();
+      const Shape surface = field(p.y - kHeight * q.formula(p.x, p.z), region(1.25), 1.1);
+      const double rms = distanceTo(surface, 0.125, shapes[k], triangle).rmsDistance;
+      const double expected = kHeight * std::sqrt(meanSquareAbove(triangle, shapes[k], q.value));
+      // First-order distances divide by the slope, sqrt(1 + g^2); the grid of 200 steps is right to a
+      // 200th^2; and floats of some products of numbers about 1 are rounded.
+      const double steep = kHeight * q.slope;
+      EXPECT_NEAR(rms, expected, expected * (0.5 * steep * steep + 1.0 / (200.0 * 200.0)) + 8.0 * kRoundoff);
+    }
 }
 
 TEST(MeasureDistance, SeesASphereThatIsTooLargeByTheDifference) {

@@ -7,6 +7,7 @@
 
 #include "mesh/feature_meshes.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/remesh_fans.h"
 #ifdef SDF_REFERENCE
 #include "accuracy/reference.h"
 #endif
@@ -81,6 +82,23 @@ void expectTopologyOf(const Meshed& m, int components, int euler) {
 // 0.1925 * integral of sqrt|K| dA / E, for a ball of radius 1: the least that equilateral triangles whose
 // corners lie E outside and whose centroids lie E inside can do (Nadler 1986).
 double leastForBall(double tolerance) { return 0.1925 * 4.0 * kPi / tolerance; }
+
+// Where triangles have no area, what is proposed may be no number.
+TEST(Remesh, AFanWhoseCentreIsNoNumberIsNotSound) {
+  const Fine fine(sphere(1.0), 0.25);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  Fans fans;
+  for (const float x : {1.0f, nan}) fans.all.push_back({.centre = {x, 0, 0}, .first = 0, .count = 3});
+  for (const int k : {0, 1, 2}) {
+    const float turn = 2.0f * static_cast<float>(kPi) * static_cast<float>(k) / 3.0f;
+    fans.rim.push_back({{0.995f, 0.1f * std::cos(turn), 0.1f * std::sin(turn)}, 0, false, 0});
+  }
+  Progress progress;
+  std::vector<FanError> errors;
+  evaluateFans(fans, 0.1f, fine.field, progress, errors);
+  EXPECT_TRUE(errors[0].sound);
+  EXPECT_FALSE(errors[1].sound);
+}
 
 TEST(Remesh, ABallTakesLittleMoreThanTheLeastNumberOfTriangles) {
   const Fine fine(sphere(1.0), 0.04);

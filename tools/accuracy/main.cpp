@@ -1,11 +1,12 @@
-// Holds the catalog to meshes of the same solids, runs the known failures, and writes what it found as a
-// Markdown page.
+// Holds the catalog to meshes of the same solids and our meshes to their definitions, runs the known
+// failures, and writes what it found as a Markdown page.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "mesh_cases.h"
 #include "operator_cases.h"
 #include "primitive_cases.h"
 #include "report.h"
@@ -15,6 +16,14 @@ namespace sdf::accuracy {
 namespace {
 
 enum ExitCode { kDone = 0, kRefuted = 1, kUsage = 2, kFiles = 5 };
+
+/// All rows in one list.
+template <class R>
+std::vector<R> joined(std::vector<std::vector<R>> lists) {
+  std::vector<R> all;
+  for (std::vector<R>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
 
 /// Runs one after the other, naming each first, since some take long.
 template <class Case, class Run>
@@ -34,6 +43,17 @@ bool hold(std::span<const FailureRow> rows) {
     std::fprintf(stderr, "accuracy: not as known: %s: naive %g, at least %g; ours %g, at most %g\n",
                  row.failure.name.c_str(), row.figures.naive, row.failure.naive.limit, row.figures.ours,
                  row.failure.ours.limit);
+    all = false;
+  }
+  return all;
+}
+
+bool hold(std::span<const MeshRow> rows) {
+  bool all = true;
+  for (const MeshRow& row : rows) {
+    if (!row.refuted()) continue;
+    std::fprintf(stderr, "accuracy: refuted: %s, %s: proven %g, found %g\n", row.shape.c_str(),
+                 row.asked.c_str(), row.stats.provenDistance, row.farthest());
     all = false;
   }
   return all;
@@ -64,17 +84,17 @@ int run(const std::string& output, std::uint64_t fraction) {
                                 [&](const OperatorCases& c) { return operatorRow(c, fraction); });
   // A page that is only tried does with one part.
   const std::size_t parts = fraction == 1 ? deformedParts().size() : 1;
-  std::vector<OffsetRow> offsets;
-  for (const auto& rows :
-       runAll(deformations(), &Deformation::name, [&](const Deformation& d) { return offsetRows(d, parts); }))
-    offsets.insert(offsets.end(), rows.begin(), rows.end());
+  const auto offsets = joined(
+      runAll(deformations(), &Deformation::name, [&](const Deformation& d) { return offsetRows(d, parts); }));
+  const auto meshes = joined(runAll(meshCases(), &NamedMeshCase::name,
+                                    [&](const NamedMeshCase& c) { return meshRows(c, fraction); }));
   const Status written = writeFile(output, [&](std::ostream& out) {
-    writeReport(out, primitives, operators, offsets, failures);
+    writeReport(out, primitives, operators, offsets, meshes, failures);
     return okStatus();
   });
   if (!written) return failed(written.error());
-  const bool held[] = {hold(primitives), hold(operators), hold(failures)};
-  return held[0] && held[1] && held[2] ? kDone : kRefuted;
+  const bool held[] = {hold(primitives), hold(operators), hold(meshes), hold(failures)};
+  return held[0] && held[1] && held[2] && held[3] ? kDone : kRefuted;
 }
 
 }  // namespace

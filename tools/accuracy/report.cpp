@@ -6,6 +6,19 @@
 #include "sdf/shape/catalog.h"
 
 namespace sdf::accuracy {
+
+std::string number(const char* format, double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+std::string grouped(std::uint64_t count) {
+  std::string text = std::to_string(count);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
 namespace {
 
 constexpr const char* kIntroduction = R"(# How accurate the distances are
@@ -70,19 +83,7 @@ do better, ours counts what is wrong and not reported. Where nothing is wrong a 
 |---|---|---|---|---|---|---|---|
 )";
 
-std::string number(const char* format, double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
 std::string brief(double value) { return value == 0.0 ? "0" : number("%.1e", value); }
-
-std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
 
 /// As the text of a table's cell.
 std::string cell(std::string text) {
@@ -132,13 +133,15 @@ void writeFailure(std::ostream& out, const FailureRow& row) {
 }  // namespace
 
 void writeReport(std::ostream& out, std::span<const Row> primitives, std::span<const Row> operators,
-                 std::span<const OffsetRow> offsets, std::span<const FailureRow> failures) {
+                 std::span<const OffsetRow> offsets, std::span<const MeshRow> meshes,
+                 std::span<const FailureRow> failures) {
   out << kIntroduction << "\n## Solids and flat shapes\n\n";
   writeTable(out, "shape", primitives);
   out << "\n## Operators\n\n";
   writeTable(out, "operator", operators);
   out << kOffsets;
   for (const OffsetRow& row : offsets) writeOffset(out, row);
+  writeMeshes(out, meshes);
   out << kFailures;
   for (const FailureRow& row : failures) writeFailure(out, row);
 }

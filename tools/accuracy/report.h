@@ -1,9 +1,11 @@
-// docs/accuracy.md: what the checks found, a row for each entry of the catalog and each known failure.
+// docs/accuracy.md: what the checks found, a row for each entry of the catalog, each mesh and each known
+// failure.
 #pragma once
 #include <ostream>
 #include <span>
 
 #include "failures/failure_case.h"
+#include "mesh_cases.h"
 #include "offset_cases.h"
 #include "rows.h"
 
@@ -18,6 +20,15 @@ struct FailureRow {
 /// The whole page. Deterministic but for the float readings, which are those of the machine's instruction
 /// set.
 void writeReport(std::ostream& out, std::span<const Row> primitives, std::span<const Row> operators,
-                 std::span<const OffsetRow> offsets, std::span<const FailureRow> failures);
+                 std::span<const OffsetRow> offsets, std::span<const MeshRow> meshes,
+                 std::span<const FailureRow> failures);
+
+/// Its section on meshes.
+void writeMeshes(std::ostream& out, std::span<const MeshRow> meshes);
+
+/// A number as printf's format says.
+std::string number(const char* format, double value);
+/// A count with commas between thousands.
+std::string grouped(std::uint64_t count);
 
 }  // namespace sdf::accuracy

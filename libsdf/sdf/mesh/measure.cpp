@@ -106,19 +106,20 @@ float distanceOf(const PointRun& run, const RunGradients& g, std::size_t i) {
   return first < found ? first : static_cast<float>(found);  // the first may be no number
 }
 
-// Calls take(i, |distance|, voxel) for each of `count` points; points of one chunk in order, chunks in
-// parallel.
+// Calls take(i, distance, voxel) for each of `count` points, distances negative inside; points of one chunk
+// in order, chunks in parallel.
 template <class Point, class Take>
 void forEachDistance(std::size_t count, const Point& point, const LocalField& field, Progress& progress,
                      const Take& take) {
   forEachRun(count, point, field, progress, [&](const PointRun& run) {
     RunGradients g;
     g.evaluate(run, run.points);
-    for (std::size_t i = 0; i < run.count; ++i) take(run.first + i, distanceOf(run, g, i), run.voxel);
+    for (std::size_t i = 0; i < run.count; ++i)
+      take(run.first + i, std::copysign(distanceOf(run, g, i), g.value[i]), run.voxel);
   });
 }
 
-// |distance| at each of `count` points.
+// The distance at each of `count` points, negative inside.
 template <class Point>
 std::vector<float> distancesAt(std::size_t count, const Point& point, const LocalField& field,
                                Progress& progress) {
@@ -127,12 +128,33 @@ std::vector<float> distancesAt(std::size_t count, const Point& point, const Loca
   return all;
 }
 
+// Distances at the samples of a triangle.
 struct TriangleError {
-  float squares = 0.0f;  // mean over the samples
-  float largest = 0.0f;
+  float inside[kInside] = {};
   float voxels = 0.0f;  // the largest in voxels
-  int where = 0;        // sample of the largest
+
+  // The sample with the largest.
+  int farthest() const {
+    return static_cast<int>(std::max_element(inside, inside + kInside, closer) - inside);
+  }
+  static bool closer(float a, float b) { return std::abs(a) < std::abs(b); }
 };
+
+// Mean square over a triangle of the quadratic function with these values at the corners and at the samples:
+// the square of its mean, which is that of the three samples `m` around the centroid `c`, and the variances
+// of what is symmetric of it and of what is not. Distances to smooth surfaces are such functions, of either
+// sign where vertices are balanced; means of the samples' squares are off by up to 40 % there.
+double meanSquare(const TriangleError& e, const float (&corners)[3]) {
+  const double c = e.inside[0];
+  double atCorners = 0.0, around = 0.0;
+  for (int k = 0; k < 3; ++k) atCorners += corners[k] / 3.0, around += e.inside[k + 1] / 3.0;
+  double squares = around * around + 3.0 / 80.0 * (c - atCorners) * (c - atCorners);
+  for (int k = 0; k < 3; ++k) {
+    const double v = corners[k] - atCorners, m = e.inside[k + 1] - around;
+    squares += 4.0 / 5.0 * m * m - 2.0 / 5.0 * m * v + v * v / 12.0;
+  }
+  return std::isnan(squares) ? kInfinity : squares;  // of an infinite distance
+}
 
 // The largest distance so far, and its place.
 struct Farthest {
@@ -141,7 +163,7 @@ struct Farthest {
 
   template <class Point>
   void take(double d, const Point& point) {
-    if (d > distance) distance = d, at = point();
+    if (std::abs(d) > distance) distance = std::abs(d), at = point();
   }
 };
 
@@ -150,7 +172,7 @@ struct Farthest {
 std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
                                    const std::vector<glm::uvec3>& triangles, const LocalField& field,
                                    Progress& progress, MeshStats& stats) {
-  const std::vector<float> atVertices = distancesAt(
+  std::vector<float> atVertices = distancesAt(
       positions.size(), [&](std::size_t i) { return positions[i]; }, field, progress);
   static_assert(kRunChunk % kInside == 0, "a triangle's samples must lie in one chunk");
   std::vector<TriangleError> inside(triangles.size());
@@ -162,9 +184,8 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
       field, progress,
       [&](std::size_t i, float d, double voxel) {
         TriangleError& e = inside[i / kInside];
-        e.squares += d * d / kInside;
-        if (d > e.largest) e.largest = d, e.where = static_cast<int>(i % kInside);
-        e.voxels = std::max(e.voxels, static_cast<float>(d / voxel));
+        e.inside[i % kInside] = d;
+        e.voxels = std::max(e.voxels, static_cast<float>(std::abs(d) / voxel));
       });
   double area = 0.0, squares = 0.0;
   Farthest farthest;
@@ -175,12 +196,15 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
     const double a =
         0.5 * glm::length(glm::cross(positions[v.y] - positions[v.x], positions[v.z] - positions[v.x]));
     area += a;
-    squares += a * inside[t].squares;
-    farthest.take(inside[t].largest, [&] { return samplePoint(positions, v, inside[t].where); });
+    squares += a * meanSquare(inside[t], {atVertices[v.x], atVertices[v.y], atVertices[v.z]});
+    const int k = inside[t].farthest();
+    farthest.take(inside[t].inside[k], [&] { return samplePoint(positions, v, k); });
   }
   std::vector<std::uint32_t> edges;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (inside[t].voxels > kEdge && inside[t].largest > 0.5 * farthest.distance) edges.push_back(t);
+    if (inside[t].voxels > kEdge &&
+        std::abs(inside[t].inside[inside[t].farthest()]) > 0.5 * farthest.distance)
+      edges.push_back(t);
   const auto fine = [&](std::size_t i) {
     return finePoint(positions, triangles[edges[i / kFine]], static_cast<int>(i % kFine));
   };
@@ -190,6 +214,7 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
   stats.rmsDistance = area > 0.0 ? std::min(std::sqrt(squares / area), farthest.distance) : 0.0;
   stats.maxDistance = farthest.distance;
   stats.farthest = farthest.at;
+  for (float& d : atVertices) d = std::abs(d);
   return atVertices;
 }
 

@@ -125,6 +125,7 @@ struct FanView {
     const glm::vec3 &a = end(i), &b = end(after(i));
     const float longest =
         std::max({glm::distance(fan.centre, a), glm::distance(fan.centre, b), glm::distance(a, b)});
+    // A centre that is no number, which no fan is sound with, gets one step.
     return longest > spacing ? static_cast<int>(std::min(std::ceil(longest / spacing), 1.0f * kMostSteps))
                              : 1;
   }
