@@ -95,7 +95,7 @@ TEST(Remesh, AFanWhoseCentreIsNoNumberIsNotSound) {
   }
   Progress progress;
   std::vector<FanError> errors;
-  evaluateFans(fans, 0.1f, fine.field, progress, errors);
+  evaluateFans(fans, 0.1f, Sampling::All, fine.field, progress, errors);
   EXPECT_TRUE(errors[0].sound);
   EXPECT_FALSE(errors[1].sound);
 }

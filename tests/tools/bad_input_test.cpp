@@ -63,6 +63,13 @@ TEST_F(BadInput, FlagsSayWhichValuesTheyTake) {
     expectBadFlags({"--bounds=" + std::string(bounds)},
                    {"--bounds needs six numbers x0,y0,z0,x1,y1,z1", bounds});
   }
+  expectBadFlags({"--triangles", "0"}, {"--triangles needs a whole number from 1", "'0'"});
+  expectBadFlags({"--triangles", "9", "--tolerance", "1"}, {"--triangles finds the tolerance"});
+  expectBadFlags({"--triangles", "9", "--animate", "--frames", "2"}, {"--triangles counts", "--animate"});
+  expectBadFlags({"--lod", "17", "--tolerance", "1"}, {"--lod needs a whole number from 1 to 16", "'17'"});
+  expectBadFlags({"--lod", "2"}, {"--lod takes four times the tolerance", "say --tolerance"});
+  expectBadFlags({"--lod", "2", "--tolerance", "1", "--animate", "--frames", "2"},
+                 {"--lod: leave --animate"});
   expectBadFlags({"--time", "noon"}, {"--time needs a finite number", "noon"});
   expectBadFlags({"--frames", "0"}, {"--frames needs a whole number from 1", "'0'"});
   expectBadFlags({"--frames", "2.5"}, {"--frames", "2.5"});

@@ -4,6 +4,7 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cfloat>
+#include <numbers>
 
 #include "exported.h"
 #include "sdf/mesh/stages.h"
@@ -150,6 +151,45 @@ TEST_F(Export, KeepsAToleranceWithFewTriangles) {
   for (const Json& part : parts) {
     EXPECT_EQ(part["tolerance"], 0.001);
     EXPECT_LE(part["max_distance"], 0.001);
+  }
+}
+
+TEST_F(Export, SpendsABudgetOfTriangles) {
+  const std::string file = scene("part('ball', sphere(1)) part('box', box(1):translate(3, 0, 0))");
+  const Json output =
+      report({file, "-o", out("a.glb"), "--voxel-size", "0.05", "--triangles", "1000"})["outputs"][0];
+  EXPECT_LE(output["total"]["triangles"], 1000);
+  EXPECT_GE(output["total"]["triangles"], 850);
+  EXPECT_EQ(output["parts"].size(), 2u);
+  EXPECT_EQ(output["parts"][1]["triangles"], 12);
+  // 0.1925 times the integral of the curvature, 4 pi, by the tolerance is the fewest that a ball needs.
+  EXPECT_LE(output["parts"][0]["max_distance"], 1.3 * 0.1925 * 4.0 * std::numbers::pi / 850.0);
+}
+
+TEST_F(Export, SaysHowFewTrianglesAreTooFew) {
+  const Outcome outcome =
+      run({scene("return box(1)"), "-o", out("a.glb"), "--voxel-size", "0.1", "--triangles", "11"});
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_NE(outcome.err.find(
+                "--triangles: 11 are too few for what is exported; the fewest that were reached are 12"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_TRUE(written().empty());
+}
+
+TEST_F(Export, WritesLevelsOfDetail) {
+  const Json outputs = report({scene(kSphere), "-o", out("a.glb"), "--voxel-size", "0.05", "--tolerance",
+                               "0.002", "--lod", "3"})["outputs"];
+  ASSERT_EQ(outputs.size(), 3u);
+  EXPECT_EQ(written(), (std::vector<std::string>{"a.glb", "a_lod1.glb", "a_lod2.glb", "report.json"}));
+  double tolerance = 0.002;
+  for (const Json& output : outputs) {
+    const Json& part = output["parts"][0];
+    EXPECT_DOUBLE_EQ(part["tolerance"], tolerance);
+    EXPECT_LE(part["max_distance"], tolerance);
+    // As many as a ball needs, and no more than half as many again.
+    EXPECT_LE(part["triangles"], 1.5 * 0.1925 * 4.0 * std::numbers::pi / tolerance);
+    tolerance *= 4.0;
   }
 }
 
