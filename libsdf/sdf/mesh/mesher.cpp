@@ -59,8 +59,9 @@ constexpr int kHalvings = 3;
 constexpr double kResolved = 0.25;
 // What misses the tolerance is held to this share of what would have kept it, down to the least.
 constexpr double kStricter = 0.95, kStrictest = 0.5;
-// A mesh of more than these is not tried again with four times as many.
-constexpr std::size_t kMostTriangles = 1'000'000;
+// A mesh of more than these is not tried again with four times as many, nor one of more than those for what
+// it does not resolve, which may be a contact.
+constexpr std::size_t kMostTriangles = 1'000'000, kMostUnresolved = 100'000;
 
 // Does what is seen on the surface change from place to place?
 bool isPainted(const Shape& shape) {
@@ -100,7 +101,7 @@ class Mesher {
       FeatureMesh mesh = extract(*sampled, field, !thins);
       const bool last =
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
-      if (!last && result_.stats.unresolved > 0) continue;
+      if (!last && result_.stats.unresolved > 0 && mesh.triangles.size() <= kMostUnresolved) continue;
       if (mesh.triangles.empty()) return noSurface(h);
       if (thins) {
         begin("remeshing");

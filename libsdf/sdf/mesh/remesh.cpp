@@ -59,8 +59,8 @@ class Remesher {
     changes_.collapse();
     report(0.4);
     for (int i = 0; i < kCycles; ++i) {
-      adjust(kLoose, Sampling::Few);
-      adjust(0.0f, Sampling::Few);
+      adjust(kLoose);
+      adjust(0.0f);
       changes_.collapse();
     }
     adjust(0.0f);
@@ -80,9 +80,9 @@ class Remesher {
     return options_.maxTriangles != 0 && mesh_.liveTriangles() > options_.maxTriangles;
   }
 
-  void adjust(float loose, Sampling sampling = Sampling::All) {
+  void adjust(float loose) {
     for (int i = 0; i < kSweeps && !quiet_.stopped(); ++i) {
-      const std::size_t changed = changes_.flip(loose, sampling) + changes_.relocate(loose, sampling);
+      const std::size_t changed = changes_.flip(loose) + changes_.relocate(loose);
       if (static_cast<double>(changed) < kSettled * static_cast<double>(mesh_.liveTriangles())) return;
     }
   }

@@ -61,7 +61,7 @@ bool RemeshChanges::worsens(const FanError& before, const FanError& after) const
   return after.largest > std::max(before.largest, tolerance_);
 }
 
-std::size_t RemeshChanges::relocate(float loose, Sampling sampling) {
+std::size_t RemeshChanges::relocate(float loose) {
   std::size_t moved = 0;
   std::vector<std::uint32_t> waiting;
   for (std::uint32_t v = 0; v < mesh_.vertices(); ++v)
@@ -82,7 +82,7 @@ std::size_t RemeshChanges::relocate(float loose, Sampling sampling) {
       before.addAround(mesh_, v);
     }
     std::vector<FanError> old, errors;
-    evaluate(before, sampling, old);
+    evaluate(before, old);
     if (progress_.stopped()) return moved;
     dropFlat(before, old, chosen, tolerance_);
     std::vector<float> best(chosen.size());
@@ -100,7 +100,7 @@ std::size_t RemeshChanges::relocate(float loose, Sampling sampling) {
         evaluateFans(after, tolerance_, Sampling::Few, field_, progress_, errors);
         moveToOffsets(after, errors);
       }
-      evaluate(after, sampling, errors);
+      evaluate(after, errors);
       if (progress_.stopped()) return moved;
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         const float energy = errors[i].energy + kShape * shapeOf(after, after.all[i]);
@@ -151,9 +151,9 @@ void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
       fans.addAround(mesh_, v);
     }
     std::vector<FanError> old, errors;
-    evaluate(fans, Sampling::All, old);
+    evaluate(fans, old);
     for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += old[i].onto;
-    evaluate(fans, Sampling::All, errors);
+    evaluate(fans, errors);
     if (progress_.stopped()) return;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (old[i].sound && !errors[i].sound) continue;
@@ -164,7 +164,7 @@ void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
   }
 }
 
-std::size_t RemeshChanges::flip(float loose, Sampling sampling) {
+std::size_t RemeshChanges::flip(float loose) {
   const std::uint32_t since = lastFlips_;
   lastFlips_ = ++round_;
   std::vector<std::uint32_t> edges;
@@ -180,8 +180,8 @@ std::size_t RemeshChanges::flip(float loose, Sampling sampling) {
     after.addFlipped(mesh_, h);
   }
   std::vector<FanError> old, errors;
-  evaluate(before, sampling, old);
-  evaluate(after, sampling, errors);
+  evaluate(before, old);
+  evaluate(after, errors);
   if (progress_.stopped()) return 0;
   std::vector<Candidate> gains;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {

@@ -27,8 +27,8 @@ void RemeshChanges::setTolerance(double tolerance) {
   std::fill(settled_.begin(), settled_.end(), 0);
 }
 
-void RemeshChanges::evaluate(const Fans& fans, Sampling sampling, std::vector<FanError>& errors) const {
-  evaluateFans(fans, tolerance_, sampling, field_, progress_, errors);
+void RemeshChanges::evaluate(const Fans& fans, std::vector<FanError>& errors) const {
+  evaluateFans(fans, tolerance_, Sampling::All, field_, progress_, errors);
   if (painted_ && !progress_.stopped()) addPaintErrors(fans, tolerance_, field_, progress_, errors);
 }
 

@@ -31,10 +31,10 @@ class RemeshChanges {
   void collapseRoughly();
   /// Moves each vertex once to where the largest distances around it are balanced, if that lessens them;
   /// returns the number of those that moved. Where nothing changed since the last time nothing is tried.
-  std::size_t relocate(float loose = 0.0f, Sampling sampling = Sampling::All);
+  std::size_t relocate(float loose = 0.0f);
   /// Replaces edges by the other diagonal where that lessens the distances; returns the number of
   /// flips. Both let the distances' energy rise by the share `loose`.
-  std::size_t flip(float loose = 0.0f, Sampling sampling = Sampling::All);
+  std::size_t flip(float loose = 0.0f);
   /// Splits edges until none of the triangles exceeds the tolerance at its samples, and adjusts what is new;
   /// false if that was not reached.
   bool split();
@@ -52,7 +52,7 @@ class RemeshChanges {
     std::uint32_t where;  // a half-edge or a vertex
     bool operator<(const Candidate& o) const { return cost != o.cost ? cost < o.cost : where < o.where; }
   };
-  void evaluate(const Fans& fans, Sampling sampling, std::vector<FanError>& errors) const;
+  void evaluate(const Fans& fans, std::vector<FanError>& errors) const;
   // Is the tolerance exceeded by more than before?
   bool worsens(const FanError& before, const FanError& after) const;
   void readNormals();

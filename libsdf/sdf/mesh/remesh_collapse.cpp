@@ -111,7 +111,7 @@ void RemeshChanges::tryCollapses(const std::vector<std::uint32_t>& edges, Care c
   } else {
     evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
     moveToOffsets(fans, errors);
-    evaluate(fans, Sampling::All, errors);
+    evaluate(fans, errors);
   }
 }
 

@@ -49,7 +49,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
     fans.addAround(mesh_, v);
   }
   std::vector<FanError> errors;
-  evaluate(fans, Sampling::All, errors);
+  evaluate(fans, errors);
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const FanError& e = errors[i];
@@ -77,12 +77,12 @@ std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates, 
   }
   if (chosen.empty()) return 0;
   std::vector<FanError> errors;
-  evaluate(fans, Sampling::All, errors);
+  evaluate(fans, errors);
   const Fans middles = fans;
   const std::vector<FanError> atMiddles = errors;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     fans.all[i].centre += onto ? errors[i].onto : errors[i].offset;
-  evaluate(fans, Sampling::All, errors);
+  evaluate(fans, errors);
   if (progress_.stopped()) return 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::uint32_t v =
