@@ -8,9 +8,11 @@
 #include "sdf/mesh/balance.h"
 #include "sdf/mesh/borders.h"
 #include "sdf/mesh/certify.h"
+#include "sdf/mesh/crossings.h"
 #include "sdf/mesh/remesh.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
+#include "sdf/mesh/uncross.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/catalog.h"
 #include "sdf/shape/place.h"
@@ -125,25 +127,30 @@ class Mesher {
     RawSurface raw = band.extract();
     if (raw.triangles.empty()) return {};
     begin("projection");
+    const std::vector<glm::vec3> extracted = raw.points;
     std::vector<glm::vec3> normals;
     refineVertices(raw.points, normals, field, progress_);
     begin("creases");
-    FeatureMesh mesh = sharpen(std::move(raw.points), normals, std::move(raw.triangles), field, progress_);
+    auto [mesh, doubtful] =
+        sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress_);
     if (balanced) {
       begin("balancing");
+      const std::vector<glm::vec3> before = mesh.positions;
       balanceVertices(mesh, normals);
       if (options_.bounds)
         for (glm::vec3& p : mesh.positions)
           p = glm::clamp(glm::dvec3(p), options_.bounds->min, options_.bounds->max);
+      uncrossMoved(mesh, doubtful, before);
     }
     if (painted_) {
       begin("borders");
       cutAtBorders(mesh, field, progress_);
     }
-    return mesh;
+    return std::move(mesh);
   }
 
-  // Remeshes it with few triangles; a stricter tolerance makes up for what the first misses by little.
+  // Remeshes it with few triangles; a stricter tolerance makes up for what the first misses by little, or for
+  // triangles that cross in thin walls.
   bool thin(FeatureMesh& mesh, const BandField& field) {
     const FeatureMesh whole = std::move(mesh);
     for (const double share : {1.0, kStricter}) {
@@ -152,7 +159,8 @@ class Mesher {
           remesh(mesh, field, {.tolerance = share * options_.tolerance, .painted = painted_}, progress_);
       measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
       const double distance = std::max(r.maxDistance, result_.stats.maxDistance);
-      if (distance <= options_.tolerance) return true;
+      if (distance <= options_.tolerance && crossingTriangles(mesh.positions, mesh.triangles).empty())
+        return true;
       if (distance > kFarOff * options_.tolerance) return false;
     }
     return false;
@@ -165,6 +173,7 @@ class Mesher {
     const std::vector<float> distances =
         measureDistance(features.positions, features.triangles, field, progress_, result_.stats);
     measureTopology(features.triangles, features.positions.size(), result_.stats);
+    measureCrossings(features);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
     if (Status s = checkTolerance(); !s) return s.error();
@@ -181,6 +190,15 @@ class Mesher {
     result_.stats.notNumbers = band.notNumbers().count;
     result_.stats.firstNotNumber = band.notNumbers().first;
     return std::move(result_);
+  }
+
+  void measureCrossings(const FeatureMesh& mesh) {
+    const TrianglePairs pairs = crossingTriangles(mesh.positions, mesh.triangles);
+    result_.stats.crossings = pairs.size();
+    if (pairs.empty()) return;
+    const glm::uvec3& first = mesh.triangles[pairs[0][0]];
+    result_.stats.firstCrossing =
+        (mesh.positions[first.x] + mesh.positions[first.y] + mesh.positions[first.z]) / 3.0f;
   }
 
   Status checkTolerance() const {
