@@ -9,6 +9,7 @@
 #include "sdf/mesh/narrow_band.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
+#include "sdf/mesh/uncross.h"
 #include "shapes.h"
 
 namespace sdf::bench {
@@ -54,10 +55,15 @@ Sharp meshSharply(NarrowBand& band, const ModelTapes& model, const Box& bounds, 
   Sharp sharp{std::make_unique<BandField>(band, LocalTapes{model.whole(), model.whole()->firstOutputOnly()}),
               {}};
   RawSurface raw = band.extract();
+  const std::vector<glm::vec3> extracted = raw.points;
   std::vector<glm::vec3> normals;
   refineVertices(raw.points, normals, *sharp.field, progress);
-  sharp.mesh = sharpen(std::move(raw.points), normals, std::move(raw.triangles), *sharp.field, progress);
-  balanceVertices(sharp.mesh, normals);
+  auto [mesh, doubtful] =
+      sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, *sharp.field, progress);
+  const std::vector<glm::vec3> before = mesh.positions;
+  balanceVertices(mesh, normals);
+  uncrossMoved(mesh, doubtful, before);
+  sharp.mesh = std::move(mesh);
   return sharp;
 }
 

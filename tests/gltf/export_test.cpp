@@ -70,6 +70,8 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   b.stats.firstUnresolved = {1, 2, 3};
   b.stats.notNumbers = 4;
   b.stats.firstNotNumber = {5, 6, 7};
+  b.stats.crossings = 3;
+  b.stats.firstCrossing = glm::vec3(2, 4, 6);
   const MeshStats all = combined({a, b});
   EXPECT_EQ(all.voxels, 15u);
   EXPECT_EQ(all.triangles, a.stats.triangles + b.stats.triangles);
@@ -82,6 +84,8 @@ TEST(Combined, SumsCountsAndKeepsTheWorst) {
   EXPECT_FALSE(all.manifold);
   EXPECT_EQ(all.unresolved, 2u);
   EXPECT_EQ(all.firstUnresolved, glm::vec3(1, 2, 3));
+  EXPECT_EQ(all.crossings, 3u);
+  EXPECT_EQ(all.firstCrossing, glm::vec3(2, 4, 6));
   EXPECT_EQ(all.notNumbers, 4u);
   EXPECT_EQ(all.firstNotNumber, glm::vec3(5, 6, 7));
 }

@@ -23,9 +23,11 @@ Balanced balanced(const Shape& shape, double voxel) {
   NarrowBand band = bandOf(shape, findBounds(shape), voxel);
   const BandField field(band, wholeTapes(tapeOf(shape)));
   RawSurface raw = band.extract();
+  const std::vector<glm::vec3> extracted = raw.points;
   Balanced b;
   refineVertices(raw.points, b.normals, field, progress);
-  b.before = sharpen(std::move(raw.points), b.normals, std::move(raw.triangles), field, progress);
+  b.before =
+      sharpen(std::move(raw.points), b.normals, std::move(raw.triangles), extracted, field, progress).mesh;
   b.after = b.before;
   balanceVertices(b.after, b.normals);
   measureDistance(b.before.positions, b.before.triangles, field, progress, b.onSurface);

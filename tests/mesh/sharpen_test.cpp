@@ -13,19 +13,21 @@
 namespace sdf::test {
 namespace {
 
-struct Sharpened {
+struct Sharp {
   FeatureMesh mesh;
   MeshStats stats;
 };
 
-Sharpened sharpened(const Shape& shape, double voxel) {
+Sharp sharpened(const Shape& shape, double voxel) {
   Progress progress;
   NarrowBand band = bandOf(shape, findBounds(shape), voxel);
   const BandField field(band, wholeTapes(tapeOf(shape)));
   RawSurface raw = band.extract();
+  const std::vector<glm::vec3> extracted = raw.points;
   std::vector<glm::vec3> normals;
   refineVertices(raw.points, normals, field, progress);
-  Sharpened s{sharpen(std::move(raw.points), normals, std::move(raw.triangles), field, progress), {}};
+  Sharp s{sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress).mesh,
+          {}};
   measureDistance(s.mesh.positions, s.mesh.triangles, field, progress, s.stats);
   measureTopology(s.mesh.triangles, s.mesh.positions.size(), s.stats);
   return s;
@@ -66,7 +68,7 @@ TEST(Sharpen, ShowsAllCornersOfPolyhedraAtAnyRotation) {
                              {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}}})
     for (const glm::dvec3& r : rotations(10)) {
       SCOPED_TRACE(c.name);
-      const Sharpened s = sharpened(rotate(c.shape, Vec3E(r)), 1.0 / 20);
+      const Sharp s = sharpened(rotate(c.shape, Vec3E(r)), 1.0 / 20);
       EXPECT_TRUE(s.stats.watertight && s.stats.manifold);
       EXPECT_EQ(s.stats.eulerCharacteristic, 2);
       EXPECT_EQ(s.stats.components, 1);
@@ -80,14 +82,14 @@ TEST(Sharpen, LeavesFlatFacesFlat) {
   // Of coordinates up to 2: each is rounded to float, and so is the reading of the distance.
   constexpr double kRounding = 16.0 * 2.0 * kRoundoff;
   for (const glm::dvec3& r : rotations(6)) {
-    const Sharpened s = sharpened(rotate(box({1.0, 0.6, 0.8}), Vec3E(r)), 1.0 / 20);
+    const Sharp s = sharpened(rotate(box({1.0, 0.6, 0.8}), Vec3E(r)), 1.0 / 20);
     EXPECT_LE(s.stats.maxDistance, kRounding);
   }
 }
 
 TEST(Sharpen, FollowsCurvedCreases) {
   const double h = 1.0 / 32;
-  const Sharpened s = sharpened(boredBox(), h);
+  const Sharp s = sharpened(boredBox(), h);
   EXPECT_TRUE(s.stats.watertight && s.stats.manifold);
   EXPECT_EQ(s.stats.eulerCharacteristic, -8);
   // The chord of an edge as long as a cell's diagonal on the bores, the most curved part.
@@ -111,7 +113,7 @@ TEST(Sharpen, FollowsCurvedCreases) {
 
 TEST(Sharpen, FindsNoCreasesOnWhatIsSmooth) {
   for (const Shape& shape : {sphere(1.0), torus(0.8, 0.3), melt()}) {
-    const Sharpened s = sharpened(shape, 1.0 / 16);
+    const Sharp s = sharpened(shape, 1.0 / 16);
     EXPECT_TRUE(s.mesh.creases.empty());
     EXPECT_TRUE(s.stats.watertight && s.stats.manifold);
   }
@@ -123,7 +125,7 @@ TEST(Sharpen, FindsTheTipsOfWedgesThinnerThanAVoxel) {
   const Shape wedge = intersect(intersect(plane({std::sin(half), std::cos(half), 0.0}, std::sin(half)),
                                           plane({std::sin(half), -std::cos(half), 0.0}, std::sin(half))),
                                 box({2.0, 1.0, 0.5}));
-  const Sharpened s = sharpened(rotate(wedge, {0.2, 0.3, 0.1}), 1.0 / 20);
+  const Sharp s = sharpened(rotate(wedge, {0.2, 0.3, 0.1}), 1.0 / 20);
   for (const double z : {-0.4, 0.0, 0.4}) {
     double nearest = kInfinity;
     const glm::dvec3 p = moved({0.2, 0.3, 0.1}, {1.0, 0.0, z});
@@ -142,7 +144,7 @@ TEST(Sharpen, FindsTheRimsOfThinLenses) {
   const double h = 1.0 / 100, apart = 0.978;  // the faces meet at 24 degrees
   const double rim = std::sqrt(1.0 - apart * apart);
   const Shape lens = translate(sphere(1.0), {apart, 0.0, 0.0}) & translate(sphere(1.0), {-apart, 0.0, 0.0});
-  const Sharpened s = sharpened(translate(lens, {0.5 * h, 0.0, 0.0}), h);
+  const Sharp s = sharpened(translate(lens, {0.5 * h, 0.0, 0.0}), h);
   EXPECT_TRUE(s.stats.watertight && s.stats.manifold);
   EXPECT_EQ(s.stats.eulerCharacteristic, 2);
   EXPECT_GT(s.mesh.creases.size(), 2.0 * kPi * rim / (2.0 * h));

@@ -223,6 +223,8 @@ TEST_F(Export, ReportsEveryFigureOfEachPartAndInTotal) {
     EXPECT_EQ(line["farthest"].size(), 3u);
     EXPECT_EQ(line["watertight"], true);
     EXPECT_EQ(line["manifold"], true);
+    EXPECT_EQ(line["self_intersections"], 0);
+    EXPECT_TRUE(line["first_self_intersection"].is_null());
     EXPECT_FALSE(line["stage_seconds"].empty());
   }
   EXPECT_EQ(output["parts"][0]["components"], 1);

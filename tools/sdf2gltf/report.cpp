@@ -80,6 +80,8 @@ Json json(const ReportLine& line) {
           {"farthest", placeJson(stats.farthest)},
           {"watertight", stats.watertight},
           {"manifold", stats.manifold},
+          {"self_intersections", stats.crossings},
+          {"first_self_intersection", placeJson(stats.crossings, stats.firstCrossing)},
           {"components", stats.components},
           {"euler_characteristic", stats.eulerCharacteristic},
           {"unresolved", stats.unresolved},
@@ -112,6 +114,10 @@ void printWarnings(std::ostream& out, const FileReport& report) {
           << "; how the mesh hangs together there depends on the voxel size, take "
           << (stats.resolvingVoxel > 0.0 ? "one of " + roundedDown(stats.resolvingVoxel) : "a smaller one")
           << " to see them\n";
+    if (stats.crossings > 0)
+      out << part << "the mesh intersects itself in " << grouped(stats.crossings)
+          << " pairs of triangles, the first near " << place(stats.firstCrossing)
+          << "; what is thinner than a voxel there needs a smaller one\n";
     if (stats.notNumbers > 0)
       out << part << "the distance is not a number at " << grouped(stats.notNumbers)
           << " samples, the first near " << place(stats.firstNotNumber)

@@ -48,6 +48,8 @@ MeshStats combined(const std::vector<MeshStats>& meshes) {
     all.provenDistance = std::max(all.provenDistance, one.provenDistance);
     all.watertight = all.watertight && one.watertight;
     all.manifold = all.manifold && one.manifold;
+    if (all.crossings == 0) all.firstCrossing = one.firstCrossing;
+    all.crossings += one.crossings;
     all.components += one.components;
     all.eulerCharacteristic += one.eulerCharacteristic;
     if (all.unresolved == 0) all.firstUnresolved = one.firstUnresolved;

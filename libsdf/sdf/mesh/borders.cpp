@@ -4,6 +4,9 @@
 #include <glm/common.hpp>
 #include <unordered_map>
 
+#include "sdf/mesh/crossings.h"
+#include "sdf/mesh/indices-inl.h"
+#include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/surface_paint.h"
 
 namespace sdf {
@@ -49,10 +52,19 @@ class BorderCutter {
     readCorners();
     findCrossings();
     if (progress_.stopped()) return;
-    splitCreases();
-    std::vector<glm::uvec3> triangles = std::move(mesh_.triangles);
-    mesh_.triangles.clear();
-    for (std::size_t t = 0; t < triangles.size(); ++t) cut(t, triangles[t]);
+    const std::vector<glm::uvec3> triangles = mesh_.triangles;
+    const std::vector<Edge> creases = mesh_.creases;
+    const std::vector<glm::vec3> positions = mesh_.positions;
+    for (bool whole = false;; whole = true) {
+      splitCreases();
+      mesh_.triangles.clear(), mesh_.materials.clear(), paint_.clear(), middles_.clear();
+      for (std::size_t t = 0; t < triangles.size(); ++t) cut(t, triangles[t]);
+      if (!leaveOutWhatCrosses()) {
+        if (whole) dropLeftOut();
+        break;
+      }
+      mesh_.creases = creases, mesh_.positions = positions;
+    }
     addBorders();
   }
 
@@ -123,6 +135,32 @@ class BorderCutter {
                                          std::clamp(s.middle(), kShortest, 1.0f - kShortest)));
   }
 
+  // Pieces that are too thin for floats may cross: then the edges that end in one stay whole. Returns whether
+  // there are any that were cut.
+  bool leaveOutWhatCrosses() {
+    const auto all = indicesThat(mesh_.triangles.size(), [](std::uint32_t) { return true; });
+    std::vector<char> asked(all.size(), 0);
+    for (std::size_t t = 0; t < asked.size(); ++t) {
+      const glm::uvec3& v = mesh_.triangles[t];
+      asked[t] = std::max({v.x, v.y, v.z}) >= whole_;
+    }
+    std::vector<char> leave(mesh_.positions.size(), 0);
+    for (const auto& pair : crossingTriangles(mesh_.positions, mesh_.triangles, all, asked))
+      for (const std::uint32_t t : pair)
+        for (int k = 0; k < 3; ++k) leaveOut(mesh_.triangles[t][k], leave);
+    return std::erase_if(crossings_, [&](const auto& entry) { return leave[entry.second] != 0; }) > 0;
+  }
+  void dropLeftOut() {
+    std::vector<glm::vec3> normals(mesh_.positions.size());
+    dropUnused(mesh_, normals);
+  }
+  // The middle of three crossings stands for them.
+  void leaveOut(std::uint32_t v, std::vector<char>& leave) const {
+    leave[v] = 1;
+    if (const auto it = middles_.find(v); it != middles_.end())
+      for (const std::uint32_t x : it->second) leave[x] = 1;
+  }
+
   std::uint32_t crossingAt(std::uint32_t a, std::uint32_t b) const {
     const auto it = crossings_.find(edgeKey(a, b));
     return it == crossings_.end() ? kNone : it->second;
@@ -160,12 +198,14 @@ class BorderCutter {
 
   void cut(std::size_t number, const glm::uvec3& t) {
     const Paint* paint = &corners_[3 * number];
-    const auto& sides = cutSides_[number];
-    const std::uint32_t x[3]{crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
+    const std::array<std::uint32_t, 3> x{crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
+    std::array<bool, 3> sides = cutSides_[number];
+    for (int k = 0; k < 3; ++k) sides[k] = sides[k] && x[k] != kNone;
     const int cuts = sides[0] + sides[1] + sides[2];
-    if (cuts == 0) return addPolygon({t.x, x[0], t.y, x[1], t.z, x[2]}, paint[0]);
+    if (cuts < 2) return addPolygon({t.x, x[0], t.y, x[1], t.z, x[2]}, paint[0]);
     if (cuts == 3) {
       const auto middle = static_cast<std::uint32_t>(mesh_.positions.size());
+      middles_[middle] = x;
       mesh_.positions.push_back((mesh_.positions[x[0]] + mesh_.positions[x[1]] + mesh_.positions[x[2]]) /
                                 3.0f);
       for (int k = 0; k < 3; ++k) {
@@ -225,8 +265,9 @@ class BorderCutter {
   std::uint32_t whole_ = 0;     // vertices that were there
   std::vector<Paint> corners_;  // of each triangle's three, inside
   std::vector<std::array<bool, 3>> cutSides_;
-  std::unordered_map<std::uint64_t, std::uint32_t> crossings_;  // by edge: the vertex in it
-  std::vector<Paint> paint_;                                    // of each triangle of the new mesh
+  std::unordered_map<std::uint64_t, std::uint32_t> crossings_;               // by edge: the vertex in it
+  std::unordered_map<std::uint32_t, std::array<std::uint32_t, 3>> middles_;  // of three crossings
+  std::vector<Paint> paint_;  // of each triangle of the new mesh
 };
 
 }  // namespace

@@ -19,6 +19,10 @@ struct FeatureMesh {
   std::vector<int> materials{};
 };
 
+/// A triangle that was taken away, and keeps its place in the list for a while, has one vertex for all
+/// corners.
+inline bool isGone(const glm::uvec3& triangle) { return triangle.x == triangle.y; }
+
 /// One number for the edge between two vertices, whichever comes first.
 inline std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);

@@ -49,6 +49,8 @@ struct MeshStats {
       0.0;                  ///< bound on the two-sided distance to the surface; 0 where none was asked for
   bool watertight = false;  ///< every edge has as many triangles one way as the other
   bool manifold = false;    ///< every edge has two triangles and every vertex one fan
+  std::uint64_t crossings = 0;  ///< pairs of triangles that intersect beyond what they share
+  glm::vec3 firstCrossing{0.0f};
   int components = 0;
   int eulerCharacteristic = 0;
   std::uint64_t unresolved = 0;  ///< places where solids or gaps thinner than a voxel were passed unseen

@@ -8,9 +8,11 @@
 #include "sdf/mesh/balance.h"
 #include "sdf/mesh/borders.h"
 #include "sdf/mesh/certify.h"
+#include "sdf/mesh/crossings.h"
 #include "sdf/mesh/remesh.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
+#include "sdf/mesh/uncross.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/catalog.h"
 #include "sdf/shape/place.h"
@@ -57,8 +59,9 @@ constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
 // cannot mend.
 constexpr double kResolved = 0.25;
-// What misses the tolerance is held to this share of what would have kept it, down to the least.
-constexpr double kStricter = 0.95, kStrictest = 0.5;
+// What misses the tolerance is held to this share of what would have kept it, what crosses itself to that of
+// the tolerance, down to the least.
+constexpr double kStricter = 0.95, kUncrossing = 0.6, kStrictest = 0.5;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // it does not resolve, which may be a contact.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostUnresolved = 100'000;
@@ -126,33 +129,41 @@ class Mesher {
     RawSurface raw = band.extract();
     if (raw.triangles.empty()) return {};
     begin("projection");
+    const std::vector<glm::vec3> extracted = raw.points;
     std::vector<glm::vec3> normals;
     refineVertices(raw.points, normals, field, progress_);
     begin("creases");
-    FeatureMesh mesh = sharpen(std::move(raw.points), normals, std::move(raw.triangles), field, progress_);
+    auto [mesh, doubtful] =
+        sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress_);
     if (balanced) {
       begin("balancing");
+      const std::vector<glm::vec3> before = mesh.positions;
       balanceVertices(mesh, normals);
       if (options_.bounds)
         for (glm::vec3& p : mesh.positions)
           p = glm::clamp(glm::dvec3(p), options_.bounds->min, options_.bounds->max);
+      uncrossMoved(mesh, doubtful, before);
     }
     if (painted_) {
       begin("borders");
       cutAtBorders(mesh, field, progress_);
     }
-    return mesh;
+    return std::move(mesh);
   }
 
-  // Remeshes it with few triangles, and what misses the tolerance by little once more by a stricter one.
+  // Remeshes it with few triangles; what misses the tolerance by little once more by a stricter one, and
+  // where triangles cross, in thin walls, all of it.
   bool thin(FeatureMesh& mesh, const BandField& field) {
+    const FeatureMesh whole = mesh;
     for (double held = options_.tolerance;;) {
       const RemeshResult r = remesh(mesh, field, {.tolerance = held, .painted = painted_}, progress_);
       measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
       const double missed = std::max(r.maxDistance, result_.stats.maxDistance) / options_.tolerance;
-      if (missed <= 1.0) return true;
-      held *= kStricter / missed;
+      const bool crosses = missed <= 1.0 && !crossingTriangles(mesh.positions, mesh.triangles).empty();
+      if (missed <= 1.0 && !crosses) return true;
+      held *= crosses ? kUncrossing : kStricter / missed;
       if (progress_.stopped() || held < kStrictest * options_.tolerance) return false;
+      if (crosses) mesh = whole;
     }
   }
 
@@ -163,6 +174,7 @@ class Mesher {
     const std::vector<float> distances =
         measureDistance(features.positions, features.triangles, field, progress_, result_.stats);
     measureTopology(features.triangles, features.positions.size(), result_.stats);
+    measureCrossings(features);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
     if (Status s = checkTolerance(); !s) return s.error();
@@ -179,6 +191,15 @@ class Mesher {
     result_.stats.notNumbers = band.notNumbers().count;
     result_.stats.firstNotNumber = band.notNumbers().first;
     return std::move(result_);
+  }
+
+  void measureCrossings(const FeatureMesh& mesh) {
+    const TrianglePairs pairs = crossingTriangles(mesh.positions, mesh.triangles);
+    result_.stats.crossings = pairs.size();
+    if (pairs.empty()) return;
+    const glm::uvec3& first = mesh.triangles[pairs[0][0]];
+    result_.stats.firstCrossing =
+        (mesh.positions[first.x] + mesh.positions[first.y] + mesh.positions[first.z]) / 3.0f;
   }
 
   Status checkTolerance() const {

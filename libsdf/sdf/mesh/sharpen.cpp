@@ -11,6 +11,7 @@
 
 #include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/stages.h"
+#include "sdf/mesh/uncross.h"
 
 namespace sdf {
 namespace {
@@ -25,12 +26,18 @@ constexpr float kSamePiece = 0.9f;
 class Sharpener {
  public:
   Sharpener(std::vector<glm::vec3> positions, std::vector<glm::vec3>& normals,
-            std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress)
-      : normals_(normals), triangles_(std::move(triangles)), field_(field), progress_(progress) {
+            std::vector<glm::uvec3> triangles, const std::vector<glm::vec3>& extracted,
+            const LocalField& field, Progress& progress)
+      : normals_(normals),
+        triangles_(std::move(triangles)),
+        cuts_(extracted),
+        field_(field),
+        progress_(progress) {
     mesh_.positions = std::move(positions);
+    cuts_.first = cuts_.firstOfCreases = static_cast<std::uint32_t>(mesh_.positions.size());
   }
 
-  FeatureMesh run() {
+  Sharpened run() {
     crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_);
     nameCrossings();
     for (int round = 0; round < kHalvings; ++round)
@@ -38,7 +45,8 @@ class Sharpener {
     std::erase_if(crossings_, [](const Crossing& c) { return !c.point.placed; });
     if (crossings_.empty()) {
       mesh_.triangles = std::move(triangles_);
-      return std::move(mesh_);
+      std::vector<std::uint32_t> doubtful = uncross(mesh_, normals_, cuts_, {});
+      return {std::move(mesh_), std::move(doubtful)};
     }
     nameCrossings();
     vertexOf_.assign(crossings_.size(), kNone);
@@ -46,8 +54,13 @@ class Sharpener {
     findCorners(crossed);
     cutTriangles(crossed);
     normals_.resize(mesh_.positions.size(), glm::vec3(0.0f));
-    collapseShortEdges(mesh_, normals_, anchors_, kShort * field_.finder()->at(mesh_.positions[0]).voxel);
-    return std::move(mesh_);
+    const double shortest = kShort * field_.finder()->at(mesh_.positions[0]).voxel;
+    const Collapses collapses = collapseShortEdges(mesh_, normals_, anchors_, shortest);
+    std::vector<std::uint32_t> doubtful = uncross(mesh_, normals_, cuts_, collapses);
+    const std::vector<std::uint32_t> place = dropUnused(mesh_, normals_);
+    for (std::uint32_t& v : doubtful) v = place[v];
+    std::erase(doubtful, Collapses::kNone);
+    return {std::move(mesh_), std::move(doubtful)};
   }
 
  private:
@@ -75,10 +88,13 @@ class Sharpener {
     std::erase_if(crossings_, [&](const Crossing& c) { return isSure(c); });
     nameCrossings();
     std::vector<glm::vec3> middles, normals;
-    for (const Crossing& c : crossings_)
+    for (const Crossing& c : crossings_) {
       middles.push_back(0.5f * (mesh_.positions[c.edge[0]] + mesh_.positions[c.edge[1]]));
+      cuts_.addOnEdge(c.edge, 0.5f);
+    }
     refineVertices(middles, normals, field_, progress_);
     const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+    cuts_.firstOfCreases = first + static_cast<std::uint32_t>(middles.size());
     mesh_.positions.insert(mesh_.positions.end(), middles.begin(), middles.end());
     normals_.insert(normals_.end(), normals.begin(), normals.end());
     std::vector<glm::uvec3> divided;
@@ -168,7 +184,9 @@ class Sharpener {
   std::uint32_t vertexAt(std::uint32_t crossing) {
     if (crossing == kNone) return kNone;
     if (vertexOf_[crossing] == kNone) {
-      const CreasePoint& p = crossings_[crossing].point;
+      const auto& [edge, p] = crossings_[crossing];
+      const glm::vec3 &a = mesh_.positions[edge[0]], way = mesh_.positions[edge[1]] - a;
+      cuts_.addOnEdge(edge, glm::dot(p.at - a, way) / glm::dot(way, way));
       vertexOf_[crossing] = addVertex(p.at);
       if (p.corner) anchors_.push_back(vertexOf_[crossing]);
     }
@@ -232,6 +250,7 @@ class Sharpener {
 
   void cutAroundCorner(const glm::uvec3& t, const std::array<std::uint32_t, 3>& x) {
     const CornerPoint& found = corners_[nextCorner_++];
+    cuts_.addInside(t);
     const std::uint32_t corner = addVertex(found.at);
     if (found.placed) anchors_.push_back(corner);
     for (int k = 0; k < 3; ++k) {
@@ -246,6 +265,7 @@ class Sharpener {
 
   std::vector<glm::vec3>& normals_;
   std::vector<glm::uvec3> triangles_;
+  Cuts cuts_;
   const LocalField& field_;
   Progress& progress_;
   FeatureMesh mesh_;
@@ -262,9 +282,10 @@ class Sharpener {
 
 }  // namespace
 
-FeatureMesh sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3>& normals,
-                    std::vector<glm::uvec3> triangles, const LocalField& field, Progress& progress) {
-  return Sharpener(std::move(positions), normals, std::move(triangles), field, progress).run();
+Sharpened sharpen(std::vector<glm::vec3> positions, std::vector<glm::vec3>& normals,
+                  std::vector<glm::uvec3> triangles, const std::vector<glm::vec3>& extracted,
+                  const LocalField& field, Progress& progress) {
+  return Sharpener(std::move(positions), normals, std::move(triangles), extracted, field, progress).run();
 }
 
 }  // namespace sdf

@@ -1,10 +1,10 @@
 #include "sdf/mesh/short_edges.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <tuple>
+
+#include "sdf/mesh/indices-inl.h"
 
 namespace sdf {
 namespace {
@@ -19,24 +19,29 @@ constexpr int kPasses = 4;
 
 class Collapser {
  public:
-  Collapser(FeatureMesh& mesh, std::vector<glm::vec3>& normals, const std::vector<std::uint32_t>& anchors,
-            double shortest)
+  Collapser(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
+            const std::vector<std::uint32_t>& anchors, double shortest)
       : mesh_(mesh), normals_(normals), shortest_(shortest), fanOf_(mesh.positions.size(), 0) {
     list();
     for (const std::uint32_t v : anchors) fan(v).anchored = true;
     for (const auto& [a, b] : mesh_.creases) fan(a).creases.push_back(b), fan(b).creases.push_back(a);
   }
 
-  void run() {
+  Collapses run() {
+    std::vector<Edge> edges;
     for (int pass = 0; pass < kPasses; ++pass) {
-      std::vector<Edge> edges = shortEdges();
+      edges = shortEdges();
       collapseAll(edges, false);
       edges = edgesAtTurned();
       if (edges.empty()) break;
       collapseAll(edges, true);
       for (const Edge& e : edges) tryFlip(e.gone, e.kept);
     }
-    compact();
+    // What the last changes have made, or made room for.
+    edges = shortEdges();
+    collapseAll(edges, false);
+    putBack();
+    return std::move(done_);
   }
 
  private:
@@ -66,16 +71,7 @@ class Collapser {
   // The numbers of the triangles that hold a condition, in their order.
   template <class Condition>
   std::vector<std::uint32_t> trianglesThat(const Condition& holds) const {
-    constexpr std::size_t kChunk = 8192;
-    std::vector<std::vector<std::uint32_t>> pieces((mesh_.triangles.size() + kChunk - 1) / kChunk);
-    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
-      const std::size_t end = std::min(mesh_.triangles.size(), (piece + 1) * kChunk);
-      for (std::size_t t = piece * kChunk; t < end; ++t)
-        if (holds(mesh_.triangles[t])) pieces[piece].push_back(static_cast<std::uint32_t>(t));
-    });
-    std::vector<std::uint32_t> all;
-    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
-    return all;
+    return indicesThat(mesh_.triangles.size(), [&](std::uint32_t t) { return holds(mesh_.triangles[t]); });
   }
 
   // Lists the triangles at creases, those that are turned, and those that touch them.
@@ -133,7 +129,7 @@ class Collapser {
     std::vector<Edge> edges;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       const glm::uvec3& c = triangles_[t].corners;
-      if (c.x == c.y || !isTurned(c, triangles_[t].normal)) continue;
+      if (isGone(c) || !isTurned(c, triangles_[t].normal)) continue;
       for (int k = 0; k < 3; ++k)
         for (const std::uint32_t other : neighbours(c[k])) {
           edges.push_back({length(c[k], other), c[k], other});
@@ -182,6 +178,8 @@ class Collapser {
     // Each loses one end of the edge for the other's third vertex.
     replace(sides[0], b, d), replace(sides[1], a, c);
     if (std::min(upright(sides[0]), upright(sides[1])) >= kUpright) {
+      done_.begin(Collapses::kNone);
+      for (int k = 0; k < 2; ++k) done_.add(triangles_[sides[k]].place, old[k]);
       std::erase(fan(b).triangles, sides[0]), std::erase(fan(a).triangles, sides[1]);
       fan(d).triangles.push_back(sides[0]), fan(c).triangles.push_back(sides[1]);
       return;
@@ -213,7 +211,8 @@ class Collapser {
     const Fan& own = fan(gone);
     if (!own.whole || !fan(kept).whole) return false;
     if (own.creases.empty()) return true;
-    return has(own.creases, kept) && (!own.anchored || length(gone, kept) < kSamePoint * shortest_);
+    if (length(gone, kept) < kSamePoint * shortest_) return !fan(kept).creases.empty();
+    return has(own.creases, kept) && !own.anchored;
   }
 
   std::vector<std::uint32_t> neighbours(std::uint32_t v) const {
@@ -278,7 +277,9 @@ class Collapser {
   }
 
   void collapse(std::uint32_t gone, std::uint32_t kept) {
+    done_.begin(gone);
     for (const std::uint32_t t : fan(gone).triangles) {
+      done_.add(triangles_[t].place, triangles_[t].corners);
       if (contains(t, kept)) {
         for (int k = 0; k < 3; ++k)
           if (triangles_[t].corners[k] != gone) std::erase(fan(triangles_[t].corners[k]).triangles, t);
@@ -295,50 +296,55 @@ class Collapser {
       theirs.push_back(kept);
       fan(kept).creases.push_back(other);
     }
+    fan(kept).anchored |= fan(gone).anchored;
     fan(gone) = {.vertex = gone, .whole = true};
   }
 
-  // Puts the triangles back and drops what is gone, keeping the order.
-  void compact() {
+  void putBack() {
     for (const Local& t : triangles_) mesh_.triangles[t.place] = t.corners;
-    std::erase_if(mesh_.triangles, [](const glm::uvec3& t) { return t.x == t.y; });
-    for (const Fan& fan : fans_)
-      if (fan.whole && fan.triangles.empty()) fanOf_[fan.vertex] = kGone;
-    std::vector<std::uint32_t>& place = fanOf_;
-    std::uint32_t count = 0;
-    for (std::uint32_t v = 0; v < place.size(); ++v) {
-      if (place[v] == kGone) continue;
-      mesh_.positions[count] = glm::vec3(mesh_.positions[v]);
-      normals_[count] = glm::vec3(normals_[v]);
-      place[v] = count++;
-    }
-    mesh_.positions.resize(count), normals_.resize(count);
-    tbb::parallel_for(std::size_t{0}, mesh_.triangles.size(), [&](std::size_t i) {
-      glm::uvec3& t = mesh_.triangles[i];
-      t = {place[t.x], place[t.y], place[t.z]};
-    });
     mesh_.creases.clear();
     for (const Fan& fan : fans_)
       for (const std::uint32_t w : fan.creases)
-        if (const std::uint32_t v = fan.vertex; v < w) mesh_.creases.push_back({place[v], place[w]});
+        if (const std::uint32_t v = fan.vertex; v < w) mesh_.creases.push_back({v, w});
     std::ranges::sort(mesh_.creases);
   }
 
-  static constexpr std::uint32_t kGone = ~0u;
-
   FeatureMesh& mesh_;
-  std::vector<glm::vec3>& normals_;
+  const std::vector<glm::vec3>& normals_;
   double shortest_;
   std::vector<Local> triangles_;
   std::vector<std::uint32_t> fanOf_;  // by vertex, its place in fans_
   std::vector<Fan> fans_;
+  Collapses done_;
 };
 
 }  // namespace
 
-void collapseShortEdges(FeatureMesh& mesh, std::vector<glm::vec3>& normals,
-                        const std::vector<std::uint32_t>& anchors, double shortest) {
-  Collapser(mesh, normals, anchors, shortest).run();
+Collapses collapseShortEdges(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
+                             const std::vector<std::uint32_t>& anchors, double shortest) {
+  return Collapser(mesh, normals, anchors, shortest).run();
+}
+
+std::vector<std::uint32_t> dropUnused(FeatureMesh& mesh, std::vector<glm::vec3>& normals) {
+  constexpr std::uint32_t kUnused = Collapses::kNone;
+  std::erase_if(mesh.triangles, isGone);
+  std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
+  for (const glm::uvec3& t : mesh.triangles) place[t.x] = place[t.y] = place[t.z] = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t v = 0; v < place.size(); ++v) {
+    if (place[v] == kUnused) continue;
+    mesh.positions[count] = glm::vec3(mesh.positions[v]);
+    normals[count] = glm::vec3(normals[v]);
+    place[v] = count++;
+  }
+  mesh.positions.resize(count), normals.resize(count);
+  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
+    glm::uvec3& t = mesh.triangles[i];
+    t = {place[t.x], place[t.y], place[t.z]};
+  });
+  // Numbers keep their order, and so do the creases.
+  for (auto& [a, b] : mesh.creases) a = place[a], b = place[b];
+  return place;
 }
 
 }  // namespace sdf
