@@ -7,6 +7,7 @@
 
 #include "mesh/feature_meshes.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/remesh_changes.h"
 #include "sdf/mesh/remesh_fans.h"
 #ifdef SDF_REFERENCE
 #include "accuracy/reference.h"
@@ -159,6 +160,23 @@ TEST(Remesh, BlendedBallsKeepTheirPartsAndNoTriangleIsTurned) {
     // 60 degrees, and what the normal turns by as positions are rounded to float.
     ASSERT_GT(glm::dot(normal, glm::normalize(g.gradient)), 0.49);
   }
+}
+
+TEST(Remesh, VerticesThatSplitsBroughtTogetherAreMerged) {
+  const Fine fine(sphere(1.0), 0.1);
+  RemeshTopology mesh(fine.mesh);
+  const std::size_t before = mesh.liveTriangles();
+  Progress progress;
+  RemeshChanges changes(mesh, fine.field, 1e-2, false, progress);
+  EXPECT_EQ(changes.collapseShortest(), 0u);
+  for (const std::uint32_t h : {0u, 300u, 600u}) {
+    const glm::vec3 end = mesh.positions[mesh.from(h)];
+    mesh.split(h, end + 5e-3f * 1e-2f * glm::vec3(1, 0, 0));  // half of what is next to nothing
+    mesh.split(h, end);
+  }
+  RemeshChanges after(mesh, fine.field, 1e-2, false, progress);
+  EXPECT_EQ(after.collapseShortest(), 6u);
+  EXPECT_EQ(mesh.liveTriangles(), before);
 }
 
 TEST(Remesh, ACubeIsTwelveTrianglesWithTheCornersWhereTheyWere) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "sdf/mesh/balance.h"
 #include "sdf/mesh/borders.h"
@@ -152,19 +153,26 @@ class Mesher {
   }
 
   // Remeshes it with few triangles; what misses the tolerance by little once more by a stricter one, and
-  // where triangles cross, in thin walls, all of it.
+  // where triangles cross, in thin walls and gaps, all of it.
   bool thin(FeatureMesh& mesh, const BandField& field) {
-    const FeatureMesh whole = mesh;
-    for (double held = options_.tolerance;;) {
+    FeatureMesh whole = mesh;
+    std::optional<FeatureMesh> crossing;  // keeps the tolerance
+    for (double held = options_.tolerance; held > kStrictest * options_.tolerance && !progress_.stopped();) {
       const RemeshResult r = remesh(mesh, field, {.tolerance = held, .painted = painted_}, progress_);
       measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
       const double missed = std::max(r.maxDistance, result_.stats.maxDistance) / options_.tolerance;
-      const bool crosses = missed <= 1.0 && !crossingTriangles(mesh.positions, mesh.triangles).empty();
-      if (missed <= 1.0 && !crosses) return true;
-      held *= crosses ? kUncrossing : kStricter / missed;
-      if (progress_.stopped() || held < kStrictest * options_.tolerance) return false;
-      if (crosses) mesh = whole;
+      if (missed > 1.0) {
+        held *= kStricter / missed;
+        continue;
+      }
+      if (crossingTriangles(mesh.positions, mesh.triangles).empty()) return true;
+      if (crossing) break;  // what crosses a second time touches: no tolerance is small enough
+      held *= kUncrossing;
+      crossing = std::exchange(mesh, std::move(whole));
     }
+    if (!crossing) return false;
+    mesh = std::move(*crossing);
+    return true;
   }
 
   // Measures, checks and colours what was made.

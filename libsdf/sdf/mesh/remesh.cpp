@@ -105,12 +105,14 @@ class Remesher {
   void halveExceeding() {
     std::size_t fewest = mesh_.liveTriangles();
     for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
+      changes_.collapseShortest();
       measure();
       if (measured_.exceeding.empty() || measured_.exceeding.size() > kRunaway * fewest) return;
       fewest = std::min(fewest, measured_.exceeding.size() + kFew);
       changes_.project(measured_.vertices);
       changes_.splitTriangles(measured_.exceeding);
     }
+    changes_.collapseShortest();
     measure();
   }
 

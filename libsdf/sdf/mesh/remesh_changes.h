@@ -29,6 +29,9 @@ class RemeshChanges {
   /// collapse instead of a hundred: for what is far finer than the tolerance asks. Vertices stay on the
   /// surface. Ends when few of those that are tried can be made.
   void collapseRoughly();
+  /// Merges vertices whose distance is next to nothing beside the tolerance, which splits have brought
+  /// together; returns how many went.
+  std::size_t collapseShortest();
   /// Moves each vertex once to where the largest distances around it are balanced, if that lessens them;
   /// returns the number of those that moved. Where nothing changed since the last time nothing is tried.
   std::size_t relocate(float loose = 0.0f);

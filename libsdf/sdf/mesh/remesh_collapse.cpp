@@ -22,6 +22,8 @@ constexpr float kHopeless = 14.0f;
 // Along a crease relocation evens out more than on a surface, and so collapses may go beyond the tolerance by
 // so much.
 constexpr float kCrease = 1.2f;
+// Vertices nearer to each other than this share of the tolerance are one.
+constexpr float kShortest = 0.01f;
 // Where the surface is flat the shortest edges go first.
 constexpr float kFlat = 1e-3f;
 
@@ -147,6 +149,24 @@ bool RemeshChanges::collapseRound(std::size_t most, Care care, bool& more) {
     touch(v);
   }
   return true;
+}
+
+std::size_t RemeshChanges::collapseShortest() {
+  ++round_;
+  std::size_t gone = 0;
+  for (std::uint32_t h = 0; h < mesh_.halfEdges(); ++h) {
+    if (!mesh_.alive(h) || h > mesh_.twin(h)) continue;
+    const std::uint32_t side = collapsible(h);
+    if (side == RemeshTopology::kNone) continue;
+    const std::uint32_t v = mesh_.to(side);
+    if (!(glm::distance(mesh_.positions[mesh_.from(side)], mesh_.positions[v]) < kShortest * tolerance_) ||
+        !mesh_.canCollapse(side))
+      continue;
+    mesh_.collapse(side);
+    touch(v);
+    ++gone;
+  }
+  return gone;
 }
 
 void RemeshChanges::collapse(std::size_t maxTriangles, bool strict) {
