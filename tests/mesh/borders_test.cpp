@@ -91,6 +91,22 @@ TEST(Borders, OfThreeColoursMeetInTwoPoints) {
   EXPECT_EQ(points, 2);
 }
 
+// Between its ends a crease is as near to one of the lines as half of a sixteenth of an edge, which is what
+// is cut straight, and the chord of an edge on the ball.
+TEST(Borders, OfFourSquaresMeetInTheirCorners) {
+  const double edge = std::sqrt(3.0) * kVoxel, off = edge / 32 + edge * edge / (8.0 * 0.5);
+  const Vec3E p = position();
+  const double x = 0.0137, y = 0.0211;
+  const Cut cut(ball(select(less((p.x - x) * (p.y - y), 0.0), 0.1, 0.9)));
+  EXPECT_TRUE(cut.stats.watertight && cut.stats.manifold);
+  EXPECT_EQ(cut.stats.eulerCharacteristic, 2);
+  EXPECT_GT(cut.mesh.creases.size(), 80u);
+  for (const auto& [a, b] : cut.mesh.creases) {
+    const glm::dvec3 middle = 0.5f * (cut.mesh.positions[a] + cut.mesh.positions[b]);
+    EXPECT_LT(std::min(std::abs(middle.x - x), std::abs(middle.y - y)), off);
+  }
+}
+
 // Normals of a vertex and its copies at a border are those of one smooth surface.
 TEST(Borders, OnASmoothSurfaceNormalsAreOne) {
   Progress progress;

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "sdf/mesh/crossings.h"
+#include "sdf/mesh/divide.h"
 #include "sdf/mesh/indices-inl.h"
 #include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/surface_paint.h"
@@ -17,6 +18,10 @@ constexpr std::uint32_t kNone = ~0u;
 // How far inside its corners and sides a triangle looks for its paint, as a share of the way to the centroid.
 constexpr float kInto = 0.1f;
 constexpr int kHalvings = 7;
+// Rounds in which triangles that a border does not cross straight are divided, and how far beside a straight
+// cut's middle they are looked at, as a share of the way to the triangle's corner.
+constexpr int kRefinements = 4;
+constexpr float kBeside = 0.15f;
 // No piece of an edge is shorter than this share of it.
 constexpr float kShortest = 1.0f / 64;
 
@@ -48,8 +53,10 @@ class BorderCutter {
       : mesh_(mesh), field_(field), progress_(progress) {}
 
   void run() {
-    whole_ = static_cast<std::uint32_t>(mesh_.positions.size());
     readCorners();
+    halveDoubtful();
+    cutSides_.assign(mesh_.triangles.size(), {});
+    whole_ = static_cast<std::uint32_t>(mesh_.positions.size());
     findCrossings();
     if (progress_.stopped()) return;
     const std::vector<glm::uvec3> triangles = mesh_.triangles;
@@ -75,13 +82,13 @@ class BorderCutter {
     return glm::mix(p, (position(t, 0) + position(t, 1) + position(t, 2)) / 3.0f, kInto);
   }
 
+  // Reads the paint at the corners of the triangles that have none yet, which are the last ones.
   void readCorners() {
     std::vector<glm::vec3> points;
-    points.reserve(3 * mesh_.triangles.size());
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    for (std::size_t t = corners_.size() / 3; t < mesh_.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) points.push_back(inside(t, position(t, k)));
-    corners_ = readPaintBeside(points, field_, progress_);
-    cutSides_.assign(mesh_.triangles.size(), {});
+    const std::vector<Paint> paint = readPaintBeside(points, field_, progress_);
+    corners_.insert(corners_.end(), paint.begin(), paint.end());
   }
 
   void readEnds(std::vector<Search>& searches) const {
@@ -104,23 +111,112 @@ class BorderCutter {
     std::erase_if(searches, [](const Search& s) { return !differ(s.atFirst, s.atLast); });
   }
 
-  void findCrossings() {
+  // Where borders cross sides of these triangles, in their order; a border that ends in a triangle, and so
+  // crosses one side, is left out.
+  std::vector<Search> crossingsOf(const std::vector<std::uint32_t>& triangles) const {
     std::vector<Search> searches;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+    for (const std::uint32_t t : triangles)
       for (int k = 0; k < 3; ++k) {
         const Paint &a = corners_[3 * t + k], &b = corners_[3 * t + (k + 1) % 3];
         if (differ(a, b))
           searches.push_back({t, k, inside(t, position(t, k)), inside(t, position(t, k + 1)), a, b});
       }
     halve(searches);
-    for (std::size_t s = 0; s < searches.size();) {
-      std::size_t end = s + 1;
-      while (end < searches.size() && searches[end].where == searches[s].where) ++end;
-      // A border that ends in the triangle crosses one side.
-      if (end - s > 1)
-        for (std::size_t i = s; i < end; ++i) addCrossing(searches[i]);
-      s = end;
+    const auto alone = [&](std::size_t s) {
+      return (s == 0 || searches[s - 1].where != searches[s].where) &&
+             (s + 1 == searches.size() || searches[s + 1].where != searches[s].where);
+    };
+    std::vector<Search> kept;
+    for (std::size_t s = 0; s < searches.size(); ++s)
+      if (!alone(s)) kept.push_back(searches[s]);
+    return kept;
+  }
+
+  void findCrossings() {
+    for (const Search& s :
+         crossingsOf(indicesThat(mesh_.triangles.size(), [](std::uint32_t) { return true; })))
+      addCrossing(s);
+  }
+
+  // Triangles that a border does not cross straight: it has a corner in them, or others meet it there.
+  std::vector<std::uint32_t> doubtfulOf(const std::vector<std::uint32_t>& triangles) const {
+    const std::vector<Search> crossings = crossingsOf(triangles);
+    struct Chord {
+      std::uint32_t triangle;
+      Paint sides[2];  // expected
+    };
+    std::vector<std::uint32_t> doubtful;
+    std::vector<Chord> chords;
+    std::vector<glm::vec3> points;
+    for (std::size_t s = 0; s + 1 < crossings.size();) {
+      const Search &a = crossings[s], &b = crossings[s + 1];
+      if (s + 2 < crossings.size() && crossings[s + 2].where == a.where) {
+        doubtful.push_back(a.where);  // three paints meet
+        s += 3;
+        continue;
+      }
+      // The corner that both sides share, and the middle of the side across.
+      const int corner = b.side == a.side + 1 ? b.side : a.side;
+      const glm::vec3 middle =
+          0.5f * (glm::mix(a.from, a.to, a.middle()) + glm::mix(b.from, b.to, b.middle()));
+      points.push_back(glm::mix(middle, position(a.where, corner), kBeside));
+      points.push_back(
+          glm::mix(middle, 0.5f * (position(a.where, corner + 1) + position(a.where, corner + 2)), kBeside));
+      chords.push_back({a.where, {corners_[3 * a.where + corner], corners_[3 * a.where + (corner + 1) % 3]}});
+      s += 2;
     }
+    const std::vector<Paint> paint = readPaintBeside(points, field_, progress_);
+    for (std::size_t i = 0; i < chords.size(); ++i)
+      if (differ(paint[2 * i], chords[i].sides[0]) || differ(paint[2 * i + 1], chords[i].sides[1]))
+        doubtful.push_back(chords[i].triangle);
+    return doubtful;
+  }
+
+  // Halves the sides of such triangles, so that what a straight cut gets wrong becomes small.
+  void halveDoubtful() {
+    std::vector<std::uint32_t> fresh =
+        indicesThat(mesh_.triangles.size(), [](std::uint32_t) { return true; });
+    for (int round = 0; round < kRefinements && !progress_.stopped(); ++round) {
+      const std::vector<std::uint32_t> doubtful = doubtfulOf(fresh);
+      if (doubtful.empty()) return;
+      for (const std::uint32_t t : doubtful)
+        for (int k = 0; k < 3; ++k) halveEdge(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]);
+      splitCreases();
+      std::ranges::sort(mesh_.creases);
+      const std::size_t kept = divideHalved();
+      readCorners();
+      fresh.clear();
+      for (std::size_t t = kept; t < mesh_.triangles.size(); ++t)
+        fresh.push_back(static_cast<std::uint32_t>(t));
+      crossings_.clear();
+    }
+  }
+
+  void halveEdge(std::uint32_t a, std::uint32_t b) {
+    const auto middle = static_cast<std::uint32_t>(mesh_.positions.size());
+    if (crossings_.try_emplace(edgeKey(a, b), middle).second)
+      mesh_.positions.push_back(0.5f * (mesh_.positions[a] + mesh_.positions[b]));
+  }
+
+  // Puts the pieces of the triangles with halved sides behind the others, and returns how many these are.
+  std::size_t divideHalved() {
+    std::vector<glm::uvec3> pieces;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const glm::uvec3 t = mesh_.triangles[i];
+      const std::array<std::uint32_t, 3> x{crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
+      if (x[0] != kNone || x[1] != kNone || x[2] != kNone) {
+        divide(t, x, pieces);
+        continue;
+      }
+      mesh_.triangles[kept] = t;
+      std::copy_n(&corners_[3 * i], 3, &corners_[3 * kept]);
+      ++kept;
+    }
+    mesh_.triangles.resize(kept);
+    corners_.resize(3 * kept);
+    mesh_.triangles.insert(mesh_.triangles.end(), pieces.begin(), pieces.end());
+    return kept;
   }
 
   // The first of an edge's two triangles decides where.

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "sdf/mesh/divide.h"
 #include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/mesh/uncross.h"
@@ -99,9 +100,11 @@ class Sharpener {
     normals_.insert(normals_.end(), normals.begin(), normals.end());
     std::vector<glm::uvec3> divided;
     std::erase_if(triangles_, [&](const glm::uvec3& t) {
-      const auto x = crossingsOf(t);
+      auto x = crossingsOf(t);
       if (x[0] == kNone && x[1] == kNone && x[2] == kNone) return false;
-      divide(t, x, first, divided);
+      for (std::uint32_t& middle : x)
+        if (middle != kNone) middle += first;
+      divide(t, x, divided);
       return true;
     });
     // Edges that were there before have been looked at.
@@ -111,19 +114,6 @@ class Sharpener {
     nameCrossings();
     triangles_.insert(triangles_.end(), divided.begin(), divided.end());
     return true;
-  }
-
-  // The triangle, its edges with a crossing halved by the vertex `first` + crossing.
-  static void divide(const glm::uvec3& t, const std::array<std::uint32_t, 3>& x, std::uint32_t first,
-                     std::vector<glm::uvec3>& out) {
-    const int count = (x[0] != kNone) + (x[1] != kNone) + (x[2] != kNone);
-    int k = 0;  // turned so that the first edge is halved, and of two the last, too
-    while (x[k] == kNone || (count == 2 && x[(k + 2) % 3] == kNone)) ++k;
-    const std::uint32_t a = t[k % 3], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-    const std::uint32_t ab = first + x[k % 3], bc = first + x[(k + 1) % 3], ca = first + x[(k + 2) % 3];
-    if (count == 1) out.insert(out.end(), {{a, ab, c}, {ab, b, c}});
-    if (count == 2) out.insert(out.end(), {{a, ab, ca}, {ab, b, ca}, {b, c, ca}});
-    if (count == 3) out.insert(out.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
   }
 
   std::uint32_t crossingAt(std::uint32_t a, std::uint32_t b) const {
