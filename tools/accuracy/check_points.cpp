@@ -166,4 +166,15 @@ glm::dvec3 PointMaker::onMedialAxis(Random& random,
   return p;
 }
 
+glm::dvec3 gradient(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& p) {
+  constexpr double kStep = 1e-6;
+  glm::dvec3 slope;
+  for (int i = 0; i < 3; ++i) {
+    glm::dvec3 step(0.0);
+    step[i] = kStep;
+    slope[i] = (f(p + step) - f(p - step)) / (2.0 * kStep);
+  }
+  return slope;
+}
+
 }  // namespace sdf::accuracy

@@ -67,5 +67,8 @@ double largest(const glm::dvec3& p);
 glm::dvec3 randomDirection(PointMaker::Random& random);
 /// Uniform in [lo, hi).
 double uniform(PointMaker::Random& random, double lo, double hi);
+/// The gradient by central differences, for functions and coordinates of about 1: what the step of 1e-6 cuts
+/// off and what is rounded are both about 1e-10.
+glm::dvec3 gradient(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& p);
 
 }  // namespace sdf::accuracy

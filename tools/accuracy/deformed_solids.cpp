@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "check_points.h"
 #include "meshes.h"
 #include "sdf/shape/flats.h"
 #include "sdf/shape/operators.h"
@@ -36,17 +37,6 @@ std::string call(const char* name, std::initializer_list<double> arguments) {
     text << (a == arguments.begin() ? "" : ", ") << *a;
   text << ")";
   return text.str();
-}
-
-glm::dvec3 gradient(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& p) {
-  constexpr double kStep = 1e-6;
-  glm::dvec3 slope;
-  for (int i = 0; i < 3; ++i) {
-    glm::dvec3 step(0.0);
-    step[i] = kStep;
-    slope[i] = (f(p + step) - f(p - step)) / (2.0 * kStep);
-  }
-  return slope;
 }
 
 // The columns of the map's Jacobian.

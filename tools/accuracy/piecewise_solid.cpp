@@ -13,18 +13,6 @@ namespace {
 
 // A foot's distance to the zero sets on which it is to lie.
 constexpr double kOnSurface = 1e-9;
-// Half the step of difference quotients: what is cut off and what is rounded are both about 1e-10.
-constexpr double kStep = 1e-6;
-
-glm::dvec3 gradient(const PiecewiseSolid::Piece& piece, const glm::dvec3& p) {
-  glm::dvec3 g;
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 step(0.0);
-    step[axis] = kStep;
-    g[axis] = (piece(p + step) - piece(p - step)) / (2.0 * kStep);
-  }
-  return g;
-}
 
 // Pieces that a foot is to lie on, one to three.
 struct Joint {

@@ -157,9 +157,9 @@ double levelTolerance(const Options& options, int level) {
 
 std::filesystem::path levelName(const std::filesystem::path& output, int level) {
   if (level == 0) return output;
-  std::filesystem::path name = output.stem();
-  name += "_lod" + std::to_string(level) + output.extension().string();
-  return output.parent_path() / name;
+  std::filesystem::path name = output;
+  return name.replace_filename(output.stem().string() + "_lod" + std::to_string(level) +
+                               output.extension().string());
 }
 
 std::string frameSubject(const Options& options, int i) {

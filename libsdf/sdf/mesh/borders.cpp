@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <numeric>
 #include <unordered_map>
 
 #include "sdf/mesh/crossings.h"
 #include "sdf/mesh/divide.h"
-#include "sdf/mesh/indices-inl.h"
 #include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/surface_paint.h"
 
@@ -82,6 +82,12 @@ class BorderCutter {
     return glm::mix(p, (position(t, 0) + position(t, 1) + position(t, 2)) / 3.0f, kInto);
   }
 
+  std::vector<std::uint32_t> allTriangles() const {
+    std::vector<std::uint32_t> all(mesh_.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+  }
+
   // Reads the paint at the corners of the triangles that have none yet, which are the last ones.
   void readCorners() {
     std::vector<glm::vec3> points;
@@ -133,9 +139,7 @@ class BorderCutter {
   }
 
   void findCrossings() {
-    for (const Search& s :
-         crossingsOf(indicesThat(mesh_.triangles.size(), [](std::uint32_t) { return true; })))
-      addCrossing(s);
+    for (const Search& s : crossingsOf(allTriangles())) addCrossing(s);
   }
 
   // Triangles that a border does not cross straight: it has a corner in them, or others meet it there.
@@ -174,8 +178,7 @@ class BorderCutter {
 
   // Halves the sides of such triangles, so that what a straight cut gets wrong becomes small.
   void halveDoubtful() {
-    std::vector<std::uint32_t> fresh =
-        indicesThat(mesh_.triangles.size(), [](std::uint32_t) { return true; });
+    std::vector<std::uint32_t> fresh = allTriangles();
     for (int round = 0; round < kRefinements && !progress_.stopped(); ++round) {
       const std::vector<std::uint32_t> doubtful = doubtfulOf(fresh);
       if (doubtful.empty()) return;
@@ -234,7 +237,7 @@ class BorderCutter {
   // Pieces that are too thin for floats may cross: then the edges that end in one stay whole. Returns whether
   // there are any that were cut.
   bool leaveOutWhatCrosses() {
-    const auto all = indicesThat(mesh_.triangles.size(), [](std::uint32_t) { return true; });
+    const auto all = allTriangles();
     std::vector<char> asked(all.size(), 0);
     for (std::size_t t = 0; t < asked.size(); ++t) {
       const glm::uvec3& v = mesh_.triangles[t];

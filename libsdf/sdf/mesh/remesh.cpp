@@ -95,7 +95,7 @@ class Remesher {
     changes_.split();
     for (int i = 0; i < kCleanings; ++i) {
       // What splitting and adjusting have made superfluous.
-      changes_.collapse(0, true);
+      changes_.collapse(0, RemeshChanges::Care::Strict);
       adjust(0.0f);
       changes_.split();
     }
@@ -162,7 +162,8 @@ void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions
                  Progress& progress) {
   Quiet quiet(progress);
   RemeshTopology topology(mesh);
-  RemeshChanges(topology, field, kRough * options.tolerance, options.painted, quiet).collapseRoughly();
+  RemeshChanges(topology, field, kRough * options.tolerance, options.painted, quiet)
+      .collapse(0, RemeshChanges::Care::Rough);
   mesh = topology.compacted();
 }
 

@@ -20,15 +20,16 @@ class RemeshChanges {
   RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance, bool painted,
                 Progress& progress);
 
+  enum class Care {
+    Rough,  ///< by what normals at the vertices foretell of the distances, at a reading or two for each
+            ///< collapse instead of a hundred: for what is far finer than the tolerance asks. Vertices stay
+            ///< on the surface. Ends when few of those that are tried can be made
+    Usual,  ///< along creases a little more than the tolerance is let pass
+    Strict
+  };
   /// Collapses edges, those first along which the surface turns least, until no collapse keeps the tolerance
-  /// or `maxTriangles` are left. Along creases a little more
-  /// than the tolerance is let pass unless `strict`. Edges that failed are tried anew only when something
-  /// near them has changed.
-  void collapse(std::size_t maxTriangles = 0, bool strict = false);
-  /// The same by what normals at the vertices foretell of the distances, at a reading or two for each
-  /// collapse instead of a hundred: for what is far finer than the tolerance asks. Vertices stay on the
-  /// surface. Ends when few of those that are tried can be made.
-  void collapseRoughly();
+  /// or `maxTriangles` are left. Edges that failed are tried anew only when something near them has changed.
+  void collapse(std::size_t maxTriangles = 0, Care care = Care::Usual);
   /// Merges vertices whose distance is next to nothing beside the tolerance, which splits have brought
   /// together; returns how many went.
   std::size_t collapseShortest();
@@ -66,8 +67,6 @@ class RemeshChanges {
   std::uint32_t collapsible(std::uint32_t h) const;
   // The cheapest; are there more?
   std::vector<Candidate> collapseCandidates(bool& more) const;
-  enum class Care { Rough, Usual, Strict };
-  void collapse(std::size_t maxTriangles, Care care);
   bool collapseRound(std::size_t most, Care care, bool& more);
   // What the collapses make of the edges; the fans' centres move to where they would be.
   void tryCollapses(const std::vector<std::uint32_t>& edges, Care care, Fans& fans,

@@ -169,10 +169,6 @@ std::size_t RemeshChanges::collapseShortest() {
   return gone;
 }
 
-void RemeshChanges::collapse(std::size_t maxTriangles, bool strict) {
-  collapse(maxTriangles, strict ? Care::Strict : Care::Usual);
-}
-
 void RemeshChanges::collapse(std::size_t maxTriangles, Care care) {
   while (!progress_.stopped() && mesh_.liveTriangles() > std::max<std::size_t>(maxTriangles, 4)) {
     const std::size_t before = mesh_.liveTriangles();

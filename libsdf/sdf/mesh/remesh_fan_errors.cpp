@@ -213,11 +213,8 @@ class Judge {
     for (std::size_t i = 0; i < samples_.size(); ++i)
       if (samples_[i].kind == Sample::Centre) normals[sector(samples_[i])] += readings_[i].normal;
     e.normal = normals[0];
-    e.onto = -readings_[0].distance * readings_[0].normal;
+    e.onto = stepOnto(readings_.first(view_.centres()));
     const bool apart = two && std::abs(glm::dot(normals[0], normals[1])) < kOneSide;
-    if (apart)
-      e.onto =
-          leastStep(readings_[0].normal, readings_[1].normal, -readings_[0].distance, -readings_[1].distance);
     for (Balance& side : sides_) side.clear();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const int k = apart ? sector(samples_[i]) : 0;

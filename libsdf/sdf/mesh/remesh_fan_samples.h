@@ -61,6 +61,15 @@ inline glm::vec3 leastStep(const glm::vec3& a, const glm::vec3& b, float s, floa
   return ((s - c * t) * a + (t - c * s) * b) / det;
 }
 
+/// From a fan's centre to the surface, or to the crease, by a reading for each sector.
+inline glm::vec3 stepOnto(std::span<const Reading> centres) {
+  if (centres.empty()) return glm::vec3(0.0f);
+  const Reading &a = centres.front(), &b = centres.back();
+  if (centres.size() == 2 && std::abs(glm::dot(a.normal, b.normal)) < kOneSide)
+    return leastStep(a.normal, b.normal, -a.distance, -b.distance);
+  return -a.distance * a.normal;
+}
+
 /// One fan with its rim at hand.
 struct FanView {
   const Fan& fan;

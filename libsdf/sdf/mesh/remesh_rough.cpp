@@ -19,21 +19,10 @@ namespace {
 // other.
 constexpr float kSagitta = 0.25f;
 
-// From a fan's centre to the surface, or to the crease, by a reading for each sector.
-glm::vec3 stepOnto(std::span<const Reading> centres) {
-  if (centres.empty()) return glm::vec3(0.0f);
-  const Reading &a = centres.front(), &b = centres.back();
-  if (centres.size() == 2 && std::abs(glm::dot(a.normal, b.normal)) < kOneSide)
-    return leastStep(a.normal, b.normal, -a.distance, -b.distance);
-  return -a.distance * a.normal;
-}
-
 // Stars grow no larger: what many collapses share only one of them can have at a time.
 constexpr std::uint32_t kMostSpokes = 14;
 
 }  // namespace
-
-void RemeshChanges::collapseRoughly() { collapse(0, Care::Rough); }
 
 void RemeshChanges::estimate(Fans& fans, std::vector<FanError>& errors) const {
   errors.assign(fans.all.size(), {});
