@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <random>
+#include <tuple>
 
 #include "mesh/feature_meshes.h"
 #include "sdf/eval/scalar_reading.h"
@@ -25,6 +26,7 @@ struct Meshed {
 Meshed remeshed(FeatureMesh mesh, const LocalField& field, const RemeshOptions& options) {
   Progress progress;
   Meshed m{std::move(mesh), {}, {}};
+  thinRoughly(m.mesh, field, options, progress);
   m.result = remesh(m.mesh, field, options, progress);
   measureTopology(m.mesh.triangles, m.mesh.positions.size(), m.stats);
   return m;
@@ -254,6 +256,36 @@ TEST(Remesh, CrossingTrianglesWouldBeSeen) {
   EXPECT_GT(accuracy::crossings(two), 0u);
 }
 #endif
+
+TEST(Remesh, LeavesWhatIsHeld) {
+  Fine fine(sphere(1.0), 0.1);
+  FeatureMesh& mesh = fine.mesh;
+  const auto isHeld = [](const glm::vec3& p) { return p.x > 0.3f; };
+  for (const glm::vec3& p : mesh.positions) mesh.held.push_back(isHeld(p));
+  const auto order = [](const glm::vec3& a, const glm::vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  const auto heldOf = [&](const FeatureMesh& m) {
+    std::vector<glm::vec3> held;
+    for (const glm::vec3& p : m.positions)
+      if (isHeld(p)) held.push_back(p);
+    std::ranges::sort(held, order);
+    return held;
+  };
+  const Meshed m = remeshed(mesh, fine.field, {1e-2});
+  EXPECT_TRUE(m.result.kept);
+  EXPECT_TRUE(m.stats.watertight && m.stats.manifold);
+  EXPECT_LT(m.mesh.triangles.size(), mesh.triangles.size() * 6 / 10) << "the rest is thinned";
+  std::size_t marked = 0;
+  for (std::size_t v = 0; v < m.mesh.positions.size(); ++v) {
+    if (!m.mesh.held[v]) continue;
+    ++marked;
+    EXPECT_TRUE(isHeld(m.mesh.positions[v]));
+  }
+  const std::vector<glm::vec3> before = heldOf(mesh), after = heldOf(m.mesh);
+  EXPECT_EQ(marked, before.size());
+  EXPECT_TRUE(std::ranges::includes(after, before, order));
+}
 
 TEST(Remesh, StoppedItLeavesAClosedMesh) {
   struct Impatient : Progress {

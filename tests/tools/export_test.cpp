@@ -166,6 +166,24 @@ TEST_F(Export, SpendsABudgetOfTriangles) {
   EXPECT_LE(output["parts"][0]["max_distance"], 1.3 * 0.1925 * 4.0 * std::numbers::pi / 850.0);
 }
 
+// Walls between two bores that run out to nothing: no tolerance that a large budget would pay for is kept.
+TEST_F(Export, SpendsWhatItCanOfABudget) {
+  const std::string file = scene(
+      "return box(1) - cylinder(0.5, 2):translate(0.501, 0, 0) - cylinder(0.5, 2):translate(-0.501, 0, 0)");
+  const Outcome fine = run({file, "-o", out("a.glb"), "--voxel-size", "0.5", "--tolerance", "0.003"});
+  EXPECT_EQ(fine.status, 4);
+  EXPECT_NE(fine.err.find("could not be kept"), std::string::npos) << fine.err;
+  const Outcome outcome = run({file, "-o", out("a.glb"), "--voxel-size", "0.5", "--triangles", "5000"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(written(), std::vector<std::string>{"a.glb"});
+}
+
+TEST_F(Export, BudgetsOfAFewTrianglesAreMet) {
+  const Json output = report({scene("return sphere(1)"), "-o", out("a.glb"), "--voxel-size", "0.05",
+                              "--triangles", "8"})["outputs"][0];
+  EXPECT_EQ(output["total"]["triangles"], 8);
+}
+
 TEST_F(Export, SaysHowFewTrianglesAreTooFew) {
   const Outcome outcome =
       run({scene("return box(1)"), "-o", out("a.glb"), "--voxel-size", "0.1", "--triangles", "11"});

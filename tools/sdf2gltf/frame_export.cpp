@@ -21,8 +21,9 @@ namespace {
 /// voxel.
 constexpr double kDefaultVoxels = 200.0;
 /// With --triangles: the first try has this share of the diagonal for its tolerance; each aims at this share
-/// of the budget, and what is above the other will do.
-constexpr double kFirstTolerance = 1000.0, kAim = 0.95, kEnough = 0.9;
+/// of the budget, and what is above the other will do. The tolerance changes by so much at most: a mesh of a
+/// few triangles says little of others.
+constexpr double kFirstTolerance = 1000.0, kAim = 0.95, kEnough = 0.9, kStep = 16.0;
 constexpr int kTries = 6;
 constexpr std::string_view kStepsAreNotBaked =
     "ambient_occlusion: what counts steps depends on who looks and is not baked; take kind = 'taps'";
@@ -110,8 +111,11 @@ Status FrameExport::meshWithin(std::size_t triangles, const std::vector<Part>& b
   double tolerance = diagonal_ / kFirstTolerance, coarsest = HUGE_VAL, finest = 0.0;
   std::size_t most = 0, fewest = std::numeric_limits<std::size_t>::max();
   for (int i = 0; i < kTries; ++i) {
-    if (Status s = meshAll(bodies, voxelSize, tolerance); !s) return s;
-    const std::size_t count = combined(parts).triangles;
+    const Status meshed = meshAll(bodies, voxelSize, tolerance);
+    if (!meshed && (meshed.error().kind != ErrorKind::Limits || (most == 0 && i + 1 == kTries)))
+      return meshed;
+    // A tolerance that cannot be kept is too fine whatever the number of triangles.
+    const std::size_t count = meshed ? combined(parts).triangles : std::numeric_limits<std::size_t>::max();
     fewest = std::min(fewest, count);
     if (count <= triangles) {
       coarsest = std::min(coarsest, tolerance);
@@ -119,8 +123,8 @@ Status FrameExport::meshWithin(std::size_t triangles, const std::vector<Part>& b
     } else {
       finest = std::max(finest, tolerance);
     }
-    if (static_cast<double>(most) > kEnough * budget) break;
-    tolerance *= static_cast<double>(count) / (kAim * budget);
+    if (static_cast<double>(most) > kEnough * budget || (!meshed && most > 0)) break;
+    tolerance *= std::clamp(static_cast<double>(count) / (kAim * budget), 1.0 / kStep, kStep);
     if (!(tolerance > finest && tolerance < coarsest)) {
       if (finest == 0.0 || !(coarsest < HUGE_VAL)) break;  // of flat faces, the same for any tolerance
       tolerance = std::sqrt(finest * coarsest);

@@ -17,6 +17,7 @@ struct FeatureMesh {
   std::vector<std::array<std::uint32_t, 2>> creases;  ///< pairs of vertices, the lower first; sorted
   /// Of each triangle, the number among the shape's; where two meet there is a crease. Empty: all are of one.
   std::vector<int> materials{};
+  std::vector<char> held{};  ///< by vertex: not 0 where remeshing is to change nothing; empty: nowhere
 };
 
 /// A triangle that was taken away, and keeps its place in the list for a while, has one vertex for all

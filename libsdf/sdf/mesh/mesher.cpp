@@ -10,9 +10,9 @@
 #include "sdf/mesh/borders.h"
 #include "sdf/mesh/certify.h"
 #include "sdf/mesh/crossings.h"
-#include "sdf/mesh/remesh.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
+#include "sdf/mesh/thin.h"
 #include "sdf/mesh/uncross.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/catalog.h"
@@ -60,9 +60,6 @@ constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
 // cannot mend.
 constexpr double kResolved = 0.25;
-// What misses the tolerance is held to this share of what would have kept it, what crosses itself to that of
-// the tolerance, down to the least.
-constexpr double kStricter = 0.95, kUncrossing = 0.6, kStrictest = 0.5;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // it does not resolve, which may be a contact.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostUnresolved = 100'000;
@@ -115,7 +112,7 @@ class Mesher {
           if (!last) continue;
           return checkTolerance().error();
         }
-        const bool kept = thin(mesh, field);
+        const bool kept = thin(mesh, field, {options_.tolerance, h, painted_}, progress_);
         if (!kept && !last) continue;
       }
       return finish(shape, model, *bounds, h, *sampled, field, mesh);
@@ -150,29 +147,6 @@ class Mesher {
       cutAtBorders(mesh, field, progress_);
     }
     return std::move(mesh);
-  }
-
-  // Remeshes it with few triangles; what misses the tolerance by little once more by a stricter one, and
-  // where triangles cross, in thin walls and gaps, all of it.
-  bool thin(FeatureMesh& mesh, const BandField& field) {
-    FeatureMesh whole = mesh;
-    std::optional<FeatureMesh> crossing;  // keeps the tolerance
-    for (double held = options_.tolerance; held > kStrictest * options_.tolerance && !progress_.stopped();) {
-      const RemeshResult r = remesh(mesh, field, {.tolerance = held, .painted = painted_}, progress_);
-      measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
-      const double missed = std::max(r.maxDistance, result_.stats.maxDistance) / options_.tolerance;
-      if (missed > 1.0) {
-        held *= kStricter / missed;
-        continue;
-      }
-      if (crossingTriangles(mesh.positions, mesh.triangles).empty()) return true;
-      if (crossing) break;  // what crosses a second time touches: no tolerance is small enough
-      held *= kUncrossing;
-      crossing = std::exchange(mesh, std::move(whole));
-    }
-    if (!crossing) return false;
-    mesh = std::move(*crossing);
-    return true;
   }
 
   // Measures, checks and colours what was made.

@@ -70,8 +70,14 @@ class Remesher {
     if (!overBudget() && options_.painted) keepColors();
     if (overBudget()) keepBudget();
     report(1.0);
-    return {measured_.largest, measured_.rms, colors_.largest,
-            measured_.largest <= options_.tolerance && !quiet_.stopped()};
+    RemeshResult result{measured_.largest,
+                        measured_.rms,
+                        colors_.largest,
+                        measured_.largest <= options_.tolerance && !quiet_.stopped(),
+                        {}};
+    for (const std::uint32_t t : measured_.exceeding)
+      for (std::uint32_t k = 0; k < 3; ++k) result.exceeding.push_back(mesh_.positions[mesh_.from(t + k)]);
+    return result;
   }
   FeatureMesh take() const { return mesh_.compacted(); }
 
@@ -157,7 +163,8 @@ class Remesher {
   ColorErrors colors_;
 };
 
-// Takes out what the normals alone show to be far more than is needed.
+}  // namespace
+
 void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
                  Progress& progress) {
   Quiet quiet(progress);
@@ -167,11 +174,8 @@ void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions
   mesh = topology.compacted();
 }
 
-}  // namespace
-
 RemeshResult remesh(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
                     Progress& progress) {
-  thinRoughly(mesh, field, options, progress);
   Remesher remesher(mesh, field, options, progress);
   const RemeshResult result = remesher.run();
   mesh = remesher.take();

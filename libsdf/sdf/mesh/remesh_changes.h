@@ -39,12 +39,12 @@ class RemeshChanges {
   /// Replaces edges by the other diagonal where that lessens the distances; returns the number of
   /// flips. Both let the distances' energy rise by the share `loose`.
   std::size_t flip(float loose = 0.0f);
-  /// Splits edges until none of the triangles exceeds the tolerance at its samples, and adjusts what is new;
-  /// false if that was not reached.
-  bool split();
+  /// Splits edges until none of the triangles exceeds the tolerance at its samples, or the halves of those
+  /// that do would be needles or folded, and adjusts what is new.
+  void split();
   /// Puts these vertices onto the surface.
   void project(const std::vector<std::uint32_t>& vertices);
-  /// Splits these triangles where they are farthest off, and adjusts what is new.
+  /// Splits these triangles where they are farthest off, whatever it makes of them, and adjusts what is new.
   void splitTriangles(const std::vector<std::uint32_t>& triangles);
 
   float evenness(std::uint32_t h) const;
@@ -76,8 +76,9 @@ class RemeshChanges {
   bool maySplit(std::uint32_t edge) const;
   std::uint32_t longestSide(std::uint32_t h) const;
   std::vector<Candidate> splitCandidates();
-  // The new vertices lie on the surface, or to either side of it as balances the distances.
-  std::size_t splitRound(const std::vector<Candidate>& candidates, bool onto);
+  // The new vertices lie on the surface (`onto`), and where that makes needles or folds the triangles are
+  // split all the same; or to either side of it as balances the distances, and such splits are left out.
+  void splitRound(const std::vector<Candidate>& candidates, bool onto);
   void moveToOffsets(Fans& fans, const std::vector<FanError>& errors) const;
   bool claim(std::uint32_t v);
   bool claimEdge(std::uint32_t h);

@@ -40,18 +40,18 @@ inline constexpr float kFacing = 0.5f;
 inline constexpr float kOneSide = 0.9962f;
 
 /// The area vector, twice as long as the triangle is large; whether its least height is above a share of the
-/// tolerance and the corners' rounding.
+/// tolerance, or of its longest side where that is less, and above the corners' rounding.
 struct Facet {
   glm::vec3 area;
   float size;
   bool sound;
   Facet(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float tolerance)
       : area(glm::cross(b - a, c - a)), size(glm::length(area)) {
-    constexpr float kHeight = 0.02f, kRounding = 16.0f * 0x1p-24f;  // in tolerances, and of the coordinates
+    constexpr float kHeight = 0.02f, kSlender = 0.05f, kRounding = 16.0f * 0x1p-24f;
     const float longest =
         std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
     const float scale = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), longest});
-    sound = size > longest * std::max(kHeight * tolerance, kRounding * scale);
+    sound = size > longest * std::max(std::min(kHeight * tolerance, kSlender * longest), kRounding * scale);
   }
 };
 

@@ -64,7 +64,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
   return all;
 }
 
-std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool onto) {
+void RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool onto) {
   ++round_;
   std::vector<std::uint32_t> chosen;
   Fans fans;
@@ -75,34 +75,34 @@ std::size_t RemeshChanges::splitRound(const std::vector<Candidate>& candidates, 
     chosen.push_back(c.where);
     fans.addSplit(mesh_, c.where);
   }
-  if (chosen.empty()) return 0;
+  if (chosen.empty()) return;
+  // What is seen on a triangle is seen on its halves no worse.
   std::vector<FanError> errors;
-  evaluate(fans, errors);
+  evaluateFans(fans, tolerance_, Sampling::All, field_, progress_, errors);
   const Fans middles = fans;
   const std::vector<FanError> atMiddles = errors;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     fans.all[i].centre += onto ? errors[i].onto : errors[i].offset;
-  evaluate(fans, errors);
-  if (progress_.stopped()) return 0;
+  evaluateFans(fans, tolerance_, Sampling::All, field_, progress_, errors);
+  if (progress_.stopped()) return;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const std::uint32_t v =
-        mesh_.split(chosen[i], (errors[i].sound || !atMiddles[i].sound ? fans : middles).all[i].centre);
+    const bool moved = errors[i].sound, inPlace = !moved && atMiddles[i].sound;
+    if (!moved && !inPlace && !onto) continue;
+    const std::uint32_t v = mesh_.split(chosen[i], (inPlace ? middles : fans).all[i].centre);
     grow();
     normals_[v] = errors[i].normal;
     touch(v);
   }
-  return chosen.size();
 }
 
-bool RemeshChanges::split() {
+void RemeshChanges::split() {
   for (int i = 0; i < kRounds && !progress_.stopped(); ++i) {
     const std::vector<Candidate> candidates = splitCandidates();
-    if (candidates.empty()) return true;
+    if (candidates.empty()) return;
     splitRound(candidates, false);
     flip();
     relocate();
   }
-  return false;
 }
 
 void RemeshChanges::splitTriangles(const std::vector<std::uint32_t>& triangles) {

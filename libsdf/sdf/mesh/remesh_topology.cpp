@@ -22,6 +22,7 @@ RemeshTopology::RemeshTopology(const FeatureMesh& mesh)
       materials_(mesh.materials),
       crease_(3 * mesh.triangles.size(), 0),
       creases_(mesh.positions.size(), 0),
+      held_(mesh.held),
       live_(mesh.triangles.size()) {
   from_.reserve(twin_.size());
   std::vector<Side> sides;
@@ -45,6 +46,8 @@ RemeshTopology::RemeshTopology(const FeatureMesh& mesh)
     crease_[a.half] = crease_[b.half] = 1;
     for (const Index v : edge) creases_[v] = static_cast<std::uint8_t>(std::min(creases_[v] + 1, 3));
   }
+  for (Index v = 0; v < held_.size(); ++v)
+    if (isHeld(v)) creases_[v] = 3;
 }
 
 FeatureMesh RemeshTopology::compacted() const {
@@ -54,6 +57,7 @@ FeatureMesh RemeshTopology::compacted() const {
     if (!vertexAlive(v)) continue;
     number[v] = static_cast<Index>(mesh.positions.size());
     mesh.positions.push_back(positions[v]);
+    if (!held_.empty()) mesh.held.push_back(isHeld(v));
   }
   for (Index h = 0; h < from_.size(); h += 3) {
     if (!alive(h)) continue;
@@ -77,6 +81,7 @@ bool RemeshTopology::adjacent(Index u, Index v) const {
 
 bool RemeshTopology::canCollapse(Index h) const {
   const Index u = from(h), v = to(h), g = twin(h);
+  if (isHeld(v)) return false;
   if (creases_[u] == 2 ? !isCrease(h) : creases_[u] != 0) return false;
   // The sides that come to lie on each other: from u, and from v, to the corner across.
   if (isCrease(previous(h)) && isCrease(next(h))) return false;
@@ -112,7 +117,8 @@ void RemeshTopology::collapse(Index h) {
 }
 
 bool RemeshTopology::canFlip(Index h) const {
-  return !isCrease(h) && apex(h) != apex(twin(h)) && !adjacent(apex(h), apex(twin(h)));
+  return !isCrease(h) && !isHeld(from(h)) && !isHeld(to(h)) && apex(h) != apex(twin(h)) &&
+         !adjacent(apex(h), apex(twin(h)));
 }
 
 // Names a triangle's corners; its first side is h.

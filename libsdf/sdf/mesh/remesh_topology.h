@@ -38,7 +38,10 @@ class RemeshTopology {
   Index halfEdges() const { return static_cast<Index>(from_.size()); }
   Index vertices() const { return static_cast<Index>(out_.size()); }
   std::size_t liveTriangles() const { return live_; }
-  /// Creases that end at v: 0 on a smooth piece, 2 on a crease; any other number makes a corner.
+  /// Is v to stay, and with it the edges that end there?
+  bool isHeld(Index v) const { return v < held_.size() && held_[v] != 0; }
+  /// Creases that end at v: 0 on a smooth piece, 2 on a crease; any other number makes a corner, which a
+  /// vertex that is held counts as.
   int creasesAt(Index v) const { return creases_[v]; }
   bool adjacent(Index u, Index v) const;
 
@@ -63,6 +66,7 @@ class RemeshTopology {
   std::vector<int> materials_;         // by triangle; empty where all are of one
   std::vector<std::uint8_t> crease_;   // by half-edge
   std::vector<std::uint8_t> creases_;  // by vertex; 3 stands for more
+  std::vector<char> held_;             // by vertex, of the first ones
   std::size_t live_ = 0;
 };
 

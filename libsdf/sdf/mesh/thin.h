@@ -1,0 +1,21 @@
+// From the mesh of a lattice to the mesh that a tolerance asks for.
+#pragma once
+#include "sdf/base/progress.h"
+#include "sdf/mesh/feature_mesh.h"
+#include "sdf/mesh/local_field.h"
+
+namespace sdf {
+
+struct ThinOptions {
+  double tolerance;      ///< distance between mesh and surface, scene units; positive
+  double voxel;          ///< the lattice's, scene units
+  bool painted = false;  ///< RemeshOptions::painted
+};
+
+/// Remeshes with few triangles (remesh.h). Where the result misses the tolerance or crosses itself, which it
+/// does where walls, gaps and steps are about as thin as the tolerance, the mesh is left as it was and the
+/// rest is remeshed again. Returns whether the tolerance is kept; the mesh may cross itself even then, where
+/// nothing helped. Cost: once to some times what remeshing costs.
+bool thin(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress);
+
+}  // namespace sdf
