@@ -152,7 +152,11 @@ TEST(MeshDistances, SeeWhatIsMissing) {
   two.united = true, two.radius = 3.5;
   const TriangleMesh mesh = weldedMesh(meshOf(sphere(1.0), {.voxelSize = 1.0 / 16}).mesh);
   EXPECT_LT(toSurface(mesh, two, 1000, kSeed).max, 1e-3);
-  EXPECT_NEAR(toMesh(two.surfacePoints(1000, kSeed), mesh).max, 2.5, 0.01);
+  // The farthest point of the missing one is 3.5 from the other's centre. A fifth of the points lie on it,
+  // and none of 200 in the twentieth of it that is within 0.05 of there with a chance of 3e-5.
+  const double missing = toMesh(two.surfacePoints(1000, kSeed), mesh).max;
+  EXPECT_GT(missing, 2.5 - 0.05);
+  EXPECT_LT(missing, 2.5 + 1e-3) << "the mesh's chords are shorter than that";
 }
 
 TEST(MeshRow, IsRefutedBeyondWhatIsProven) {
