@@ -61,6 +61,16 @@ bool RemeshChanges::worsens(const FanError& before, const FanError& after) const
   return after.largest > std::max(before.largest, tolerance_);
 }
 
+void RemeshChanges::dropWorse(const Fans& before, const Fans& after,
+                              std::vector<std::uint32_t>& changes) const {
+  const std::vector<FanError> old = lookClosely(before, changes), now = lookClosely(after, changes);
+  if (progress_.stopped()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    if (!worsens(old[i], now[i])) changes[kept++] = changes[i];
+  changes.resize(kept);
+}
+
 std::size_t RemeshChanges::relocate(float loose) {
   std::size_t moved = 0;
   std::vector<std::uint32_t> waiting;
@@ -82,7 +92,7 @@ std::size_t RemeshChanges::relocate(float loose) {
       before.addAround(mesh_, v);
     }
     std::vector<FanError> old, errors;
-    evaluate(before, old);
+    evaluate(before, Sampling::Few, old);
     if (progress_.stopped()) return moved;
     dropFlat(before, old, chosen, tolerance_);
     std::vector<float> best(chosen.size());
@@ -100,7 +110,7 @@ std::size_t RemeshChanges::relocate(float loose) {
         evaluateFans(after, tolerance_, Sampling::Few, field_, progress_, errors);
         moveToOffsets(after, errors);
       }
-      evaluate(after, errors);
+      evaluate(after, Sampling::Few, errors);
       if (progress_.stopped()) return moved;
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         const float energy = errors[i].energy + kShape * shapeOf(after, after.all[i]);
@@ -110,8 +120,16 @@ std::size_t RemeshChanges::relocate(float loose) {
         normal[i] = errors[i].normal;
       }
     }
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
+    Fans after = before;
+    std::vector<std::uint32_t> better;
+    for (std::uint32_t i = 0; i < chosen.size(); ++i) {
       if (normal[i] == glm::vec3(0.0f)) continue;
+      after.all[i].centre = to[i];
+      better.push_back(i);
+    }
+    dropWorse(before, after, better);
+    if (progress_.stopped()) return moved;
+    for (const std::uint32_t i : better) {
       mesh_.positions[chosen[i]] = to[i];
       normals_[chosen[i]] = normal[i];
       touch(chosen[i]);
@@ -151,9 +169,9 @@ void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
       fans.addAround(mesh_, v);
     }
     std::vector<FanError> old, errors;
-    evaluate(fans, old);
+    evaluate(fans, Sampling::Few, old);
     for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += old[i].onto;
-    evaluate(fans, errors);
+    evaluate(fans, Sampling::Few, errors);
     if (progress_.stopped()) return;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (old[i].sound && !errors[i].sound) continue;
@@ -180,17 +198,24 @@ std::size_t RemeshChanges::flip(float loose) {
     after.addFlipped(mesh_, h);
   }
   std::vector<FanError> old, errors;
-  evaluate(before, old);
-  evaluate(after, errors);
+  evaluate(before, Sampling::Few, old);
+  evaluate(after, Sampling::Few, errors);
   if (progress_.stopped()) return 0;
   std::vector<Candidate> gains;
+  std::vector<std::uint32_t> better;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     if (!errors[i].sound || worsens(old[i], errors[i])) continue;
     const float then = errors[i].energy + kShape * shapeOf(after, after.all[i]),
                 now = old[i].energy + kShape * shapeOf(before, before.all[i]);
     const float even = (loose > 0.0f ? kEven : 0.0f) * evenness(edges[i]);
-    if (!old[i].sound || then + even < (1.0f - kGain) * now) gains.push_back({then + even - now, edges[i]});
+    if (old[i].sound && !(then + even < (1.0f - kGain) * now)) continue;
+    gains.push_back({then + even - now, i});
+    better.push_back(i);
   }
+  dropWorse(before, after, better);
+  if (progress_.stopped()) return 0;
+  std::erase_if(gains, [&](const Candidate& c) { return !std::ranges::binary_search(better, c.where); });
+  for (Candidate& c : gains) c.where = edges[c.where];
   std::sort(gains.begin(), gains.end());
   std::size_t flips = 0;
   for (const Candidate& c : gains) {

@@ -27,9 +27,19 @@ void RemeshChanges::setTolerance(double tolerance) {
   std::fill(settled_.begin(), settled_.end(), 0);
 }
 
-void RemeshChanges::evaluate(const Fans& fans, std::vector<FanError>& errors) const {
-  evaluateFans(fans, tolerance_, Sampling::All, field_, progress_, errors);
+void RemeshChanges::evaluate(const Fans& fans, Sampling sampling, std::vector<FanError>& errors) const {
+  evaluateFans(fans, tolerance_, sampling, field_, progress_, errors);
   if (painted_ && !progress_.stopped()) addPaintErrors(fans, tolerance_, field_, progress_, errors);
+}
+
+std::vector<FanError> RemeshChanges::lookClosely(const Fans& fans,
+                                                 const std::vector<std::uint32_t>& some) const {
+  Fans chosen;
+  chosen.rim = fans.rim;
+  for (const std::uint32_t i : some) chosen.all.push_back(fans.all[i]);
+  std::vector<FanError> errors;
+  evaluateFans(chosen, tolerance_, Sampling::All, field_, progress_, errors);
+  return errors;
 }
 
 void RemeshChanges::grow() {

@@ -56,9 +56,14 @@ class RemeshChanges {
     std::uint32_t where;  // a half-edge or a vertex
     bool operator<(const Candidate& o) const { return cost != o.cost ? cost < o.cost : where < o.where; }
   };
-  void evaluate(const Fans& fans, std::vector<FanError>& errors) const;
+  // With what is seen on the surface, if it is painted.
+  void evaluate(const Fans& fans, Sampling sampling, std::vector<FanError>& errors) const;
+  // Some of the fans, and all over large triangles: what a few samples refuse needs no more of them.
+  std::vector<FanError> lookClosely(const Fans& fans, const std::vector<std::uint32_t>& some) const;
   // Is the tolerance exceeded by more than before?
   bool worsens(const FanError& before, const FanError& after) const;
+  // Keeps those changes, by their fans' numbers, that worsen them nowhere.
+  void dropWorse(const Fans& before, const Fans& after, std::vector<std::uint32_t>& changes) const;
   void readNormals();
   float collapseCost(std::uint32_t h) const;
   std::uint32_t alongCrease(std::uint32_t h) const;

@@ -113,7 +113,14 @@ void RemeshChanges::tryCollapses(const std::vector<std::uint32_t>& edges, Care c
   } else {
     evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
     moveToOffsets(fans, errors);
-    evaluate(fans, errors);
+    evaluate(fans, Sampling::Few, errors);
+    std::vector<std::uint32_t> passing;
+    for (std::uint32_t i = 0; i < edges.size(); ++i)
+      if (errors[i].sound && errors[i].largest <= kCrease * tolerance_) passing.push_back(i);
+    const std::vector<FanError> closely = lookClosely(fans, passing);
+    if (progress_.stopped()) return;
+    for (std::size_t k = 0; k < passing.size(); ++k)
+      errors[passing[k]].largest = std::max(errors[passing[k]].largest, closely[k].largest);
   }
 }
 

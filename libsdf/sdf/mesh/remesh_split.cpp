@@ -49,7 +49,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
     fans.addAround(mesh_, v);
   }
   std::vector<FanError> errors;
-  evaluate(fans, errors);
+  evaluate(fans, Sampling::All, errors);
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const FanError& e = errors[i];
@@ -78,12 +78,12 @@ void RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool on
   if (chosen.empty()) return;
   // What is seen on a triangle is seen on its halves no worse.
   std::vector<FanError> errors;
-  evaluateFans(fans, tolerance_, Sampling::All, field_, progress_, errors);
+  evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
   const Fans middles = fans;
   const std::vector<FanError> atMiddles = errors;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     fans.all[i].centre += onto ? errors[i].onto : errors[i].offset;
-  evaluateFans(fans, tolerance_, Sampling::All, field_, progress_, errors);
+  evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
   if (progress_.stopped()) return;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const bool moved = errors[i].sound, inPlace = !moved && atMiddles[i].sound;
