@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
+
 #include "mesh/scenes.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/shape/catalog.h"
 #include "sdf/shape/deform.h"
+#include "support/evaluate.h"
 
 namespace sdf::test {
 namespace {
@@ -49,6 +53,46 @@ TEST(Thin, StepsAndRimsBelowTheToleranceDoNotCross) {
   const Shape standing = subtract({letter & cylinder(0.815, 0.5), cylinder(0.74, 2.0)});
   for (const double tolerance : {4e-3})
     EXPECT_LE(thinned(cup | standing, 0.025, tolerance).mesh.triangles.size(), 4000u) << tolerance;
+}
+
+// The share of a mesh's area whose interpolated normals are more than 15 degrees from the gradient under it.
+double wrongShare(const Mesh& mesh, const Shape& shape) {
+  const Evaluator field(shape.distance);
+  double wrong = 0.0, all = 0.0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    constexpr int kParts = 4;
+    const double area = glm::length(glm::cross(b - a, c - a)) / 2.0 / (kParts * kParts);
+    for (int i = 0; i < kParts; ++i)
+      for (int k = 0; i + k < kParts; ++k) {
+        const double v = (i + 1.0 / 3.0) / kParts, w = (k + 1.0 / 3.0) / kParts, u = 1.0 - v - w;
+        const glm::dvec3 p = u * a + v * b + w * c;
+        const glm::dvec3 n =
+            glm::normalize(u * glm::dvec3(mesh.normals[t.x]) + v * glm::dvec3(mesh.normals[t.y]) +
+                           w * glm::dvec3(mesh.normals[t.z]));
+        all += area;
+        if (glm::dot(n, glm::normalize(field.gradient(p, 1e-5))) < std::cos(15.0 * kPi / 180.0))
+          wrong += area;
+      }
+  }
+  return wrong / all;
+}
+
+// Long triangles run down from the rim, whose rounding is as high as two edges: they are not to be tilted
+// with it. A fifteenth of the area is the roundings'.
+TEST(Thin, NormalsOfLargeTrianglesAreRightAllOverThem) {
+  const Shape drum = round(cylinder(0.95, 0.65), 0.05);
+  EXPECT_LT(wrongShare(thinned(drum, 0.02, 3e-3).mesh, drum), 0.04);
+}
+
+// Three edges meet in each inner corner of the letter, where sharpening leaves a gap of a voxel.
+TEST(Thin, GapsInEdgesDoNotGrow) {
+  const Shape t =
+      translate(box({0.06, 0.3, 0.5}), {0.3, 0.0, 0.9}) | translate(box({0.25, 0.06, 0.5}), {0.3, 0.24, 0.9});
+  const Shape letter = t & subtract(cylinder(1.09, 0.6), cylinder(0.98, 0.8));
+  const MeshedShape m = thinned(letter, 0.0107, 3e-3);
+  EXPECT_LT(wrongShare(m.mesh, letter), 0.02);
+  EXPECT_LE(m.mesh.triangles.size(), 80u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "sdf/mesh/crease.h"
 #include "sdf/mesh/stages.h"
@@ -71,7 +72,8 @@ class FanFinder {
 };
 
 // One normal for a vertex and its copies where they are those of one smooth piece: at borders of the paint.
-void joinNormals(Mesh& mesh) {
+// Returns whose normal each vertex has.
+std::vector<std::uint32_t> joinNormals(Mesh& mesh) {
   std::vector<glm::vec3> sums(mesh.normals.begin(), mesh.normals.begin() + mesh.welded);
   std::vector<char> smooth(mesh.welded, 0);
   const auto root = [&](std::size_t copy) { return mesh.copyOf[copy]; };
@@ -81,15 +83,20 @@ void joinNormals(Mesh& mesh) {
     sums[root(i)] += n;
     if (glm::dot(n, mesh.normals[root(i)]) < std::cos(kCreaseAngle)) smooth[root(i)] = 0;
   }
+  std::vector<std::uint32_t> shared(mesh.normals.size());
+  std::iota(shared.begin(), shared.end(), 0u);
   for (std::size_t i = 0; i < mesh.copyOf.size(); ++i)
-    if (smooth[root(i)]) mesh.normals[mesh.welded + i] = glm::normalize(sums[root(i)]);
-  for (std::size_t v = 0; v < mesh.welded; ++v)
-    if (smooth[v]) mesh.normals[v] = glm::normalize(sums[v]);
+    if (smooth[root(i)]) shared[mesh.welded + i] = mesh.copyOf[i];
+  for (std::size_t v = 0; v < shared.size(); ++v)
+    if (const std::uint32_t u = shared[v]; u < mesh.welded && smooth[u])
+      mesh.normals[v] = glm::normalize(sums[u]);
+  return shared;
 }
 
 }  // namespace
 
-void splitAtCreases(const FeatureMesh& features, const LocalField& field, Progress& progress, Mesh& mesh) {
+void splitAtCreases(const FeatureMesh& features, const LocalField& field, bool coarse, Progress& progress,
+                    Mesh& mesh) {
   mesh.positions = features.positions;
   mesh.triangles = features.triangles;
   mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
@@ -115,8 +122,11 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, Progre
     looked[v] = glm::mix(features.positions[fan.vertex], middle, kInto);
   }
   gradientNormals(looked, field, progress, mesh.normals);
-  joinNormals(mesh);
-  fitNormals(mesh.positions, mesh.triangles, mesh.normals);
+  const std::vector<std::uint32_t> shared = joinNormals(mesh);
+  if (coarse)
+    fitToGradients(mesh.positions, mesh.triangles, shared, field, progress, mesh.normals);
+  else
+    fitNormals(mesh.positions, mesh.triangles, mesh.normals);
 }
 
 }  // namespace sdf

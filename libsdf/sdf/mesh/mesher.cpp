@@ -163,7 +163,7 @@ class Mesher {
     if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
     begin("normals");
     Mesh& mesh = result_.mesh;
-    splitAtCreases(features, field, progress_, mesh);
+    splitAtCreases(features, field, options_.tolerance > 0.0, progress_, mesh);
     begin("colouring");
     colorMesh(shape, features.materials, options_.values, field, progress_, mesh);
     end();

@@ -1,8 +1,12 @@
 #include "sdf/mesh/thin.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
@@ -24,6 +28,49 @@ constexpr double kMostTiles = 256.0;
 // A tolerance of more than a voxel that cannot be kept is too coarse for the shape: it is divided by so much.
 constexpr double kFiner = 4.0;
 
+// Closes gaps in creases, which would grow as vertices go: by edges, whose place was not found exactly, where
+// facets that are no slivers meet at more than 45 degrees, and that do not end loosely.
+void closeCreases(FeatureMesh& mesh) {
+  constexpr float kSharp = 0.7071f, kSliver = 0.05f;
+  struct Side {
+    std::array<std::uint32_t, 2> edge;
+    std::uint32_t triangle;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  std::vector<glm::vec3> normals;  // 0 for slivers
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    const glm::vec3 area = glm::cross(b - a, c - a);
+    const float size = glm::length(area),
+                longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+    for (int k = 0; k < 3; ++k)
+      sides.push_back({{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])},
+                       static_cast<std::uint32_t>(normals.size())});
+    normals.push_back(size > kSliver * longest ? area / size : glm::vec3(0.0f));
+  }
+  tbb::parallel_sort(sides);
+  std::vector<std::array<std::uint32_t, 2>> sharp;
+  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+    const glm::vec3 &a = normals[sides[i].triangle], &b = normals[sides[i + 1].triangle];
+    if (a == glm::vec3(0.0f) || b == glm::vec3(0.0f) || glm::dot(a, b) > kSharp) continue;
+    if (!std::ranges::binary_search(mesh.creases, sides[i].edge)) sharp.push_back(sides[i].edge);
+  }
+  std::vector<std::uint32_t> ends(mesh.positions.size(), 0);
+  for (const auto* edges : {&mesh.creases, &sharp})
+    for (const auto& edge : *edges)
+      for (const std::uint32_t v : edge) ++ends[v];
+  const auto isLoose = [&](const std::array<std::uint32_t, 2>& edge) {
+    if (ends[edge[0]] > 1 && ends[edge[1]] > 1) return false;
+    --ends[edge[0]], --ends[edge[1]];
+    return true;
+  };
+  while (std::erase_if(sharp, isLoose) > 0) {
+  }
+  mesh.creases.insert(mesh.creases.end(), sharp.begin(), sharp.end());
+  std::sort(mesh.creases.begin(), mesh.creases.end());
+}
+
 // The vertices within a reach of some places are held.
 void holdNear(const std::vector<glm::vec3>& places, double reach, FeatureMesh& mesh) {
   glm::vec3 low = mesh.positions[0], high = low;
@@ -43,7 +90,10 @@ void holdNear(const std::vector<glm::vec3>& places, double reach, FeatureMesh& m
 class Thinner {
  public:
   Thinner(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress)
-      : mesh_(mesh), field_(field), options_(options), progress_(progress), lattice_(mesh) {}
+      : mesh_(mesh), field_(field), options_(options), progress_(progress) {
+    closeCreases(mesh);
+    lattice_ = mesh;
+  }
 
   bool run() {
     for (double tolerance = options_.tolerance;;) {
