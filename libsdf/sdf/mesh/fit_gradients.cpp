@@ -72,11 +72,13 @@ class GradientFit {
     std::vector<int> parts;
     const auto finder = field_.finder();
     for (std::size_t t = first; t < last; ++t) {
-      const auto [a, b, c] = corners(t);
-      const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-      const double along = std::ceil(longest / finder->at(a).voxel);
+      const std::array<glm::vec3, 3> p = corners(t);
+      const float longest =
+          std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+      const double along = std::ceil(longest / finder->at(p[0]).voxel);
       parts.push_back(static_cast<int>(std::clamp(along, 1.0 * kFewest, 1.0 * kMost)));
-      forEachPart(parts.back(), [&](const Weights& w) { points.push_back(w[0] * a + w[1] * b + w[2] * c); });
+      forEachPart(parts.back(),
+                  [&](const Weights& w) { points.push_back(w[0] * p[0] + w[1] * p[1] + w[2] * p[2]); });
     }
     std::vector<glm::vec3> gradients(points.size());
     const std::vector<std::uint32_t> order = orderByRegion(points, field_);
