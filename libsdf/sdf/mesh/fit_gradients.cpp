@@ -81,14 +81,8 @@ class GradientFit {
                   [&](const Weights& w) { points.push_back(w[0] * p[0] + w[1] * p[1] + w[2] * p[2]); });
     }
     std::vector<glm::vec3> gradients(points.size());
-    const std::vector<std::uint32_t> order = orderByRegion(points, field_);
-    forEachRun(
-        points.size(), [&](std::size_t i) { return points[order[i]]; }, field_, progress_,
-        [&](const PointRun& run) {
-          RunGradients g;
-          g.evaluate(run, run.points);
-          for (std::size_t i = 0; i < run.count; ++i) gradients[order[run.first + i]] = g.normal(i);
-        });
+    forEachGradient(points, field_, progress_,
+                    [&](std::size_t i, const RunGradients& g, std::size_t k) { gradients[i] = g.normal(k); });
     if (progress_.stopped()) return;
     const glm::vec3* g = gradients.data();
     for (std::size_t t = first; t < last; ++t) {

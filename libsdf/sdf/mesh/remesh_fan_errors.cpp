@@ -278,15 +278,9 @@ void evaluateFans(const Fans& fans, float tolerance, Sampling sampling, const Lo
     std::size_t k = first[i];
     FanView(fans, i, tolerance, spacing).forEachSample([&](const Sample& s) { points[k++] = s.at; });
   });
-  const std::vector<std::uint32_t> order = orderByRegion(points, field);
-  forEachRun(
-      points.size(), [&](std::size_t i) { return points[order[i]]; }, field, progress,
-      [&](const PointRun& run) {
-        RunGradients g;
-        g.evaluate(run, run.points);
-        for (std::size_t i = 0; i < run.count; ++i)
-          readings[order[run.first + i]] = {g.distance(i), g.normal(i)};
-      });
+  forEachGradient(points, field, progress, [&](std::size_t i, const RunGradients& g, std::size_t k) {
+    readings[i] = {g.distance(k), g.normal(k)};
+  });
   errors.assign(fans.all.size(), {});
   tbb::enumerable_thread_specific<Rooms> rooms;
   if (progress.stopped()) return;

@@ -52,4 +52,19 @@ struct RunGradients {
   glm::vec3 step(std::size_t i) const;
 };
 
+/// Calls take(i, gradients, k) for all points, in parallel and in no order: the i-th point's are the k-th of
+/// these. The points may lie anywhere.
+template <class Take>
+void forEachGradient(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
+                     const Take& take) {
+  const std::vector<std::uint32_t> order = orderByRegion(points, field);
+  forEachRun(
+      points.size(), [&](std::size_t i) { return points[order[i]]; }, field, progress,
+      [&](const PointRun& run) {
+        RunGradients g;
+        g.evaluate(run, run.points);
+        for (std::size_t k = 0; k < run.count; ++k) take(order[run.first + k], g, k);
+      });
+}
+
 }  // namespace sdf

@@ -1,7 +1,5 @@
 #include "sdf/mesh/thin.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 
 #include "sdf/mesh/crossings.h"
 #include "sdf/mesh/remesh.h"
+#include "sdf/mesh/remesh_topology.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/mesh/tiles.h"
 
@@ -32,29 +31,21 @@ constexpr double kFiner = 4.0;
 // facets that are no slivers meet at more than 45 degrees, and that do not end loosely.
 void closeCreases(FeatureMesh& mesh) {
   constexpr float kSharp = 0.7071f, kSliver = 0.05f;
-  struct Side {
-    std::array<std::uint32_t, 2> edge;
-    std::uint32_t triangle;
-    auto operator<=>(const Side&) const = default;
-  };
-  std::vector<Side> sides;
+  const RemeshTopology topology(mesh);
   std::vector<glm::vec3> normals;  // 0 for slivers
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
     const glm::vec3 area = glm::cross(b - a, c - a);
     const float size = glm::length(area),
                 longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-    for (int k = 0; k < 3; ++k)
-      sides.push_back({{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])},
-                       static_cast<std::uint32_t>(normals.size())});
     normals.push_back(size > kSliver * longest ? area / size : glm::vec3(0.0f));
   }
-  tbb::parallel_sort(sides);
   std::vector<std::array<std::uint32_t, 2>> sharp;
-  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
-    const glm::vec3 &a = normals[sides[i].triangle], &b = normals[sides[i + 1].triangle];
+  for (std::uint32_t h = 0; h < topology.halfEdges(); ++h) {
+    if (topology.from(h) > topology.to(h) || topology.isCrease(h)) continue;
+    const glm::vec3 &a = normals[h / 3], &b = normals[topology.twin(h) / 3];
     if (a == glm::vec3(0.0f) || b == glm::vec3(0.0f) || glm::dot(a, b) > kSharp) continue;
-    if (!std::ranges::binary_search(mesh.creases, sides[i].edge)) sharp.push_back(sides[i].edge);
+    sharp.push_back({topology.from(h), topology.to(h)});
   }
   std::vector<std::uint32_t> ends(mesh.positions.size(), 0);
   for (const auto* edges : {&mesh.creases, &sharp})
