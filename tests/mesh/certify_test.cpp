@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <numbers>
 #include <random>
 
 #include "mesh/scenes.h"
@@ -10,6 +11,9 @@
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/mesh/certify_shell.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/shape/deform.h"
+#include "sdf/shape/flats.h"
+#include "sdf/shape/pattern.h"
 
 namespace sdf::test {
 namespace {
@@ -21,10 +25,12 @@ struct Subject {
   double measured;
   CertifyOptions options;
 
-  Subject(const Shape& s, double voxel) : shape(s) {
+  Subject(const Shape& s, double voxel, double tolerance = 0.0) : shape(s) {
     Progress progress;
-    const Box bounds = intersect(findBounds(s), region(2.0));
-    MeshedShape meshed = meshShape(s, "part", {.voxelSize = voxel, .bounds = bounds}, progress).value();
+    const Box bounds = intersect(findBounds(s), region(3.0));
+    MeshedShape meshed =
+        meshShape(s, "part", {.voxelSize = voxel, .tolerance = tolerance, .bounds = bounds}, progress)
+            .value();
     mesh = std::move(meshed.mesh);
     // Vertices are repeated at creases; the proof is of the closed mesh.
     for (glm::uvec3& t : mesh.triangles)
@@ -32,7 +38,8 @@ struct Subject {
         if (t[k] >= mesh.welded) t[k] = mesh.copyOf[t[k] - mesh.welded];
     mesh.positions.resize(mesh.welded);
     measured = meshed.stats.maxDistance;
-    options = {bounds, 2.5 * measured, voxel, kFarthestVoxels * voxel};
+    options = {bounds, std::max(2.5 * measured, 0x1p-22 * bounds.longestSide()), voxel,
+               kFarthestVoxels * voxel};
   }
   Certificate certificate() const {
     Progress progress;
@@ -44,7 +51,23 @@ struct ProvenCase {
   const char* name;
   Shape shape;
   double voxel;
+  double tolerance = 0.0;
 };
+
+Shape pentagon() {
+  const glm::dvec2 points[] = {{0.0, 0.9}, {-0.8, 0.1}, {-0.3, -0.7}, {0.5, -0.8}, {0.9, 0.3}};
+  return polygon(points);
+}
+
+// Sectors meet where a turn to the nearest tooth jumps, teeth are blended with the disc they stand on.
+Shape gear() {
+  const double quarter = std::numbers::pi / 2;
+  const Shape tooth = translate(trapezoid(0.18, 0.1, 0.2), {0.0, 1.05, 0.0});
+  const Shape teeth =
+      rotate(polarRepeat(rotate(extrude(tooth, 0.5), {quarter, 0.0, 0.0}), 9), {-quarter, 0.0, 0.0});
+  const Shape whole = unite({extrude(circle(0.9), 0.5), teeth}, Blend::quadratic(0.08));
+  return subtract(whole & box({3.0, 3.0, 0.3}), box({0.3, 0.25, 1.0}));
+}
 
 TEST(Certify, BoundsRightMeshesWithinThreeTimesTheirMeasuredDistance) {
   const ProvenCase cases[] = {
@@ -58,15 +81,21 @@ TEST(Certify, BoundsRightMeshesWithinThreeTimesTheirMeasuredDistance) {
       {"box with bores", boredBox(), 1.0 / 16},
       {"two balls", translate(sphere(0.5), {0.7, 0.0, 0.0}) | translate(sphere(0.5), {-0.7, 0.0, 0.0}),
        1.0 / 24},
+      {"trapezoid", extrude(trapezoid(0.5, 0.3, 0.4), 0.4), 1.0 / 20},
+      {"polygon", extrude(pentagon(), 0.4), 1.0 / 20},
+      {"capped cone", cappedCone(0.5, 0.2, 0.6), 1.0 / 40},
+      // With triangles that are larger than voxels, and than what is between parts.
+      {"thin ring", torus(1.0, 0.4), 1.0 / 40, 2e-3},
+      {"thin gear", gear(), 1.0 / 50, 3e-3},
   };
   for (const ProvenCase& c : cases) {
     SCOPED_TRACE(c.name);
-    const Subject subject(c.shape, c.voxel);
+    const Subject subject(c.shape, c.voxel, c.tolerance);
     const Certificate proof = subject.certificate();
     EXPECT_TRUE(proof.proven()) << proof.unproven << " cells, the first at (" << proof.firstUnproven.x << ", "
                                 << proof.firstUnproven.y << ", " << proof.firstUnproven.z << ")";
     EXPECT_GE(proof.toSurface, subject.measured);  // which lies on the mesh
-    EXPECT_LE(proof.bound(), 3.0 * subject.measured);
+    EXPECT_LE(proof.bound(), std::max(3.0 * subject.measured, 1.01 * subject.options.goal));
   }
 }
 
@@ -228,8 +257,9 @@ struct RandomPrism {
 TEST(ProofReading, ContainsValuesAndSlopes) {
   int rising = 0, bounded = 0;
   ProofReading reading;
-  for (const Shape& shape : {boredBox(), melt(), latticeBall(), sphere(1.0), torus(1.0, 0.3), box(Vec3E(1.0)),
-                             cylinder(0.8, 0.7), cone(0.8, 0.9)}) {
+  for (const Shape& shape :
+       {boredBox(), melt(), latticeBall(), sphere(1.0), torus(1.0, 0.3), box(Vec3E(1.0)), cylinder(0.8, 0.7),
+        cone(0.8, 0.9), cappedCone(0.9, 0.2, 0.6), extrude(pentagon(), 0.5), gear()}) {
     const TapePtr tape = tapeOf(shape)->firstOutputOnly();
     for (unsigned seed = 0; seed < 60; ++seed) {
       SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -252,6 +282,8 @@ TEST(ProofReading, ContainsValuesAndSlopes) {
             (evaluate(*tape, m + to * o) - evaluate(*tape, m + from * o)) * (to > from ? 1.0 : -1.0);
         EXPECT_LE(bounds.least * way - ulps, rise);
         EXPECT_GE(bounds.most * way + ulps, rise);
+        EXPECT_LE(bounds.all.lo - ulps, evaluate(*tape, m + to * o));
+        EXPECT_GE(bounds.all.hi + ulps, evaluate(*tape, m + to * o));
         const glm::dvec3 b = p.box.min + 0.5 * (1.0 + p.direction()) * p.box.size();
         EXPECT_LE(inBox.lo - ulps, evaluate(*tape, b));
         EXPECT_GE(inBox.hi + ulps, evaluate(*tape, b));
@@ -303,6 +335,31 @@ TEST(ProofReading, KnowsHowABoxRisesBesideItsEdges) {
   EXPECT_NEAR(rise({1, 1, 0}, {1, 1, 0}), std::sqrt(0.5), 1e-10);
   EXPECT_NEAR(rise({1, 1, 1}, {1, 1, 1}), std::sqrt(1.0 / 3.0), 1e-10);
   EXPECT_LE(rise({1, 1, 0}, {1, -1, 0}), 0.0);
+}
+
+TEST(ProofReading, KnowsHowAPolygonRisesBesideItsCorners) {
+  // At right angles to a side by one, along the middle of a corner by what its sides rise by.
+  const TapePtr tape = tapeOf(pentagon())->firstOutputOnly();
+  const glm::dvec2 corner(-0.3, -0.7), before(-0.8, 0.1), after(0.5, -0.8);
+  const auto normalOf = [](const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::dvec2 way = glm::normalize(to - from);
+    return glm::dvec2(way.y, -way.x);
+  };
+  const glm::dvec2 n = normalOf(before, corner), middle = glm::normalize(n + normalOf(corner, after));
+  const auto rise = [&](const glm::dvec2& at, const glm::dvec2& way) {
+    Prism prism;
+    for (int k = 0; k < 3; ++k) {
+      prism.corners[k] = {at, 0.0};
+      prism.corners[k][k] += 0.01;
+      prism.offsets[k] = {0.01 * way, 0.0};
+    }
+    PrismBounds bounds;
+    ProofReading().prisms(*tape, {&prism, 1}, &bounds);
+    return bounds.least / 0.01;
+  };
+  EXPECT_NEAR(rise(0.5 * (before + corner), n), 1.0, 1e-10);
+  EXPECT_NEAR(rise(corner, middle), glm::dot(n, middle), 1e-8);
+  EXPECT_LE(rise(corner, {middle.y, -middle.x}), 0.0);
 }
 
 TEST(ProofReading, BelievesABoxesFormulaOnlyWhereItIsOne) {

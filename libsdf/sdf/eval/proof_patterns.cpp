@@ -25,9 +25,11 @@ class Finder {
   double number(Operand a) const { return tape_.constant(a.index()); }
   bool isZero(Operand a) const { return a.isConstant() && number(a) == 0.0; }
 
-  // The leaves of a tree of maxima; false where they are more than three.
+  // The leaves of a tree of maxima, of which p's parts are some; false where they are more than three.
   bool leaves(Operand a, Pattern& p) const {
-    if (const Instruction* both = made(a, Op::Max)) return leaves(both->in[0], p) && leaves(both->in[1], p);
+    const bool isPart = std::find(p.parts.begin(), p.parts.begin() + p.count, a) != p.parts.begin() + p.count;
+    const Instruction* both = isPart ? nullptr : made(a, Op::Max);
+    if (both) return leaves(both->in[0], p) && leaves(both->in[1], p);
     if (p.otherCount == 3) return false;
     p.others[p.otherCount++] = a;
     return true;
@@ -58,14 +60,39 @@ class Finder {
     if (!low || !isZero(low->in[1])) return {};
     Pattern p;
     p.outside = outside, p.inside = inside, p.most = low->in[0];
-    if (!leaves(p.most, p) || !components(outside, p)) return {};
+    if (!components(outside, p) || !leaves(p.most, p)) return {};
     for (int i = 0; i < p.count; ++i) {
       const auto end = p.others.begin() + p.otherCount, at = std::find(p.others.begin(), end, p.parts[i]);
       p.isInside[i] = at != end;
       if (p.isInside[i]) *at = p.others[--p.otherCount];
     }
     p.kind = Pattern::BoxDistance;
+    if (p.count == 2) findCorner(p);
     return p;
+  }
+
+  // a x as x and a.
+  std::pair<Operand, double> factors(Operand product) const {
+    const Instruction* n = made(product, Op::Mul);
+    if (!n) return {product, 1.0};
+    for (int k = 0; k < 2; ++k)
+      if (n->in[k].isConstant()) return {n->in[1 - k], number(n->in[k])};
+    return {product, 1.0};
+  }
+
+  void findCorner(Pattern& p) const {
+    const Instruction* out = made(p.most, Op::Max);
+    const Instruction* past = out ? made(p.parts[p.parts[0] == p.most], Op::Sub) : nullptr;
+    if (!past) return;
+    const auto [low, a] = factors(past->in[0]);
+    const auto [high, b] = factors(past->in[1]);
+    const Instruction* least = made(low, Op::Min);
+    if (!least || high != p.most || least->in != out->in) return;
+    // Constants are rounded; the bounds have room for that.
+    if (!(a > 0.0) || !(std::abs(a * a - b * b - 1.0) < 1e-12 * a * a)) return;
+    p.kind = Pattern::Corner;
+    p.sides = {out->in[0], out->in[1]};
+    p.k = b / a;
   }
 
   Pattern blend(const Instruction& sum) const {

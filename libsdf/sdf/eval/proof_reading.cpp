@@ -66,7 +66,19 @@ class TermReading {
   T run(const T (&variables)[kVariableCount]) {
     variables_ = variables;
     unsure_ = none();
-    for (std::size_t at = 0; at < tape_.instructions().size(); ++at) terms_[at] = term(at);
+    const auto lengthOf3 = [&](const auto& part) {
+      return sqrt(addKeepingSign(square(part(variables[0])),
+                                 addKeepingSign(square(part(variables[1])), square(part(variables[2])))))
+          .hi;
+    };
+    for (int k = 0; k < 3; ++k) ways_[k] = lengthOf3([&](const T& x) { return x.d[k]; });
+    if constexpr (T::kFlat)
+      for (int k = 0; k < 2; ++k) sides_[k] = lengthOf3([&](const T& x) { return x.s[k]; });
+    for (std::size_t at = 0; at < tape_.instructions().size(); ++at) {
+      terms_[at] = term(at);
+      if (const float slope = tape_.instructions()[at].lipschitz; slope < HUGE_VALF)
+        narrowSlopes(slope, ways_, sides_, terms_[at]);
+    }
     return operand(tape_.outputs()[0]);
   }
   // Lanes in which something may be no number.
@@ -82,9 +94,11 @@ class TermReading {
     const Instruction& n = tape_.instructions()[at];
     const Pattern& pattern = patterns_[at];
     if (pattern.kind == Pattern::BoxDistance) return box(pattern);
-    if (pattern.kind != Pattern::Blend) return plain(n);
-    T r = plain(n);
-    narrowBlend(pattern.k, pattern.isMin, operand(pattern.parts[0]), operand(pattern.parts[1]), r);
+    T r = pattern.kind == Pattern::Corner ? box(pattern) : plain(n);
+    if (pattern.kind == Pattern::Corner)
+      narrowCorner(pattern.k, operand(pattern.sides[0]), operand(pattern.sides[1]), r);
+    if (pattern.kind == Pattern::Blend)
+      narrowBlend(pattern.k, pattern.isMin, operand(pattern.parts[0]), operand(pattern.parts[1]), r);
     return r;
   }
 
@@ -232,6 +246,7 @@ class TermReading {
   const T* variables_ = nullptr;
   T* terms_;
   M unsure_;
+  V ways_[3], sides_[2];  // lengths of the directions that slopes are taken along
 };
 
 // One number of each of `count` items, from `first` on; the last one is repeated.
@@ -276,14 +291,20 @@ void RunPrisms(const PrismJob& job) {
       x.v = add(x.m, symmetric(mostOf(x.d)));
     }
     const PrismTerm f = reading.run(variables);
-    HWY_ALIGN double lo[kMostLanes], hi[kMostLanes], least[kMostLanes], most[kMostLanes], unsure[kMostLanes];
+    HWY_ALIGN double lo[kMostLanes], hi[kMostLanes], least[kMostLanes], most[kMostLanes], unsure[kMostLanes],
+        lowest[kMostLanes], highest[kMostLanes];
     hn::Store(f.m.lo, kD, lo);
     hn::Store(f.m.hi, kD, hi);
+    hn::Store(f.v.lo, kD, lowest);
+    hn::Store(f.v.hi, kD, highest);
     hn::Store(hn::Min(hn::Min(f.d[0].lo, f.d[1].lo), f.d[2].lo), kD, least);
     hn::Store(mostOf(f.d), kD, most);
     hn::Store(hn::IfThenElseZero(reading.unsure(), splat(1.0)), kD, unsure);
     for (std::size_t l = 0; l < hn::Lanes(kD) && first + l < count; ++l)
-      job.out[first + l] = unsure[l] == 0.0 ? PrismBounds{{lo[l], hi[l]}, least[l], most[l]} : PrismBounds{};
+      if (unsure[l] == 0.0)
+        job.out[first + l] = {{lo[l], hi[l]}, {lowest[l], highest[l]}, least[l], most[l]};
+      else
+        job.out[first + l] = {};
   }
 }
 

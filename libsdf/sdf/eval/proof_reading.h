@@ -21,6 +21,7 @@ struct Prism {
 /// What is known of a field over a prism. Where something may be no number, nothing is known.
 struct PrismBounds {
   Interval values{-HUGE_VAL, HUGE_VAL};  ///< of f over the triangle, t = 0
+  Interval all{-HUGE_VAL, HUGE_VAL};     ///< of f over the prism
   double least = -HUGE_VAL;              ///< f rises by this at least as t rises by 1, on each line
   double most = HUGE_VAL;                ///< and by this at most
 };

@@ -399,6 +399,36 @@ T boxDistance(const BoxParts<T>& box) {
   return r;
 }
 
+// Narrows the distance d to a corner with the sides x and y and the cosine c: it is x, y, or where p =
+// (min(x, y) - c max(x, y)) / s is positive the root of max(x, y)² + p², whose slope is (x' (x - c y) + y' (y
+// - c x)) / (s² d). Neither weight is negative there, and they add up to 1 at least and sqrt(2 / (1 + c)) at
+// most.
+template <class T>
+void narrowCorner(double c, const T& x, const T& y, T& r) {
+  constexpr double kLess = 1.0 - 1e-9, kMore = 1.0 + 1e-9;
+  const double most = std::sqrt(2.0 / (1.0 + c)) * kMore;
+  const V zero = hn::Zero(kD);
+  const auto within = [&](const Range& a, const Range& b) {
+    const Range h = hull(a, b), larger = scale(most, h), smaller = scale(kLess, h);
+    return Range(hn::IfThenElse(hn::Ge(h.lo, zero), smaller.lo, larger.lo),
+                 hn::IfThenElse(hn::Le(h.hi, zero), smaller.hi, larger.hi));
+  };
+  for (int k = 0; k < 3; ++k) r.d[k] = common(r.d[k], within(x.d[k], y.d[k]));
+  if constexpr (T::kFlat)
+    for (int k = 0; k < 2; ++k) r.s[k] = common(r.s[k], within(x.s[k], y.s[k]));
+  narrow(r);
+}
+
+// Narrows by what is proven of the slope over all of space; `ways` are the lengths of the slopes' directions.
+template <class T>
+void narrowSlopes(double slope, const V (&ways)[3], const V (&sides)[2], T& r) {
+  const V most = splat(slope);
+  for (int k = 0; k < 3; ++k) r.d[k] = common(r.d[k], symmetric(hn::Mul(most, ways[k])));
+  if constexpr (T::kFlat)
+    for (int k = 0; k < 2; ++k) r.s[k] = common(r.s[k], symmetric(hn::Mul(most, sides[k])));
+  narrow(r);
+}
+
 // Narrows a quadratic blend of x and y by what its slope is, the mean w dx + (1 - w) dy, and its curvature,
 // w d²x + (1 - w) d²y + w' (dx - dy)², where w falls from 1 to 0 (rises, of a maximum) by 1 / 2k as x - y
 // goes from -k to k.

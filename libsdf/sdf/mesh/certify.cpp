@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kTask = 400;
 // How often offsets are halved where their prisms reach too far.
 constexpr int kRounds = 7;
+// Of the goal: offsets that are shorter are not halved.
+constexpr double kLeastReach = 6.0;
 // Of the voxel size: what faces are lifted by at first, at least.
 constexpr double kLeastOffset = 1.0;
 // How much smaller than the finest cells a task may be.
@@ -171,19 +173,23 @@ class Certifier {
 
   void prove(const Region& task, const std::vector<std::uint32_t>& triangles) {
     if (triangles.empty() || progress_.stopped()) return;
-    sdf::provePrisms(*task.tape, shell_, triangles, options_.goal, readings_.local(), proofs_);
+    sdf::provePrisms(*task.tape, model_.slope() < kInfinity, shell_, triangles, options_.goal,
+                     readings_.local(), proofs_);
     // Tapes are the model's up to distances of a task's side, and more.
     for (const std::uint32_t t : triangles)
       proofs_[t].sides = std::min(proofs_[t].sides, task.box.longestSide());
   }
 
-  // Halves the offsets at triangles whose field does not rise through the prism; false where there are none.
+  // Halves the offsets at triangles whose prisms are not proven to be passed, where they are not as low as
+  // the surface may well be away; false where there are none.
   bool shrink() {
     std::vector<bool> halved(shell_.positions().size(), false);
     bool any = false;
     for (std::uint32_t t = 0; t < shell_.size(); ++t)
-      if (proofs_[t].looked && proofs_[t].rise <= 0.0)
-        for (int k = 0; k < 3; ++k) halved[shell_.triangle(t)[k]] = any = true;
+      if (const PrismProof& p = proofs_[t]; p.looked && (!p.passed || p.bound > options_.limit))
+        for (int k = 0; k < 3; ++k)
+          if (const std::uint32_t v = shell_.triangle(t)[k]; shell_.reach(v) > kLeastReach * options_.goal)
+            halved[v] = any = true;
     for (std::uint32_t v = 0; v < halved.size(); ++v)
       if (halved[v]) shell_.halveOffset(v);
     for (std::uint32_t t = 0; t < shell_.size(); ++t)

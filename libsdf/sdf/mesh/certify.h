@@ -44,7 +44,9 @@ struct Certificate {
 /// (after Waldron 1998), branch by branch. So each point of the mesh has the surface, and each point of the
 /// surface in the shell the mesh, within that. Triangles are quartered where it helps, prisms made flatter,
 /// once the zero is known to be low in them, and smaller where they reach into what belongs to another part
-/// of the surface.
+/// of the surface. Where a continuous field is not seen to rise, or the bound that follows is not good
+/// enough, it is shown to be positive above some height and negative below as much, which bounds its zeros,
+/// too.
 ///
 /// Outside the shell there is none: space is divided into cells. In some intervals show that f is not 0. In
 /// all others |f| is smaller than on the outer and inner sides of all prisms that may be there, so that these

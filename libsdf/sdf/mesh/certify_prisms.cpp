@@ -20,7 +20,10 @@ constexpr int kMostParts = 40'000, kFewestParts = 200;
 constexpr double kEven = 0.25;
 // Of the largest rise: sides whose values are proven to be above that are high enough.
 constexpr double kHigh = 0.4;
-constexpr int kDepthForSides = 3;
+constexpr int kDepthForSides = 6;
+// How often what is left of a prism above and below the surface is divided, in height or in four.
+constexpr int kDepthForSigns = 10;
+constexpr int kMostSigns = 6000;
 // How much higher than where the surface is proven to be a flattened prism is.
 constexpr double kSpare = 1.2;
 // A prism that would not get flatter than that stays as it is.
@@ -64,10 +67,28 @@ bool mayDivideForRise(const Part& part) {
          (part.depth < 2 || longestSide(part.prism) > longest(part.prism.offsets));
 }
 
+// What lies from one height to another in a part's prism on the outer or the inner side of its triangle.
+struct Slab {
+  Part part;
+  std::uint32_t open;  // the part that it is of
+  double from, to;     // of the offsets
+  bool outer;
+
+  Prism prism() const {
+    Prism p = part.prism;
+    const double middle = (outer ? 0.5 : -0.5) * (from + to), half = 0.5 * (to - from);
+    for (int k = 0; k < 3; ++k) {
+      p.corners[k] += middle * p.offsets[k];
+      p.offsets[k] *= half;
+    }
+    return p;
+  }
+};
+
 class PrismProver {
  public:
-  PrismProver(const Tape& tape, double goal, ProofReading& reading)
-      : tape_(tape), goal_(goal), reading_(reading) {}
+  PrismProver(const Tape& tape, bool continuous, double goal, ProofReading& reading)
+      : tape_(tape), continuous_(continuous), goal_(goal), reading_(reading) {}
 
   // All parts of all triangles, level by level, so that vectors are full.
   void prove(const Shell& shell, std::span<const std::uint32_t> triangles, std::vector<PrismProof>& proofs) {
@@ -76,27 +97,32 @@ class PrismProver {
     most_.assign(triangles.size(), 0.0);
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       parts.push_back({shell.prism(triangles[i]), i, 0, false, kInfinity});
-      proofs[triangles[i]] = {true, 0.0, kInfinity, kInfinity};
+      proofs[triangles[i]] = {true, true, 0.0, kInfinity};
     }
-    readInRounds(std::move(parts), [&](const Part& part, const PrismBounds& bounds) {
-      PrismProof& proof = proofs[triangles[part.triangle]];
-      if (proof.rise > 0.0) part.flattened ? tighten(part, bounds, proof) : look(part, bounds, proof);
+    const auto proofOf = [&](std::uint32_t i) -> PrismProof& { return proofs[triangles[i]]; };
+    readInRounds(std::move(parts), next_, [&](const Part& part, const PrismBounds& bounds) {
+      PrismProof& proof = proofOf(part.triangle);
+      if (proof.passed) part.flattened ? tighten(part, bounds, proof) : look(part, bounds, proof);
     });
+    lookAtSigns(proofOf);
     lookAtSides(shell, triangles, proofs);
   }
 
  private:
-  // Calls take(part, bounds) for the parts, then for those that this has put into next_, and so on.
-  template <class Take>
-  void readInRounds(std::vector<Part> parts, const Take& take) {
+  static const Prism& prismOf(const Part& part) { return part.prism; }
+  static Prism prismOf(const Slab& slab) { return slab.prism(); }
+
+  // Calls take(part, bounds) for the parts, then for those that this has put into `next`, and so on.
+  template <class P, class Take>
+  void readInRounds(std::vector<P> parts, std::vector<P>& next, const Take& take) {
     std::vector<Prism> prisms;
     std::vector<PrismBounds> bounds;
-    for (; !parts.empty(); parts.swap(next_)) {
+    for (; !parts.empty(); parts.swap(next)) {
       prisms.clear();
-      for (const Part& p : parts) prisms.push_back(p.prism);
+      for (const P& p : parts) prisms.push_back(prismOf(p));
       bounds.resize(parts.size());
       reading_.prisms(tape_, prisms, bounds.data());
-      next_.clear();
+      next.clear();
       for (std::size_t i = 0; i < parts.size(); ++i) take(parts[i], bounds[i]);
     }
   }
@@ -115,7 +141,7 @@ class PrismProver {
         divide(part))
       return;
     if (!(b.least > 0.0) || !hasSlope) {  // a field that may jump has no zero for sure
-      proof = {true, kInfinity, 0.0, -kInfinity};
+      settle(part, kInfinity, proof);
       return;
     }
     // Lines cross the surface within this share of their half.
@@ -123,14 +149,26 @@ class PrismProver {
     const double bound = share * longest(part.prism.offsets);
     const bool canFlatten = kSpare * share < kFlatter;
     if (bound > goal_ && !canFlatten && part.depth < kDepthForGoal && divide(part)) return;
-    proof.rise = std::min(proof.rise, b.least);
     proof.sides = std::min(proof.sides, b.least - b.values.magnitude());
     most_[part.triangle] = std::max(most_[part.triangle], b.most);
     if (bound > goal_ && canFlatten) {
       next_.push_back(flattened(part, kSpare * share, bound));
     } else {
-      proof.bound = std::max(proof.bound, bound);
+      settle(part, bound, proof);
     }
+  }
+
+  // This bound is proven of the part (or none, infinite); where it does not suffice, signs may give another.
+  void settle(Part part, double bound, PrismProof& proof) {
+    part.bound = bound;
+    if (bound > goal_ && continuous_)
+      open_.push_back(part);
+    else
+      take(bound, proof);
+  }
+  static void take(double bound, PrismProof& proof) {
+    proof.bound = std::max(proof.bound, bound);
+    proof.passed = proof.bound < kInfinity;
   }
 
   static Part flattened(Part part, double share, double bound) {
@@ -148,7 +186,63 @@ class PrismProver {
       return;
     }
     if (bound > goal_ && part.depth < kDepthForGoal && divide(part)) return;
-    proof.bound = std::max(proof.bound, bound);
+    settle(part, bound, proof);
+  }
+
+  // Where the field is not seen to rise, or no more than by little: it passes 0 all the same where it is
+  // positive above the triangle and negative below, from some height on.
+  template <class ProofOf>
+  void lookAtSigns(const ProofOf& proofOf) {
+    std::vector<Slab> slabs, next;
+    std::vector<PrismProof> found(open_.size());
+    looked_.assign(looked_.size(), 0);
+    for (std::uint32_t i = 0; i < open_.size(); ++i) {
+      const double reach = longest(open_[i].prism.offsets), from = std::min(goal_ / reach, 0.5);
+      for (double to = 1.0; to > from; to *= 0.5)
+        for (const bool outer : {true, false})
+          slabs.push_back({open_[i], i, std::max(from, 0.5 * to), to, outer});
+      found[i] = {true, true, from * reach, kInfinity};
+    }
+    readInRounds(std::move(slabs), next, [&](const Slab& slab, const PrismBounds& bounds) {
+      PrismProof& proof = found[slab.open];
+      if (!proof.passed || !proofOf(slab.part.triangle).passed) return;
+      const double least = slab.outer ? bounds.all.lo : -bounds.all.hi;
+      const bool isWrong = slab.outer ? bounds.values.hi < 0.0 : bounds.values.lo > 0.0;
+      if (least > 0.0) {
+        if (slab.to == 1.0) proof.sides = std::min(proof.sides, least);
+      } else if (!isWrong && slab.part.depth < open_[slab.open].depth + kDepthForSigns &&
+                 looked_[slab.part.triangle] < kMostSigns) {
+        looked_[slab.part.triangle] += divide(slab, next);
+      } else {
+        take(slab.to < 1.0 ? slab.to * longest(slab.part.prism.offsets) : kInfinity, proof);
+        if (!proof.passed) take(open_[slab.open].bound, proofOf(slab.part.triangle));
+      }
+    });
+    for (std::uint32_t i = 0; i < open_.size(); ++i) {
+      PrismProof& proof = proofOf(open_[i].triangle);
+      take(std::min(found[i].bound, open_[i].bound), proof);
+      if (open_[i].bound < kInfinity) continue;
+      proof.sides = std::min(proof.sides, found[i].passed ? found[i].sides : -kInfinity);
+      most_[open_[i].triangle] = std::max(most_[open_[i].triangle], longest(open_[i].prism.offsets));
+    }
+    open_.clear();
+  }
+
+  // In height, or in four; returns in how many.
+  int divide(const Slab& slab, std::vector<Slab>& next) {
+    if ((slab.to - slab.from) * longest(slab.part.prism.offsets) > longestSide(slab.part.prism)) {
+      const double middle = 0.5 * (slab.from + slab.to);
+      for (const bool upper : {false, true}) {
+        next.push_back(slab);
+        (upper ? next.back().from : next.back().to) = middle;
+        ++next.back().part.depth;
+      }
+      return 2;
+    }
+    quarter(slab.part, next_);
+    for (const Part& part : next_) next.push_back({part, slab.open, slab.from, slab.to, slab.outer});
+    next_.clear();
+    return 4;
   }
 
   // Where the rise promises little of the values on the prisms' sides, beside creases, these are looked at
@@ -159,7 +253,7 @@ class PrismProver {
     std::vector<double> found(triangles.size(), kInfinity);
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       const PrismProof& proof = proofs[triangles[i]];
-      if (!(proof.rise > 0.0) || proof.sides > kHigh * most_[i]) continue;
+      if (!proof.passed || proof.sides > kHigh * most_[i]) continue;
       for (const bool outer : {true, false}) {
         Part side{shell.prism(triangles[i]), i, 0, outer, 0.0};
         for (int k = 0; k < 3; ++k)
@@ -168,7 +262,7 @@ class PrismProver {
         parts.push_back(side);
       }
     }
-    readInRounds(std::move(parts), [&](const Part& part, const PrismBounds& bounds) {
+    readInRounds(std::move(parts), next_, [&](const Part& part, const PrismBounds& bounds) {
       const std::uint32_t t = part.triangle;
       const double least = part.flattened ? bounds.values.lo : -bounds.values.hi;
       if (least < kHigh * most_[t] && part.depth < kDepthForSides)
@@ -179,21 +273,26 @@ class PrismProver {
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
       if (PrismProof& proof = proofs[triangles[i]]; found[i] < kInfinity)
         proof.sides = std::max(proof.sides, found[i]);
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+      if (PrismProof& proof = proofs[triangles[i]]; proof.proven())
+        proof.bound = std::min(proof.bound, longest(shell.prism(triangles[i]).offsets));
   }
 
   const Tape& tape_;
+  const bool continuous_;
   const double goal_;
   ProofReading& reading_;
-  std::vector<int> looked_;   // parts of each triangle
-  std::vector<double> most_;  // largest rise in each
-  std::vector<Part> next_;
+  std::vector<int> looked_;        // parts of each triangle
+  std::vector<double> most_;       // largest rise in each
+  std::vector<Part> next_, open_;  // open: that signs may tell more about
 };
 
 }  // namespace
 
-void provePrisms(const Tape& tape, const Shell& shell, std::span<const std::uint32_t> triangles, double goal,
-                 ProofReading& reading, std::vector<PrismProof>& proofs) {
-  PrismProver(tape, goal, reading).prove(shell, triangles, proofs);
+void provePrisms(const Tape& tape, bool continuous, const Shell& shell,
+                 std::span<const std::uint32_t> triangles, double goal, ProofReading& reading,
+                 std::vector<PrismProof>& proofs) {
+  PrismProver(tape, continuous, goal, reading).prove(shell, triangles, proofs);
 }
 
 }  // namespace sdf

@@ -11,15 +11,16 @@ namespace sdf {
 /// What is proven of one prism.
 struct PrismProof {
   bool looked = false;
+  bool passed = false;       ///< by the surface, from the inner side to the outer one
   double bound = kInfinity;  ///< from the triangle to the surface along each line, at most; scene units
-  double rise = 0.0;         ///< least rise of the field from the triangle to the prism's outer side
   double sides = 0.0;        ///< f is no less on the outer side, and no larger than its negative on the inner
   bool proven() const { return sides > 0.0; }
 };
 
 /// Proves the triangles' prisms, in parts where that helps and a bound of `goal` is not reached. The tape
-/// holds all over the prisms.
-void provePrisms(const Tape& tape, const Shell& shell, std::span<const std::uint32_t> triangles, double goal,
-                 ProofReading& reading, std::vector<PrismProof>& proofs);
+/// holds all over the prisms; `continuous`: so is the field.
+void provePrisms(const Tape& tape, bool continuous, const Shell& shell,
+                 std::span<const std::uint32_t> triangles, double goal, ProofReading& reading,
+                 std::vector<PrismProof>& proofs);
 
 }  // namespace sdf

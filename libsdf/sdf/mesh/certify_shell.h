@@ -1,6 +1,7 @@
 // The shell around a mesh: a prism on each triangle, which share their walls.
 #pragma once
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -27,6 +28,7 @@ class Shell {
   /// Of the triangle alone.
   Box flatBoxOf(std::uint32_t t) const;
   glm::dvec3 centre(std::uint32_t t) const;
+  double reach(std::uint32_t vertex) const { return glm::length(offsets_[vertex]); }
   void halveOffset(std::uint32_t vertex) { offsets_[vertex] *= 0.5; }
 
  private:

@@ -260,7 +260,7 @@ class Mesher {
     // Three times the measured distance is what a proof may well come to. Vertices are floats, a rounding
     // off.
     const double goal = std::max(2.5 * stats.maxDistance, 0x1p-22 * bounds.longestSide());
-    const double limit = std::max(kFarthestVoxels * voxel, goal);
+    const double limit = std::max(kFarthestVoxels * voxel, 4.0 * goal);
     const Certificate proof =
         certify(mesh.positions, mesh.triangles, model, {bounds, goal, voxel, limit}, progress_);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};

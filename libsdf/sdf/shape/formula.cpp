@@ -47,6 +47,22 @@ Expr boxDistance(const std::vector<Expr>& sides, double slope) {
   return (corner.claimLipschitz(slope) + min(most, 0.0)).claimLipschitz(slope);
 }
 
+namespace {
+
+// Distance to a half-line, from that to its line and how far its end is passed; negative on its inner side.
+Expr pastOrOut(const Expr& out, const Expr& past) {
+  return (norm(max(out, 0.0), max(past, 0.0)) + min(out, 0.0)).claimLipschitz(1.0);
+}
+
+}  // namespace
+
+Expr cornerDistance(const Expr& a, const Expr& b, const Expr& cosine, const Expr& sine) {
+  const Expr out = max(a, b);
+  // Along the edge that is nearer, past the corner. Where `out` is not positive nor is this, however rounded.
+  const Expr past = scaled(min(a, b), 1.0 / sine) - scaled(out, cosine / sine);
+  return pastOrOut(out, past.claimLipschitz(1.0));
+}
+
 Expr insideOr(const Expr& inside, const Expr& outside) {
   return select(lessEqual(inside, 0.0), inside, outside).claimLipschitz(1.0);
 }
@@ -58,12 +74,11 @@ Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom
   // The slanted side's own frame, from its upper end: `out` of the side, `down` along it.
   const Expr x = across - top, y = along - half;
   const Expr out = (scaled(x, rise / slant) + scaled(y, run / slant)).claimLipschitz(1.0);
-  const Expr down = (scaled(x, run / slant) - scaled(y, rise / slant)).claimLipschitz(1.0);
-  const Expr inside = max(out, abs(along) - half);  // negative inside, and exact there: the shape is convex
-  Expr outside = min(norm(out, beyond(down, slant)), norm(max(across - bottom, 0.0), along + half));
-  // A side that ends in a point needs no upper end of its own.
-  if (!top.isConstant(0.0)) outside = min(outside, norm(max(x, 0.0), y));
-  return insideOr(inside, outside);
+  const Expr atBottom = cornerDistance(-along - half, out, -run / slant, rise / slant);
+  if (!top.isConstant(0.0)) return max(atBottom, cornerDistance(out, y, run / slant, rise / slant));
+  // The tip's two sides are folded on each other.
+  const Expr past = (scaled(out, rise / run) - scaled(across, slant / run)).claimLipschitz(1.0);
+  return max(atBottom, pastOrOut(out, past));
 }
 
 Expr arcDistance(const Expr& along, const Expr& across, const Expr& radius, const Expr& angle) {
@@ -113,8 +128,9 @@ Expr regularPolygonDistance(const Expr& along, const Expr& across, int sides, co
   const Wedge w = foldDihedral(along, across, sides);
   const double s = std::sin(std::numbers::pi / sides), c = std::cos(std::numbers::pi / sides);
   const Expr out = (w.along * c + w.across * s).claimLipschitz(1.0) - radius * c;
-  const Expr sideways = (w.along * s - w.across * c).claimLipschitz(1.0) - radius * s;
-  return (norm(max(out, 0.0), max(sideways, 0.0)) + min(out, 0.0)).claimLipschitz(1.0);
+  // Past the corner, along the side; where `out` is not positive nor is this, however rounded.
+  const Expr sideways = (out * (s / c) - w.across * (1.0 / c)).claimLipschitz(1.0);
+  return pastOrOut(out, sideways);
 }
 
 std::pair<glm::dvec2, glm::dvec2> regularPolygonBounds(int sides) {

@@ -42,6 +42,12 @@ Expr boxDistance(const Expr& x, const Expr& y, const Expr& z);
 /// The same of two or three functions instead, with a slope of at most `slope`.
 Expr boxDistance(const std::vector<Expr>& sides, double slope);
 
+/// Exact signed distance in the plane to the convex corner between two half-lines, from the distances to
+/// their lines, negative inside, and cosine and sine (not 0) of the angle between these lines' normals. On
+/// and near the corner the gradient lies between the normals. A convex polygon's distance is the largest of
+/// its corners'.
+Expr cornerDistance(const Expr& a, const Expr& b, const Expr& cosine, const Expr& sine);
+
 /// Distance of a convex solid from that to the planes of its faces, which holds inside and on the surface,
 /// where the gradient of a root would vanish, and the one that holds outside.
 Expr insideOr(const Expr& inside, const Expr& outside);

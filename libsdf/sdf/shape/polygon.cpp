@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
 #include <vector>
 
 #include "sdf/shape/check.h"
@@ -67,41 +69,45 @@ bool isConvex(const Points& p) {
   return true;
 }
 
-// One edge's frame: distance out of it (counter-clockwise: to its right) and past its ends.
-struct Edge {
-  Expr out, past;
+// One edge, counter-clockwise.
+struct Side {
+  Expr out;   // distance from its line, to its right
+  Expr past;  // along it, past its ends
+  glm::dvec2 along;
 };
 
-Edge edgeOf(const glm::dvec2& from, const glm::dvec2& to) {
+Side sideOf(const glm::dvec2& from, const glm::dvec2& to) {
   const double size = std::hypot(to.x - from.x, to.y - from.y);
   const glm::dvec2 e = (to - from) / size;
   const Expr x = position().x - from.x, y = position().y - from.y;
   const Expr out = (scaled(x, e.y) - scaled(y, e.x)).claimLipschitz(1.0);
   const Expr along = (scaled(x, e.x) + scaled(y, e.y)).claimLipschitz(1.0);
-  return {out, beyond(along, size)};
+  return {out, beyond(along, size), e};
 }
 
-// Convex: outside the nearest edge, inside the nearest edge's line.
-Expr convexDistance(const std::vector<Edge>& edges) {
-  Expr outside = norm(edges[0].out, edges[0].past), inside = edges[0].out;
-  for (std::size_t i = 1; i < edges.size(); ++i) {
-    outside = min(outside, norm(edges[i].out, edges[i].past));
-    inside = max(inside, edges[i].out);
+Expr convexDistance(const std::vector<Side>& sides) {
+  std::optional<Expr> most;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side &a = sides[i], &b = sides[(i + 1) % sides.size()];
+    const double sine = cross(a.along, b.along);
+    if (sine == 0.0) continue;  // one straight line
+    const Expr corner = cornerDistance(a.out, b.out, glm::dot(a.along, b.along), sine);
+    most = most ? max(*most, corner) : corner;
   }
-  return insideOr(inside, outside);
+  return *most;
 }
 
 // Any simple polygon: the sign from the winding number (Sunday 2001), 1 inside and 0 outside.
-Expr windingDistance(const std::vector<Edge>& edges, const Points& points) {
+Expr windingDistance(const std::vector<Side>& sides, const Points& points) {
   const Expr y = position().y;
-  const auto distanceTo = [&](std::size_t i) { return segmentDistance(edges[i].out, edges[i].past); };
+  const auto distanceTo = [&](std::size_t i) { return segmentDistance(sides[i].out, sides[i].past); };
   Expr distance = distanceTo(0), winding = 0.0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
+  for (std::size_t i = 0; i < sides.size(); ++i) {
     distance = min(distance, distanceTo(i));
     const glm::dvec2 &a = points[i], &b = points[(i + 1) % points.size()];
     if (a.y == b.y) continue;
     const Expr above = lessEqual(a.y, y) - lessEqual(b.y, y);  // 1 where the edge passes the point upwards
-    winding = winding + above * (a.y < b.y ? less(edges[i].out, 0.0) : less(0.0, edges[i].out));
+    winding = winding + above * (a.y < b.y ? less(sides[i].out, 0.0) : less(0.0, sides[i].out));
   }
   // On an edge the winding number may be either; the gradient of `distance` points out of it.
   return select(min(winding, less(0.0, distance)), -distance, distance);
@@ -122,13 +128,13 @@ Shape polygon(std::span<const glm::dvec2> given) {
   if (!c.ok()) return c.failure();
 
   points = oriented(std::move(points));
-  std::vector<Edge> edges;
+  std::vector<Side> sides;
   glm::dvec2 lo = points[0], hi = points[0];
   for (std::size_t i = 0; i < points.size(); ++i) {
-    edges.push_back(edgeOf(points[i], points[(i + 1) % points.size()]));
+    sides.push_back(sideOf(points[i], points[(i + 1) % points.size()]));
     lo = glm::min(lo, points[i]), hi = glm::max(hi, points[i]);
   }
-  return flat(isConvex(points) ? convexDistance(edges) : windingDistance(edges, points), lo, hi);
+  return flat(isConvex(points) ? convexDistance(sides) : windingDistance(sides, points), lo, hi);
 }
 
 }  // namespace sdf
