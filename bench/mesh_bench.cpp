@@ -9,6 +9,7 @@
 #include "sdf/mesh/narrow_band.h"
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
+#include "sdf/mesh/tips.h"
 #include "sdf/mesh/uncross.h"
 #include "shapes.h"
 
@@ -60,6 +61,7 @@ Sharp meshSharply(NarrowBand& band, const ModelTapes& model, const Box& bounds, 
   refineVertices(raw.points, normals, *sharp.field, progress);
   auto [mesh, doubtful] =
       sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, *sharp.field, progress);
+  placeTips(mesh, normals, doubtful, *sharp.field, progress);
   const std::vector<glm::vec3> before = mesh.positions;
   balanceVertices(mesh, normals);
   uncrossMoved(mesh, doubtful, before);

@@ -12,7 +12,7 @@ constexpr int kGridDepth = 4, kGrid = 1 << kGridDepth;  // parts that sides are 
 constexpr int kDeepest = 9;
 constexpr double kFinest = 1.0 / 32;  // of the voxel size: cells are not divided further
 constexpr double kHopeless = 0.25;    // where no prism is proven, so that none helps
-constexpr std::uint64_t kMostCells = 60'000;
+constexpr std::uint64_t kMostCells = 400'000;
 
 // Groups of what touches.
 class Groups {

@@ -13,6 +13,7 @@
 #include "sdf/mesh/sharpen.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/mesh/thin.h"
+#include "sdf/mesh/tips.h"
 #include "sdf/mesh/uncross.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/catalog.h"
@@ -134,6 +135,7 @@ class Mesher {
     auto [mesh, doubtful] =
         sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress_);
     if (balanced) {
+      placeTips(mesh, normals, doubtful, field, progress_);
       begin("balancing");
       const std::vector<glm::vec3> before = mesh.positions;
       balanceVertices(mesh, normals);
