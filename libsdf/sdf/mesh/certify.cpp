@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kTask = 400;
 // How often offsets are halved where their prisms reach too far.
 constexpr int kRounds = 7;
-// Of the goal: offsets that are shorter are not halved.
-constexpr double kLeastReach = 6.0;
+// Of the goal: offsets that are shorter are not halved, or once nothing else is left, these.
+constexpr double kShortReach = 6.0, kLeastReach = 2.0;
 // Of the voxel size: what faces are lifted by at first, at least.
 constexpr double kLeastOffset = 1.0;
 // How much smaller than the finest cells a task may be.
@@ -162,7 +162,8 @@ class Certifier {
         if (isIn(tasks[i].box, shell_.positions()[shell_.triangle(t).x])) own[i].push_back(t);
       prove(tasks[i], own[i]);
     });
-    for (int round = 1; round < kRounds && !progress_.stopped() && shrink(); ++round)
+    for (int round = 1;
+         round < kRounds && !progress_.stopped() && (shrink(kShortReach) || shrink(kLeastReach)); ++round)
       tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
         std::vector<std::uint32_t> again;
         for (const std::uint32_t t : own[i])
@@ -182,13 +183,13 @@ class Certifier {
 
   // Halves the offsets at triangles whose prisms are not proven to be passed, where they are not as low as
   // the surface may well be away; false where there are none.
-  bool shrink() {
+  bool shrink(double least) {
     std::vector<bool> halved(shell_.positions().size(), false);
     bool any = false;
     for (std::uint32_t t = 0; t < shell_.size(); ++t)
       if (const PrismProof& p = proofs_[t]; p.looked && (!p.passed || p.bound > options_.limit))
         for (int k = 0; k < 3; ++k)
-          if (const std::uint32_t v = shell_.triangle(t)[k]; shell_.reach(v) > kLeastReach * options_.goal)
+          if (const std::uint32_t v = shell_.triangle(t)[k]; shell_.reach(v) > least * options_.goal)
             halved[v] = any = true;
     for (std::uint32_t v = 0; v < halved.size(); ++v)
       if (halved[v]) shell_.halveOffset(v);

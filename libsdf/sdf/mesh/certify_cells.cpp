@@ -12,7 +12,7 @@ constexpr int kGridDepth = 4, kGrid = 1 << kGridDepth;  // parts that sides are 
 constexpr int kDeepest = 9;
 constexpr double kFinest = 1.0 / 32;  // of the voxel size: cells are not divided further
 constexpr double kHopeless = 0.25;    // where no prism is proven, so that none helps
-constexpr std::uint64_t kMostCells = 400'000;
+constexpr std::uint64_t kMostCells = 150'000;
 
 // Groups of what touches.
 class Groups {
@@ -105,38 +105,49 @@ CellProof CellProver::prove(const Tape& tape, const Box& box, const std::vector<
                             double finest) {
   proof_ = {};
   box_ = box;
+  finest_ = finest;
   findSides(triangles);
-  std::vector<Cell> cells{{{0, 0, 0}, 0}}, next, inside;
-  std::vector<Box> boxes;
-  std::vector<Interval> values;
-  for (int depth = 0; !cells.empty(); ++depth, cells.swap(next)) {
-    boxes.clear();
-    for (const Cell& c : cells) boxes.push_back(boxOf(c));
-    values.resize(boxes.size());
-    reading_.boxes(tape, boxes, values.data());
-    proof_.cells += cells.size();
-    next.clear();
-    const double side = std::ldexp(box.longestSide(), -depth);
-    const bool last = depth == kDeepest || side <= kFinest * finest || proof_.cells > kMostCells;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const Interval& v = values[i];
-      if (!v.nan && (v.lo > 0.0 || v.hi < 0.0)) continue;
-      const double sides = sidesAt(cells[i]);
-      if (!v.nan && v.magnitude() < sides && sides < kInfinity) {
-        inside.push_back(cells[i]);
-      } else if (last || (!(sides > 0.0 && sides < kInfinity) && side <= kHopeless * finest)) {
-        fail(cells[i]);
-      } else {
-        for (int k = 0; k < 8; ++k)
-          next.push_back({2 * cells[i].at + glm::ivec3(k & 1, k >> 1 & 1, k >> 2), depth + 1});
-      }
+  for (std::vector<Cell> cells{{{0, 0, 0}, 0}}; !cells.empty();) {
+    std::vector<Cell> inside;
+    for (std::vector<Cell> next; !cells.empty(); cells.swap(next)) {
+      next.clear();
+      look(tape, cells, inside, next);
     }
+    for (const Cell& cell : outsideOf(inside)) divide(cell, false, cells);
   }
-  checkDegree(inside);
   return proof_;
 }
 
-void CellProver::checkDegree(const std::vector<Cell>& inside) {
+void CellProver::look(const Tape& tape, const std::vector<Cell>& cells, std::vector<Cell>& inside,
+                      std::vector<Cell>& next) {
+  std::vector<Box> boxes;
+  for (const Cell& c : cells) boxes.push_back(boxOf(c));
+  std::vector<Interval> values(boxes.size());
+  reading_.boxes(tape, boxes, values.data());
+  proof_.cells += cells.size();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Interval& v = values[i];
+    if (!v.nan && (v.lo > 0.0 || v.hi < 0.0)) continue;
+    const double sides = sidesAt(cells[i]);
+    const bool isSided = sides > 0.0 && sides < kInfinity;
+    if (!v.nan && isSided && v.magnitude() < sides)
+      inside.push_back(cells[i]);
+    else
+      divide(cells[i], !isSided, next);
+  }
+}
+
+// Its eighths, if they are not too small; no prism is proven near what is hopeless.
+void CellProver::divide(const Cell& cell, bool isHopeless, std::vector<Cell>& parts) {
+  const double side = std::ldexp(box_.longestSide(), -cell.depth);
+  if (cell.depth == kDeepest || side <= (isHopeless ? kHopeless : kFinest) * finest_ ||
+      proof_.cells > kMostCells)
+    return fail(cell);
+  for (int k = 0; k < 8; ++k)
+    parts.push_back({2 * cell.at + glm::ivec3(k & 1, k >> 1 & 1, k >> 2), cell.depth + 1});
+}
+
+std::vector<CellProver::Cell> CellProver::outsideOf(const std::vector<Cell>& inside) const {
   Groups groups(inside.size());
   Corners corners(4 * inside.size());
   for (std::uint32_t i = 0; i < inside.size(); ++i)
@@ -154,8 +165,10 @@ void CellProver::checkDegree(const std::vector<Cell>& inside) {
             degree_.at(box.min + glm::dvec3(0.4871, 0.5137, 0.5419) * box.size()))
       group = *degree != 0 ? 1 : -1;
   }
+  std::vector<Cell> outside;
   for (std::uint32_t i = 0; i < inside.size(); ++i)
-    if (known[groups.of(i)] != 1) fail(inside[i]);
+    if (known[groups.of(i)] != 1) outside.push_back(inside[i]);
+  return outside;
 }
 
 }  // namespace sdf

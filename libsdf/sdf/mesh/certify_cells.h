@@ -18,7 +18,7 @@ struct CellProof {
 
 /// Divides a box into cells. In some there is no surface. In the others |f| is smaller than on the sides of
 /// all prisms that may be there; so the sides do not pass them, and where cells touch, the shell's degree is
-/// the same in all: it is looked at in one of them.
+/// the same in all: it is looked at in one of them. Where they are outside the shell they are divided on.
 class CellProver {
  public:
   CellProver(const Shell& shell, const ShellDegree& degree, const std::vector<PrismProof>& proofs,
@@ -38,14 +38,19 @@ class CellProver {
   Box boxOf(const Cell& cell) const;
   void findSides(const std::vector<std::uint32_t>& triangles);
   double sidesAt(const Cell& cell) const;
+  void look(const Tape& tape, const std::vector<Cell>& cells, std::vector<Cell>& inside,
+            std::vector<Cell>& next);
+  void divide(const Cell& cell, bool isHopeless, std::vector<Cell>& parts);
   void fail(const Cell& cell);
-  void checkDegree(const std::vector<Cell>& inside);
+  // Those that the shell's degree is 0 in, and what touches them.
+  std::vector<Cell> outsideOf(const std::vector<Cell>& inside) const;
 
   const Shell& shell_;
   const ShellDegree& degree_;
   const std::vector<PrismProof>& proofs_;
   ProofReading& reading_;
   Box box_;
+  double finest_ = 0.0;
   std::vector<double> sides_;  // least |f| on the sides of the prisms in each part of the box
   CellProof proof_;
 };
