@@ -56,9 +56,12 @@ TEST_F(BadInput, FlagsSayWhichValuesTheyTake) {
   for (const char* size : {"0", "-1", "nan", "inf", "thin", "1mm", ""}) {
     expectBadFlags({"--voxel-size", size},
                    {"--voxel-size needs a number above 0, got '" + std::string(size) + "'"});
-    expectBadFlags({"--tolerance", size},
-                   {"--tolerance needs a number above 0, got '" + std::string(size) + "'"});
+    expectBadFlags({"--tolerance", size}, {"--tolerance needs a number above 0, of scene units or with %",
+                                           "got '" + std::string(size) + "'"});
   }
+  for (const char* share : {"%", "0%", "1%%", "1 %"})
+    expectBadFlags({"--tolerance", share},
+                   {"--tolerance needs a number above 0", "got '" + std::string(share) + "'"});
   for (const char* bounds : {"1,2,3", "0,0,0,1,1,nan", "1,1,1,0,0,0", "0,0,0,1,1,1,", "0 0 0 1 1 1"}) {
     expectBadFlags({"--bounds=" + std::string(bounds)},
                    {"--bounds needs six numbers x0,y0,z0,x1,y1,z1", bounds});

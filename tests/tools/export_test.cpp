@@ -154,6 +154,20 @@ TEST_F(Export, KeepsAToleranceWithFewTriangles) {
   }
 }
 
+TEST_F(Export, TakesATolerancesShareOfTheDiagonal) {
+  // Both balls' box is 2 by 2 by 6, of the diagonal sqrt(44).
+  const std::string file = scene("part('a', sphere(1)) part('b', sphere(1):translate(0, 0, 4))");
+  for (const char* only : {"a", ""}) {
+    std::vector<std::string> arguments{file, "-o", out("a.glb"), "--tolerance", "0.1%"};
+    if (*only) arguments.insert(arguments.end(), {"--only", only});
+    const double tolerance = 0.001 * std::sqrt(*only ? 12.0 : 44.0);
+    for (const Json& part : report(arguments)["outputs"][0]["parts"]) {
+      EXPECT_NEAR(part["tolerance"], tolerance, 1e-9);
+      EXPECT_LE(part["max_distance"], tolerance);
+    }
+  }
+}
+
 TEST_F(Export, SpendsABudgetOfTriangles) {
   const std::string file = scene("part('ball', sphere(1)) part('box', box(1):translate(3, 0, 0))");
   const Json output =

@@ -91,9 +91,10 @@ Status FrameExport::chooseVoxelSize(std::optional<double>& voxelSize) {
 Status FrameExport::mesh(const std::vector<Part>& bodies, double voxelSize, double tolerance) {
   report.total = loaded_;
   report.warnings.clear();
-  if (Status s = options_.triangles
-                     ? meshWithin(static_cast<std::size_t>(*options_.triangles), bodies, voxelSize)
-                     : meshAll(bodies, voxelSize, tolerance);
+  if (Status s =
+          options_.triangles
+              ? meshWithin(static_cast<std::size_t>(*options_.triangles), bodies, voxelSize)
+              : meshAll(bodies, voxelSize, tolerance * (options_.toleranceOfDiagonal ? diagonal_ : 1.0));
       !s)
     return s;
   if (Status s = bake(); !s) return s;

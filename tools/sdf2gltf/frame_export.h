@@ -22,8 +22,9 @@ class FrameExport {
   /// Runs the script at this time and fills `scene` and `clip`; of the bounds it makes the voxel size, if
   /// that is none yet. Errors: the scene's, also those of parts without bounds.
   Status load(double time, std::optional<double>& voxelSize);
-  /// Meshes the bodies into `parts`, in the place of what is there, with this tolerance or with as many
-  /// triangles as are asked for; bakes their light and compresses them, if that is asked for.
+  /// Meshes the bodies into `parts`, in the place of what is there, with this tolerance (in the
+  /// units of Options::tolerance) or with as many triangles as are asked for; bakes their light and
+  /// compresses them, if that is asked for.
   Status mesh(const std::vector<Part>& bodies, double voxelSize, double tolerance);
   /// Writes `parts` to a file.
   Status write(const std::filesystem::path& target);

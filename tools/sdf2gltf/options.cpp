@@ -37,6 +37,22 @@ Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
                *text + "'");
 }
 
+Status tolerance(const std::optional<std::string>& text, Options& options) {
+  if (!text) return okStatus();
+  std::string number = *text;
+  options.toleranceOfDiagonal = number.ends_with('%');
+  if (options.toleranceOfDiagonal) number.pop_back();
+  const Result<double> value = positive("--tolerance", number);
+  if (!value)
+    return usage(
+        "--tolerance needs a number above 0, of scene units or with % of the diagonal of all that is "
+        "exported, "
+        "got '" +
+        *text + "'");
+  options.tolerance = options.toleranceOfDiagonal ? 0.01 * *value : *value;
+  return okStatus();
+}
+
 // Precondition: checkExtension(words.output).
 Status checkSequence(const Words& words) {
   if (words.animate && !words.frames)
@@ -85,7 +101,9 @@ void declare(CLI::App& app, Words& words) {
   add("--voxel-size", words.voxelSize, "H",
       "sampling distance in scene units [1/200 of the longest side of all that is exported]");
   add("--tolerance", words.tolerance, "E",
-      "distance from the surface that meshes keep with few triangles, in scene units [none]");
+      "distance from the surface that meshes keep with few triangles, in scene units or, as E%, in "
+      "hundredths "
+      "of the diagonal of all that is exported [none]");
   add("--triangles", words.triangles, "N", "the smallest tolerance that so many triangles keep");
   add("--lod", words.levels, "N",
       "write N levels of detail, OUT and OUT_lod1 on, each with 4 times the tolerance");
@@ -130,7 +148,7 @@ Result<Options> interpreted(const Words& words) {
   if (Status s = checkExtension(words.output); !s) return s.error();
   for (const Status& s : {checkBake(words), checkCompress(words), checkSequence(words), checkDetail(words),
                           take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
-                          take<double>("--tolerance", words.tolerance, options.tolerance, positive),
+                          tolerance(words.tolerance, options),
                           take<int>("--triangles", words.triangles, options.triangles, largeCount),
                           take<int>("--lod", words.levels, options.levels, smallCount),
                           take<double>("--time", words.time, options.time, seconds),

@@ -16,9 +16,10 @@ struct Options {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::optional<double> voxelSize;
-  std::optional<double> tolerance;
-  std::optional<int> triangles;  ///< of a file at most
-  std::optional<int> levels;     ///< of detail: files, each of them with four times the tolerance
+  std::optional<double> tolerance;   ///< scene units, or
+  bool toleranceOfDiagonal = false;  ///< a share of the diagonal of all that is exported
+  std::optional<int> triangles;      ///< of a file at most
+  std::optional<int> levels;         ///< of detail: files, each of them with four times the tolerance
   std::optional<Box> bounds;
   std::map<std::string, double> parameters;
   double time = 0.0;
@@ -37,7 +38,8 @@ struct Options {
 
 /// The scene's time in the i-th frame, seconds.
 double frameTime(const Options& options, int i);
-/// The tolerance of a level of detail, counted from 0.
+/// The tolerance of a level of detail, counted from 0; in the units of Options::tolerance, 0 where there is
+/// none.
 double levelTolerance(const Options& options, int level);
 /// Where it is written: scene.glb, scene_lod1.glb and so on.
 std::filesystem::path levelName(const std::filesystem::path& output, int level);
