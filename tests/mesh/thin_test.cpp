@@ -95,5 +95,13 @@ TEST(Thin, GapsInEdgesDoNotGrow) {
   EXPECT_LE(m.mesh.triangles.size(), 80u);
 }
 
+// Where a displaced rim bulges it is rounded, as small as the tolerance: the edge that is left there has two
+// sides, which creases do not tell of. A ball has none, however coarse.
+TEST(Thin, SmallRoundingsAreShadedAsEdges) {
+  const Shape board = displace(box({1.1, 0.7, 0.12}), -0.05 * sin(4.0 * position().x));
+  EXPECT_LT(wrongShare(thinned(board, 0.011, 3e-3).mesh, board), 0.03);
+  EXPECT_TRUE(thinned(sphere(1.0), 0.04, 0.1).mesh.copyOf.empty());
+}
+
 }  // namespace
 }  // namespace sdf::test

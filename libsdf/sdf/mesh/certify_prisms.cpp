@@ -21,9 +21,10 @@ constexpr double kEven = 0.25;
 // Of the largest rise: sides whose values are proven to be above that are high enough.
 constexpr double kHigh = 0.4;
 constexpr int kDepthForSides = 6;
-// How often what is left of a prism above and below the surface is divided, in height or in four.
-constexpr int kDepthForSigns = 10;
-constexpr int kMostSigns = 6000;
+// How often what is left of a prism above and below the surface is divided, in height or in four; into how
+// many for each triangle; and of how many parts together, for the memory that these take.
+constexpr int kDepthForSigns = 10, kMostSigns = 6000;
+constexpr std::size_t kTogether = 64;
 // How much higher than where the surface is proven to be a flattened prism is.
 constexpr double kSpare = 1.2;
 // A prism that would not get flatter than that stays as it is.
@@ -104,7 +105,9 @@ class PrismProver {
       PrismProof& proof = proofOf(part.triangle);
       if (proof.passed) part.flattened ? tighten(part, bounds, proof) : look(part, bounds, proof);
     });
-    lookAtSigns(proofOf);
+    looked_.assign(triangles.size(), 0);
+    for (std::size_t first = 0; first < open_.size(); first += kTogether)
+      lookAtSigns({open_.data() + first, std::min(kTogether, open_.size() - first)}, proofOf);
     lookAtSides(shell, triangles, proofs);
   }
 
@@ -192,15 +195,14 @@ class PrismProver {
   // Where the field is not seen to rise, or no more than by little: it passes 0 all the same where it is
   // positive above the triangle and negative below, from some height on.
   template <class ProofOf>
-  void lookAtSigns(const ProofOf& proofOf) {
+  void lookAtSigns(std::span<const Part> open, const ProofOf& proofOf) {
     std::vector<Slab> slabs, next;
-    std::vector<PrismProof> found(open_.size());
-    looked_.assign(looked_.size(), 0);
-    for (std::uint32_t i = 0; i < open_.size(); ++i) {
-      const double reach = longest(open_[i].prism.offsets), from = std::min(goal_ / reach, 0.5);
+    std::vector<PrismProof> found(open.size());
+    for (std::uint32_t i = 0; i < open.size(); ++i) {
+      const double reach = longest(open[i].prism.offsets), from = std::min(goal_ / reach, 0.5);
       for (double to = 1.0; to > from; to *= 0.5)
         for (const bool outer : {true, false})
-          slabs.push_back({open_[i], i, std::max(from, 0.5 * to), to, outer});
+          slabs.push_back({open[i], i, std::max(from, 0.5 * to), to, outer});
       found[i] = {true, true, from * reach, kInfinity};
     }
     readInRounds(std::move(slabs), next, [&](const Slab& slab, const PrismBounds& bounds) {
@@ -210,22 +212,21 @@ class PrismProver {
       const bool isWrong = slab.outer ? bounds.values.hi < 0.0 : bounds.values.lo > 0.0;
       if (least > 0.0) {
         if (slab.to == 1.0) proof.sides = std::min(proof.sides, least);
-      } else if (!isWrong && slab.part.depth < open_[slab.open].depth + kDepthForSigns &&
+      } else if (!isWrong && slab.part.depth < open[slab.open].depth + kDepthForSigns &&
                  looked_[slab.part.triangle] < kMostSigns) {
         looked_[slab.part.triangle] += divide(slab, next);
       } else {
         take(slab.to < 1.0 ? slab.to * longest(slab.part.prism.offsets) : kInfinity, proof);
-        if (!proof.passed) take(open_[slab.open].bound, proofOf(slab.part.triangle));
+        if (!proof.passed) take(open[slab.open].bound, proofOf(slab.part.triangle));
       }
     });
-    for (std::uint32_t i = 0; i < open_.size(); ++i) {
-      PrismProof& proof = proofOf(open_[i].triangle);
-      take(std::min(found[i].bound, open_[i].bound), proof);
-      if (open_[i].bound < kInfinity) continue;
+    for (std::uint32_t i = 0; i < open.size(); ++i) {
+      PrismProof& proof = proofOf(open[i].triangle);
+      take(std::min(found[i].bound, open[i].bound), proof);
+      if (open[i].bound < kInfinity) continue;
       proof.sides = std::min(proof.sides, found[i].passed ? found[i].sides : -kInfinity);
-      most_[open_[i].triangle] = std::max(most_[open_[i].triangle], longest(open_[i].prism.offsets));
+      most_[open[i].triangle] = std::max(most_[open[i].triangle], longest(open[i].prism.offsets));
     }
-    open_.clear();
   }
 
   // In height, or in four; returns in how many.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "sdf/mesh/crease.h"
+#include "sdf/mesh/remesh_topology.h"
 #include "sdf/mesh/stages.h"
 
 namespace sdf {
@@ -12,6 +13,47 @@ namespace {
 
 // How far into its triangles a vertex at a crease looks for the gradient of its side, as a share of the way.
 constexpr float kInto = 0.1f;
+
+using Edge = std::array<std::uint32_t, 2>;
+
+// Edges that the surface bends around within a small part of the triangles beside them: all of a small
+// rounding that a coarse mesh has left. A coarse mesh of a round shape turns as much at its edges, but
+// evenly.
+std::vector<Edge> tightEdges(const FeatureMesh& mesh, const LocalField& field, Progress& progress) {
+  constexpr float kTurned = 0.866f;  // cosine of 30 degrees, between the facets
+  constexpr float kNear = 0.25f;     // of the way from the edge to a triangle's middle
+  constexpr float kShare = 0.6f;     // of the turn between these middles, at least, and of 30 degrees
+  const RemeshTopology topology(mesh);
+  const auto corner = [&](std::uint32_t t, int k) { return mesh.positions[mesh.triangles[t][k]]; };
+  const auto facet = [&](std::uint32_t t) {
+    return glm::normalize(glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)));
+  };
+  std::vector<Edge> edges;
+  std::vector<glm::vec3> points;
+  for (std::uint32_t h = 0; h < topology.halfEdges(); ++h) {
+    const std::uint32_t from = topology.from(h), to = topology.to(h), twin = topology.twin(h);
+    if (from > to || topology.isCrease(h) || !(glm::dot(facet(h / 3), facet(twin / 3)) < kTurned)) continue;
+    edges.push_back({from, to});
+    const glm::vec3 on = 0.5f * (mesh.positions[from] + mesh.positions[to]);
+    for (const std::uint32_t t : {h / 3, twin / 3}) {
+      const glm::vec3 middle = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0f;
+      points.push_back(middle);
+      points.push_back(glm::mix(on, middle, kNear));
+    }
+  }
+  std::vector<glm::vec3> gradients;
+  gradientNormals(points, field, progress, gradients);
+  std::vector<Edge> tight;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const glm::vec3* g = &gradients[4 * i];
+    const auto angle = [](const glm::vec3& a, const glm::vec3& b) {
+      return std::acos(std::clamp(glm::dot(a, b), -1.0f, 1.0f));
+    };
+    const float far = std::max(angle(g[0], g[2]), std::acos(kTurned));
+    if (angle(g[1], g[3]) > kShare * far) tight.push_back(edges[i]);
+  }
+  return tight;
+}
 
 /// Triangles around a vertex that no crease divides.
 struct Fan {
@@ -21,8 +63,9 @@ struct Fan {
 
 class FanFinder {
  public:
-  explicit FanFinder(const FeatureMesh& mesh) : mesh_(mesh), creased_(mesh.positions.size(), ~0u) {
-    for (const auto& [a, b] : mesh.creases)
+  FanFinder(const FeatureMesh& mesh, const std::vector<Edge>& creases)
+      : mesh_(mesh), creases_(creases), creased_(mesh.positions.size(), ~0u) {
+    for (const auto& [a, b] : creases)
       for (const std::uint32_t v : {a, b})
         if (creased_[v] == ~0u) {
           creased_[v] = static_cast<std::uint32_t>(around_.size());
@@ -60,13 +103,14 @@ class FanFinder {
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t other = mesh_.triangles[a][i];
         if (other != vertex && other == mesh_.triangles[b][k])
-          return !std::ranges::binary_search(
-              mesh_.creases, std::array<std::uint32_t, 2>{std::min(vertex, other), std::max(vertex, other)});
+          return !std::ranges::binary_search(creases_,
+                                             Edge{std::min(vertex, other), std::max(vertex, other)});
       }
     return false;
   }
 
   const FeatureMesh& mesh_;
+  const std::vector<Edge>& creases_;    // sorted
   std::vector<std::uint32_t> creased_;  // place in around_
   std::vector<Fan> around_;
 };
@@ -101,7 +145,13 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, bool c
   mesh.triangles = features.triangles;
   mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
   std::vector<glm::vec3> looked = features.positions;  // where a vertex looks for its gradient
-  const std::vector<Fan> fans = FanFinder(features).run();
+  std::vector<Edge> creases = features.creases;
+  if (coarse) {
+    const std::vector<Edge> tight = tightEdges(features, field, progress);
+    creases.insert(creases.end(), tight.begin(), tight.end());
+    std::ranges::sort(creases);
+  }
+  const std::vector<Fan> fans = FanFinder(features, creases).run();
   for (std::size_t i = 0; i < fans.size(); ++i) {
     const Fan& fan = fans[i];
     std::uint32_t v = fan.vertex;
