@@ -22,7 +22,7 @@ constexpr double kEven = 0.25;
 constexpr double kHigh = 0.4;
 constexpr int kDepthForSides = 6;
 // How often what is left of a prism above and below the surface is divided, in height or in four; into how
-// many for each triangle; and of how many parts together, for the memory that these take.
+// many for each triangle; and of how many parts at least together, which take memory.
 constexpr int kDepthForSigns = 10, kMostSigns = 6000;
 constexpr std::size_t kTogether = 64;
 // How much higher than where the surface is proven to be a flattened prism is.
@@ -106,8 +106,13 @@ class PrismProver {
       if (proof.passed) part.flattened ? tighten(part, bounds, proof) : look(part, bounds, proof);
     });
     looked_.assign(triangles.size(), 0);
-    for (std::size_t first = 0; first < open_.size(); first += kTogether)
-      lookAtSigns({open_.data() + first, std::min(kTogether, open_.size() - first)}, proofOf);
+    // All of a triangle together.
+    std::ranges::stable_sort(open_, {}, &Part::triangle);
+    for (std::size_t first = 0, end; first < open_.size(); first = end) {
+      end = std::min(first + kTogether, open_.size());
+      while (end < open_.size() && open_[end].triangle == open_[end - 1].triangle) ++end;
+      lookAtSigns({open_.data() + first, end - first}, proofOf);
+    }
     lookAtSides(shell, triangles, proofs);
   }
 
