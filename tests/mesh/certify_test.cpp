@@ -197,6 +197,10 @@ TEST(Certify, RefusesFieldsThatJump) {
   const Expr ball = length(position()) - 1.0;
   subject.shape = field(select(less(ball, 0.0), ball - 0.5, ball + 0.5), region(1.1), kInfinity);
   EXPECT_FALSE(subject.certificate().proven());
+  // Nor where the mesh is the field's own, near to where it jumps.
+  const auto [x, y, z] = position();
+  EXPECT_FALSE(
+      Subject(field(floor(x * x + y * y + z * z) - 0.5, region(2.0), kInfinity), 0.2).certificate().proven());
 }
 
 TEST(Certify, DoesNotDependOnTheNumberOfThreads) {

@@ -121,7 +121,7 @@ TEST_F(BadInput, WhatCannotBeProvenIsSaidWithItsPlace) {
   expectBadScene(
       "bounds({-2, -2, -2}, {2, 2, 2}) return field(function(x, y, z)"
       " return floor(x * x + y * y + z * z) - 0.5 end)",
-      {"no distance below 0.6 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
+      {"no distance below 1.87083 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
 }
 
 TEST_F(BadInput, BakedOcclusionNeedsAKnownSlope) {

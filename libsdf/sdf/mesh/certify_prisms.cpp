@@ -177,6 +177,7 @@ class PrismProver {
   static void take(double bound, PrismProof& proof) {
     proof.bound = std::max(proof.bound, bound);
     proof.passed = proof.bound < kInfinity;
+    if (!proof.passed) proof.sides = -kInfinity;
   }
 
   static Part flattened(Part part, double share, double bound) {
@@ -229,7 +230,7 @@ class PrismProver {
       PrismProof& proof = proofOf(open[i].triangle);
       take(std::min(found[i].bound, open[i].bound), proof);
       if (open[i].bound < kInfinity) continue;
-      proof.sides = std::min(proof.sides, found[i].passed ? found[i].sides : -kInfinity);
+      proof.sides = std::min(proof.sides, found[i].sides);
       most_[open[i].triangle] = std::max(most_[open[i].triangle], longest(open[i].prism.offsets));
     }
   }

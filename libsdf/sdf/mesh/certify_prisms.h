@@ -14,7 +14,7 @@ struct PrismProof {
   bool passed = false;       ///< by the surface, from the inner side to the outer one
   double bound = kInfinity;  ///< from the triangle to the surface along each line, at most; scene units
   double sides = 0.0;        ///< f is no less on the outer side, and no larger than its negative on the inner
-  bool proven() const { return sides > 0.0; }
+  bool proven() const { return passed && sides > 0.0; }
 };
 
 /// Proves the triangles' prisms, in parts where that helps and a bound of `goal` is not reached. The tape
