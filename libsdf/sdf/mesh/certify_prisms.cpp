@@ -271,8 +271,10 @@ class PrismProver {
     }
     readInRounds(std::move(parts), next_, [&](const Part& part, const PrismBounds& bounds) {
       const std::uint32_t t = part.triangle;
+      if (found[t] <= 0.0) return;
       const double least = part.flattened ? bounds.values.lo : -bounds.values.hi;
-      if (least < kHigh * most_[t] && part.depth < kDepthForSides)
+      const bool isWrong = part.flattened ? bounds.values.hi < 0.0 : bounds.values.lo > 0.0;
+      if (least < kHigh * most_[t] && part.depth < kDepthForSides && !isWrong)
         quarter(part, next_);
       else
         found[t] = std::min(found[t], least);
