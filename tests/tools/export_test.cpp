@@ -161,7 +161,8 @@ TEST_F(Export, TakesATolerancesShareOfTheDiagonal) {
     std::vector<std::string> arguments{file, "-o", out("a.glb"), "--tolerance", "0.1%"};
     if (*only) arguments.insert(arguments.end(), {"--only", only});
     const double tolerance = 0.001 * std::sqrt(*only ? 12.0 : 44.0);
-    for (const Json& part : report(arguments)["outputs"][0]["parts"]) {
+    const Json parts = report(arguments)["outputs"][0]["parts"];
+    for (const Json& part : parts) {
       EXPECT_NEAR(part["tolerance"], tolerance, 1e-9);
       EXPECT_LE(part["max_distance"], tolerance);
     }
