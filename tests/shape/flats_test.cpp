@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "sdf/eval/function.h"
+#include "sdf/eval/scalar_reading.h"
 #include "shape/cases.h"
 
 namespace sdf {
@@ -195,6 +197,14 @@ TEST(Flats, TellOfABadArgumentInOneLine) {
   EXPECT_EQ(polygon(Points{{0, 0}, {4, 0}, {4, 2}, {2, 0}, {0, 2}}).error.value_or(""),
             "polygon: edges 1 and 3 touch or cross");
   EXPECT_EQ(polygon(Points{}).error.value_or(""), "polygon: at least 3 points are needed, got 0");
+}
+
+TEST(Flats, ATriangleThatASliderClosesIsASegment) {
+  const Shape triangle = trapezoid(Expr::parameter({"bottom", 1.0, 0.0, 2.0}), 0.0, 0.5);
+  const TapePtr tape = Function(triangle.distance).at({{"bottom", 0.0}});
+  EXPECT_DOUBLE_EQ(evaluate(*tape, {0.25, 0.0, 0.0}), 0.25);
+  EXPECT_DOUBLE_EQ(evaluate(*tape, {0.3, 0.9, 0.0}), 0.5);  // 0.4 above its upper end
+  EXPECT_DOUBLE_EQ(evaluate(*tape, {0.3, -0.9, 0.0}), 0.5);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ TEST_F(Export, TakesATolerancesShareOfTheDiagonal) {
     const double tolerance = 0.001 * std::sqrt(*only ? 12.0 : 44.0);
     const Json parts = report(arguments)["outputs"][0]["parts"];
     for (const Json& part : parts) {
-      EXPECT_NEAR(part["tolerance"], tolerance, 1e-9);
+      EXPECT_DOUBLE_EQ(part["tolerance"], tolerance);
       EXPECT_LE(part["max_distance"], tolerance);
     }
   }

@@ -88,8 +88,9 @@ class Finder {
     const auto [high, b] = factors(past->in[1]);
     const Instruction* least = made(low, Op::Min);
     if (!least || high != p.most || least->in != out->in) return;
-    // Constants are rounded; the bounds have room for that.
-    if (!(a > 0.0) || !(std::abs(a * a - b * b - 1.0) < 1e-12 * a * a)) return;
+    // Constants are rounded: as if y were 1 + e times itself, |e| less than half of that, for which the
+    // slope's bounds have room (narrowCorner).
+    if (!(a > 0.0) || !(std::abs(a * a - b * b - 1.0) < 1e-10)) return;
     p.kind = Pattern::Corner;
     p.sides = {out->in[0], out->in[1]};
     p.k = b / a;

@@ -405,7 +405,7 @@ T boxDistance(const BoxParts<T>& box) {
 // most.
 template <class T>
 void narrowCorner(double c, const T& x, const T& y, T& r) {
-  constexpr double kLess = 1.0 - 1e-9, kMore = 1.0 + 1e-9;
+  constexpr double kLess = 1.0 - 1e-9, kMore = 1.0 + 1e-9;  // c and s are off by 1e-10 at most
   const double most = std::sqrt(2.0 / (1.0 + c)) * kMore;
   const V zero = hn::Zero(kD);
   const auto within = [&](const Range& a, const Range& b) {

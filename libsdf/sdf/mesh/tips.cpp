@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -74,7 +75,7 @@ class Finder {
 
  public:
   Finder(const FeatureMesh& mesh, const std::vector<glm::vec3>& normals, const LocalField& field)
-      : mesh_(mesh), normals_(normals), field_(field) {}
+      : mesh_(mesh), normals_(normals), locals_(field.finder()) {}
 
   // Those that something turns around.
   std::vector<std::uint32_t> vertices() const {
@@ -147,15 +148,15 @@ class Finder {
     for (const Pair& p : around) add(p[1]);
     if (!planes.meet()) return std::nullopt;
     const glm::dmat3 inverse = glm::inverse(planes.squares);
-    const Tip tip{v, origin + inverse * planes.toPoint, inverse * planes.sum, 0.0};
-    const double far = glm::distance(tip.at, origin);
-    if (!(far <= kReach * field_.finder()->at(mesh_.positions[v]).voxel)) return std::nullopt;
-    return Tip{v, tip.at, tip.axis, far};
+    const glm::dvec3 way = inverse * planes.toPoint;
+    const double far = glm::length(way);
+    if (!(far <= kReach * locals_->at(mesh_.positions[v]).voxel)) return std::nullopt;
+    return Tip{v, origin + way, inverse * planes.sum, far};
   }
 
   const FeatureMesh& mesh_;
   const std::vector<glm::vec3>& normals_;
-  const LocalField& field_;
+  const std::unique_ptr<LocalField::Finder> locals_;
   std::vector<Pair> around_;
 };
 
@@ -237,13 +238,9 @@ class Crowner {
   }
 
   // Takes ever more triangles, up to those that reach so far, until they leave a hole that a fan closes.
-  bool crown(const Tip& tip, double most) {
+  void crown(const Tip& tip, double most) {
     for (double reach = 1.01 * tip.far; reach <= most; reach *= kWider)
-      if (find(tip, reach)) {
-        close(tip);
-        return true;
-      }
-    return false;
+      if (find(tip, reach)) return close(tip);
   }
 
  private:
@@ -253,18 +250,18 @@ class Crowner {
 
   // The triangles around the vertices within reach, and the sides of the hole that they leave.
   bool find(const Tip& tip, double reach) {
-    inside_.assign(1, tip.vertex);
+    std::vector<std::uint32_t> inside{tip.vertex};
     gone_.clear(), next_.clear();
     std::set<std::uint32_t> seen{tip.vertex}, gone;
-    for (std::size_t i = 0; i < inside_.size(); ++i)
-      for (const std::uint32_t t : fans_.at(inside_[i])) {
+    for (std::size_t i = 0; i < inside.size(); ++i)
+      for (const std::uint32_t t : fans_.at(inside[i])) {
         gone.insert(t);
         for (int k = 0; k < 3; ++k) {
           const std::uint32_t v = mesh_.triangles[t][k];
           if (fixed_[v]) return false;
           if (fans_.contains(v) && glm::distance(glm::dvec3(mesh_.positions[v]), tip.at) <= reach &&
               seen.insert(v).second)
-            inside_.push_back(v);
+            inside.push_back(v);
         }
       }
     gone_.assign(gone.begin(), gone.end());
@@ -332,7 +329,7 @@ class Crowner {
   std::vector<char> fixed_;  // vertices that fans have been put around
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> fans_;
   // What is looked at:
-  std::vector<std::uint32_t> inside_, gone_;
+  std::vector<std::uint32_t> gone_;
   std::map<std::uint32_t, std::uint32_t> next_;  // along the hole's sides
   std::set<std::uint32_t> within_;               // vertices that are not on these
 };

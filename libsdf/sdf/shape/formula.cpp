@@ -71,13 +71,13 @@ Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom
                        const Expr& half) {
   const Expr run = bottom - top, rise = half + half;
   const Expr slant = length(run, rise);
-  // The slanted side's own frame, from its upper end: `out` of the side, `down` along it.
   const Expr x = across - top, y = along - half;
+  // The distance out of the slanted side.
   const Expr out = (scaled(x, rise / slant) + scaled(y, run / slant)).claimLipschitz(1.0);
   const Expr atBottom = cornerDistance(-along - half, out, -run / slant, rise / slant);
   if (!top.isConstant(0.0)) return max(atBottom, cornerDistance(out, y, run / slant, rise / slant));
   // The tip's two sides are folded on each other.
-  const Expr past = (scaled(out, rise / run) - scaled(across, slant / run)).claimLipschitz(1.0);
+  const Expr past = (scaled(y, rise / slant) - scaled(across, run / slant)).claimLipschitz(1.0);
   return max(atBottom, pastOrOut(out, past));
 }
 
