@@ -10,6 +10,8 @@
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/mesh/remesh_changes.h"
 #include "sdf/mesh/remesh_fans.h"
+#include "sdf/mesh/remesh_measure.h"
+#include "sdf/mesh/remesh_paint.h"
 #ifdef SDF_REFERENCE
 #include "accuracy/reference.h"
 #endif
@@ -256,6 +258,34 @@ TEST(Remesh, CrossingTrianglesWouldBeSeen) {
   EXPECT_GT(accuracy::crossings(two), 0u);
 }
 #endif
+
+TEST(Remesh, MeasuringAgainReadsWhatHasMoved) {
+  const Shape ball = sphere(1.0).paint({.color = {0.5 + 0.5 * sin(9.0 * position().x), 0.5, 0.5}});
+  const Fine fine(ball, 1.0 / 16);
+  RemeshTopology mesh(fine.mesh);
+  std::vector<TriangleDistances> distances;
+  std::vector<TriangleColors> colors;
+  Progress progress;
+  const double before = measureDensely(mesh, fine.field, 0.01, distances, progress).largest;
+  measureColors(mesh, 0.01f, fine.field, colors, progress);
+  for (std::uint32_t v = 0; v < mesh.vertices(); v += 97) mesh.positions[v] *= 1.1f;
+  const DenseDistances again = measureDensely(mesh, fine.field, 0.01, distances, progress);
+  const ColorErrors colorsAgain = measureColors(mesh, 0.01f, fine.field, colors, progress);
+  std::vector<TriangleDistances> nothing;
+  std::vector<TriangleColors> none;
+  const DenseDistances afresh = measureDensely(mesh, fine.field, 0.01, nothing, progress);
+  const ColorErrors colorsAfresh = measureColors(mesh, 0.01f, fine.field, none, progress);
+  EXPECT_LT(before, 0.01);
+  EXPECT_NEAR(again.largest, 0.1, 0.001);
+  EXPECT_EQ(again.largest, afresh.largest);
+  EXPECT_EQ(again.rms, afresh.rms);
+  EXPECT_EQ(again.exceeding, afresh.exceeding);
+  EXPECT_EQ(again.vertices, afresh.vertices);
+  EXPECT_EQ(colorsAgain.largest, colorsAfresh.largest);
+  EXPECT_EQ(colorsAgain.exceeding, colorsAfresh.exceeding);
+  EXPECT_FALSE(again.exceeding.empty());
+  EXPECT_GT(colorsAgain.largest, 0.0);
+}
 
 TEST(Remesh, LeavesWhatIsHeld) {
   Fine fine(sphere(1.0), 0.1);

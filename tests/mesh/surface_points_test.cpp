@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <map>
 #include <mutex>
 #include <random>
+#include <set>
 
 #include "mesh/scenes.h"
 #include "sdf/mesh/stages.h"
@@ -174,6 +177,33 @@ TEST(ForEachRun, RunsDoNotDependOnTheNumberOfThreads) {
     return runs;
   };
   EXPECT_EQ(runsWith(1), runsWith(4));
+}
+
+TEST(ForEachGroupedRun, VisitsEveryPointOnceWithTheTapesThatHoldThere) {
+  const PointScene scene(manyBalls(), 20);
+  std::vector<glm::vec3> points = scene.points;
+  std::shuffle(points.begin(), points.end(), std::mt19937(9));
+  const BandField field(scene.band, scene.whole);
+  std::vector<int> visits(points.size());
+  std::mutex guard;
+  std::size_t wrong = 0, again = 0;
+  std::map<std::size_t, std::set<const Tape*>> seen;  // by chunk: tapes whose last run was not full
+  Progress progress;
+  forEachGroupedRun(points, field, progress, [&](const PointRun& run, const std::size_t* which) {
+    const std::lock_guard lock(guard);
+    const auto finder = field.finder();
+    for (std::size_t k = 0; k < run.count; ++k) {
+      ++visits[which[k]];
+      wrong += finder->at(points[which[k]]).tapes.surface != run.tapes.surface ||
+               run.points.at(k) != points[which[k]];
+    }
+    auto& short_ = seen[which[0] / kRunChunk];
+    again += short_.contains(run.tapes.surface.get());
+    if (run.count < kBatchPoints) short_.insert(run.tapes.surface.get());
+  });
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(again, 0u) << "points that share their tapes were not read together";
+  EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<std::ptrdiff_t>(visits.size()));
 }
 
 TEST(ForEachRun, FarFromEveryLeafTheFallbackServes) {

@@ -93,7 +93,9 @@ class Remesher {
     }
   }
 
-  void measure() { measured_ = measureDensely(mesh_, field_, kMeasured * options_.tolerance, quiet_); }
+  void measure() {
+    measured_ = measureDensely(mesh_, field_, kMeasured * options_.tolerance, distances_, quiet_);
+  }
 
   void keepTolerance() {
     changes_.setTolerance(kHeld * options_.tolerance);
@@ -125,7 +127,7 @@ class Remesher {
   // Splits what blurs the colours, down to a voxel.
   void keepColors() {
     for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
-      colors_ = measureColors(mesh_, static_cast<float>(options_.tolerance), field_, quiet_);
+      colors_ = measureColors(mesh_, static_cast<float>(options_.tolerance), field_, paint_, quiet_);
       if (colors_.exceeding.empty()) break;
       changes_.splitTriangles(colors_.exceeding);
     }
@@ -161,6 +163,8 @@ class Remesher {
   RemeshChanges changes_;
   DenseDistances measured_;
   ColorErrors colors_;
+  std::vector<TriangleDistances> distances_;
+  std::vector<TriangleColors> paint_;
 };
 
 }  // namespace

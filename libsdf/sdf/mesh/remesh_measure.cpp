@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
+#include <span>
 
 #include "sdf/mesh/surface_points.h"
 
@@ -17,11 +19,11 @@ constexpr std::size_t kPoints = std::size_t{1} << 20;
 constexpr int kLeast = 9;
 
 // Adds the triangle's corners, and the nodes of a grid no coarser than `cell`: rows along the longest side.
-void addPoints(const glm::vec3 (&corners)[3], float cell, std::vector<glm::vec3>& points) {
-  points.insert(points.end(), corners, corners + 3);
-  int k = 0;
+void addPoints(const std::array<glm::vec3, 3>& corners, float cell, std::vector<glm::vec3>& points) {
+  points.insert(points.end(), corners.begin(), corners.end());
+  std::size_t k = 0;
   float longest = 0.0f;
-  for (int i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i)
     if (const float l = glm::distance(corners[i], corners[(i + 1) % 3]); l > longest) longest = l, k = i;
   const glm::vec3 &a = corners[k], &b = corners[(k + 1) % 3], &c = corners[(k + 2) % 3];
   const float height = glm::length(glm::cross(b - a, c - a)) / longest;
@@ -36,60 +38,83 @@ void addPoints(const glm::vec3 (&corners)[3], float cell, std::vector<glm::vec3>
   }
 }
 
+// What these distances, the corners' first, say of a triangle.
+TriangleDistances judged(const std::array<glm::vec3, 3>& corners, std::span<const float> distances) {
+  TriangleDistances t{corners, {distances[0], distances[1], distances[2]}, 0.0f, 0.0};
+  for (const float d : distances) t.largest = d <= t.largest ? t.largest : d;
+  for (const float d : distances.subspan(3)) t.meanSquare += static_cast<double>(d) * static_cast<double>(d);
+  t.meanSquare /= static_cast<double>(distances.size() - 3);
+  return t;
+}
+
+// Reads those of the triangles, by their first half-edges, that are not known.
+class Reader {
+ public:
+  Reader(const RemeshTopology& mesh, const LocalField& field, std::vector<TriangleDistances>& known,
+         Progress& progress)
+      : mesh_(mesh), field_(field), finder_(field.finder()), known_(known), progress_(progress) {}
+
+  void add(std::uint32_t h) {
+    const std::array<glm::vec3, 3> corners = mesh_.corners(h);
+    const double voxel = finder_->at((corners[0] + corners[1] + corners[2]) / 3.0f).voxel;
+    addPoints(corners, static_cast<float>(voxel) / 3.0f, points_);
+    triangles_.push_back(h), ends_.push_back(points_.size());
+    if (points_.size() >= kPoints) flush();
+  }
+
+  void flush() {
+    const std::vector<float> distances = distancesAt(points_, field_, progress_);
+    if (!progress_.stopped())
+      for (std::size_t i = 0, begin = 0; i < triangles_.size(); begin = ends_[i++])
+        known_[triangles_[i] / 3] =
+            judged(mesh_.corners(triangles_[i]), std::span(distances).subspan(begin, ends_[i] - begin));
+    points_.clear(), triangles_.clear(), ends_.clear();
+  }
+
+ private:
+  const RemeshTopology& mesh_;
+  const LocalField& field_;
+  std::unique_ptr<LocalField::Finder> finder_;
+  std::vector<TriangleDistances>& known_;
+  Progress& progress_;
+  std::vector<glm::vec3> points_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<std::size_t> ends_;  // of each triangle's points
+};
+
 }  // namespace
 
 std::vector<float> distancesAt(const std::vector<glm::vec3>& points, const LocalField& field,
                                Progress& progress) {
   std::vector<float> all(points.size());
-  forEachRun(
-      points.size(), [&](std::size_t i) { return points[i]; }, field, progress,
-      [&](const PointRun& run) {
-        RunGradients g;
-        g.evaluate(run, run.points);
-        for (std::size_t i = 0; i < run.count; ++i) all[run.first + i] = std::abs(g.distance(i));
-      });
+  forEachGradient(points, field, progress, [&](std::size_t i, const RunGradients& g, std::size_t k) {
+    all[i] = std::abs(g.distance(k));
+  });
   return all;
 }
 
 DenseDistances measureDensely(const RemeshTopology& mesh, const LocalField& field, double tolerance,
-                              Progress& progress) {
+                              std::vector<TriangleDistances>& known, Progress& progress) {
+  known.resize(mesh.halfEdges() / 3);
+  Reader reader(mesh, field, known, progress);
+  for (std::uint32_t h = 0; h < mesh.halfEdges() && !progress.stopped(); h += 3)
+    if (mesh.alive(h) && !(known[h / 3].meanSquare >= 0.0 && known[h / 3].corners == mesh.corners(h)))
+      reader.add(h);
+  reader.flush();
   DenseDistances result;
+  if (progress.stopped()) return result;
   double area = 0.0, squares = 0.0;
-  const auto finder = field.finder();
-  std::vector<glm::vec3> points;
-  std::vector<std::size_t> ends;
-  for (std::uint32_t h = 0, first = 0; h < mesh.halfEdges() && !progress.stopped(); h += 3) {
-    if (mesh.alive(h)) {
-      const glm::vec3 corners[3]{mesh.positions[mesh.from(h)], mesh.positions[mesh.from(h + 1)],
-                                 mesh.positions[mesh.from(h + 2)]};
-      addPoints(corners,
-                static_cast<float>(finder->at((corners[0] + corners[1] + corners[2]) / 3.0f).voxel) / 3.0f,
-                points);
-    }
-    ends.push_back(points.size());
-    if (points.size() < kPoints && h + 3 < mesh.halfEdges()) continue;
-    const std::vector<float> distances = distancesAt(points, field, progress);
-    std::size_t k = 0;
-    for (std::uint32_t t = first; t <= h; t += 3) {
-      const std::size_t begin = k, end = ends[(t - first) / 3];
-      double largest = 0.0, sum = 0.0;
-      for (; k < end; ++k) {
-        largest = distances[k] <= largest ? largest : static_cast<double>(distances[k]);
-        if (k >= begin + 3) sum += static_cast<double>(distances[k]) * static_cast<double>(distances[k]);
-      }
-      if (end == begin) continue;
-      for (std::uint32_t i = 0; i < 3; ++i)
-        if (!(distances[begin + i] <= tolerance)) result.vertices.push_back(mesh.from(t + i));
-      const glm::dvec3 a(mesh.positions[mesh.from(t)]), b(mesh.positions[mesh.from(t + 1)]),
-          c(mesh.positions[mesh.from(t + 2)]);
-      const double size = glm::length(glm::cross(b - a, c - a));
-      area += size;
-      squares += size * sum / static_cast<double>(end - begin - 3);
-      result.largest = largest <= result.largest ? result.largest : largest;
-      if (!(largest <= tolerance)) result.exceeding.push_back(t);
-    }
-    points.clear(), ends.clear();
-    first = h + 3;
+  for (std::uint32_t h = 0; h < mesh.halfEdges(); h += 3) {
+    if (!mesh.alive(h)) continue;
+    const TriangleDistances& t = known[h / 3];
+    for (std::uint32_t i = 0; i < 3; ++i)
+      if (!(t.atCorners[i] <= tolerance)) result.vertices.push_back(mesh.from(h + i));
+    const glm::dvec3 a(t.corners[0]), b(t.corners[1]), c(t.corners[2]);
+    const double size = glm::length(glm::cross(b - a, c - a)), largest = t.largest;
+    area += size;
+    squares += size * t.meanSquare;
+    result.largest = largest <= result.largest ? result.largest : largest;
+    if (!(largest <= tolerance)) result.exceeding.push_back(h);
   }
   std::sort(result.vertices.begin(), result.vertices.end());
   result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());

@@ -1,6 +1,8 @@
 // How far a mesh in the making is from the surface, seen as closely as the field resolves features.
 #pragma once
+#include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "sdf/base/progress.h"
@@ -20,9 +22,18 @@ struct DenseDistances {
   std::vector<std::uint32_t> vertices;   ///< those beyond it themselves
 };
 
+/// What was read of a triangle, for as long as its corners stay where they are.
+struct TriangleDistances {
+  std::array<glm::vec3, 3> corners{};
+  std::array<float, 3> atCorners{};
+  float largest = 0.0f;
+  double meanSquare = -1.0;  ///< negative before anything is read
+};
+
 /// First-order distances at points all over each triangle, half a voxel (LocalField::Local::voxel) apart at
-/// most, and at its corners: features that the field resolves are larger than that. Cost: the area in voxels.
+/// most, and at its corners: features that the field resolves are larger than that. Triangles that are as
+/// they were in `known`, by number, are not read again. Cost: the area of the others in voxels.
 DenseDistances measureDensely(const RemeshTopology& mesh, const LocalField& field, double tolerance,
-                              Progress& progress);
+                              std::vector<TriangleDistances>& known, Progress& progress);
 
 }  // namespace sdf

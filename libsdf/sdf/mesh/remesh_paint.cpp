@@ -108,39 +108,43 @@ void addPaintErrors(const Fans& fans, float tolerance, const LocalField& field, 
 }
 
 ColorErrors measureColors(const RemeshTopology& mesh, float tolerance, const LocalField& field,
-                          Progress& progress) {
-  ColorErrors result;
+                          std::vector<TriangleColors>& known, Progress& progress) {
+  known.resize(mesh.halfEdges() / 3);
   const auto finder = field.finder();
   std::vector<glm::vec3> points, weights;
-  struct Triangle {
-    std::uint32_t half;
-    std::size_t end;  // of its points
-    bool large;
-  };
-  std::vector<Triangle> triangles;
-  for (std::uint32_t h = 0; h < mesh.halfEdges() && !progress.stopped(); h += 3) {
-    if (mesh.alive(h)) {
-      const std::array<glm::vec3, 3> corners{mesh.positions[mesh.from(h)], mesh.positions[mesh.from(h + 1)],
-                                             mesh.positions[mesh.from(h + 2)]};
-      const float longest = longestSide(corners);
-      const auto voxel = static_cast<float>(finder->at(corners[0]).voxel);
-      addGrid(longest, voxel / 2.0f, weights);
-      const auto inner = shrunken(corners, kBorderTolerances * tolerance);
-      for (std::size_t i = points.size(); i < weights.size(); ++i) points.push_back(at(inner, weights[i]));
-      triangles.push_back({h, points.size(), longest > voxel});
-    }
-    if (points.size() < kPoints && h + 3 < mesh.halfEdges()) continue;
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::size_t> ends;  // of each triangle's points
+  const auto read = [&] {
     const std::vector<Paint> paint = readPaintBeside(points, field, progress);
-    std::size_t first = 0;
-    for (const Triangle& t : triangles) {
-      float largest = 0.0f;
-      for (std::size_t i = first + 3; i < t.end; ++i)
-        largest = std::max(largest, difference(paint[i], &paint[first], weights[i]));
-      result.largest = std::max(result.largest, static_cast<double>(largest));
-      if (t.large && largest > kColorTolerance) result.exceeding.push_back(t.half);
-      first = t.end;
+    for (std::size_t i = 0, first = 0; i < triangles.size() && !progress.stopped(); first = ends[i++]) {
+      float& largest = known[triangles[i] / 3].largest = 0.0f;
+      for (std::size_t k = first + 3; k < ends[i]; ++k)
+        largest = std::max(largest, difference(paint[k], &paint[first], weights[k]));
     }
-    points.clear(), weights.clear(), triangles.clear();
+    points.clear(), weights.clear(), triangles.clear(), ends.clear();
+  };
+  for (std::uint32_t h = 0; h < mesh.halfEdges() && !progress.stopped(); h += 3) {
+    if (!mesh.alive(h)) continue;
+    TriangleColors& t = known[h / 3];
+    const std::array<glm::vec3, 3> corners = mesh.corners(h);
+    if (t.largest >= 0.0f && t.corners == corners) continue;
+    const float longest = longestSide(corners);
+    const auto voxel = static_cast<float>(finder->at(corners[0]).voxel);
+    t = {corners, -1.0f, longest <= voxel};
+    addGrid(longest, voxel / 2.0f, weights);
+    const auto inner = shrunken(corners, kBorderTolerances * tolerance);
+    for (std::size_t i = points.size(); i < weights.size(); ++i) points.push_back(at(inner, weights[i]));
+    triangles.push_back(h), ends.push_back(points.size());
+    if (points.size() >= kPoints) read();
+  }
+  read();
+  ColorErrors result;
+  if (progress.stopped()) return result;
+  for (std::uint32_t h = 0; h < mesh.halfEdges(); h += 3) {
+    if (!mesh.alive(h)) continue;
+    const TriangleColors& t = known[h / 3];
+    result.largest = std::max(result.largest, static_cast<double>(t.largest));
+    if (!t.mayExceed && t.largest > kColorTolerance) result.exceeding.push_back(h);
   }
   return result;
 }

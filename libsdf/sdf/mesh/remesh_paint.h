@@ -1,6 +1,8 @@
 // What remeshing holds of a surface besides its distance: the borders of its materials, and its colours.
 #pragma once
+#include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "sdf/base/progress.h"
@@ -30,9 +32,17 @@ struct ColorErrors {
   std::vector<std::uint32_t> exceeding;  ///< first half-edges of triangles with a side longer than a voxel
 };
 
+/// What was read of a triangle, for as long as its corners stay where they are.
+struct TriangleColors {
+  std::array<glm::vec3, 3> corners{};
+  float largest = -1.0f;   ///< unit as kColorTolerance; negative before anything is read
+  bool mayExceed = false;  ///< no side is longer than a voxel
+};
+
 /// Colours' errors at points all over each triangle, half a voxel apart at most. `tolerance` is the
-/// distance's. Cost: the area in voxels.
+/// distance's, and always the same for what is `known`: triangles that are as they were there, by number, are
+/// not read again. Cost: the area of the others in voxels.
 ColorErrors measureColors(const RemeshTopology& mesh, float tolerance, const LocalField& field,
-                          Progress& progress);
+                          std::vector<TriangleColors>& known, Progress& progress);
 
 }  // namespace sdf

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "sdf/mesh/remesh_changes.h"
 #include "sdf/mesh/remesh_measure.h"
@@ -10,6 +11,9 @@ namespace {
 
 // Splitting halves an edge and so quarters its error: more rounds than these do not help.
 constexpr int kRounds = 16;
+
+// And no more where as many triangles exceed the tolerance as before, and are less than this share of all.
+constexpr double kFew = 0.01;
 
 // A triangle whose distances are beyond the tolerance is split where they come from: at a side that has this
 // share of the tolerance in its middle, else at the longest.
@@ -96,9 +100,13 @@ void RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool on
 }
 
 void RemeshChanges::split() {
+  std::size_t before = std::numeric_limits<std::size_t>::max();
   for (int i = 0; i < kRounds && !progress_.stopped(); ++i) {
     const std::vector<Candidate> candidates = splitCandidates();
-    if (candidates.empty()) return;
+    const bool few =
+        static_cast<double>(candidates.size()) < kFew * static_cast<double>(mesh_.liveTriangles());
+    if (candidates.empty() || (few && candidates.size() >= before)) return;
+    before = candidates.size();
     splitRound(candidates, false);
     flip();
     relocate();

@@ -1,5 +1,6 @@
 // A closed triangle mesh that can be changed: triangles, and the triangle across each of their edges.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -24,6 +25,10 @@ class RemeshTopology {
   Index from(Index h) const { return from_[h]; }
   Index to(Index h) const { return from_[next(h)]; }
   Index apex(Index h) const { return from_[previous(h)]; }
+  /// Of the triangle that h is the first half-edge of.
+  std::array<glm::vec3, 3> corners(Index h) const {
+    return {positions[from_[h]], positions[from_[h + 1]], positions[from_[h + 2]]};
+  }
   Index twin(Index h) const { return twin_[h]; }
   bool isCrease(Index h) const { return crease_[h] != 0; }
   /// Of the triangle; the flip of an edge, which is no crease, keeps it.

@@ -59,18 +59,18 @@ std::vector<Paint> readPaint(std::size_t count, const std::function<glm::vec3(st
 std::vector<Paint> readPaintBeside(const std::vector<glm::vec3>& points, const LocalField& field,
                                    Progress& progress) {
   std::vector<Paint> paint(points.size());
-  forEachRun(
-      points.size(), [&](std::size_t i) { return points[i]; }, field, progress,
-      [&](const PointRun& run) {
-        RunGradients g;
-        PointRows there, normals;
-        g.evaluate(run, run.points);
-        for (std::size_t i = 0; i < run.count; ++i) {
-          there.set(i, points[run.first + i] + g.step(i));
-          normals.set(i, g.normal(i));
-        }
-        readRun(run, there, normals, &paint[run.first]);
-      });
+  forEachGroupedRun(points, field, progress, [&](const PointRun& run, const std::size_t* which) {
+    RunGradients g;
+    PointRows there, normals;
+    Paint read[kBatchPoints];
+    g.evaluate(run, run.points);
+    for (std::size_t i = 0; i < run.count; ++i) {
+      there.set(i, run.points.at(i) + g.step(i));
+      normals.set(i, g.normal(i));
+    }
+    readRun(run, there, normals, read);
+    for (std::size_t i = 0; i < run.count; ++i) paint[which[i]] = read[i];
+  });
   return paint;
 }
 

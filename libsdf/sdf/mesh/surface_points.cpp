@@ -9,6 +9,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
+#include <utility>
 
 namespace sdf {
 namespace {
@@ -49,25 +51,72 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
   });
 }
 
-// A band's leaves are 8 voxels wide.
-std::vector<std::uint32_t> orderByRegion(const std::vector<glm::vec3>& points, const LocalField& field) {
-  std::vector<std::uint32_t> order(points.size());
-  const std::size_t chunks = (points.size() + kRunChunk - 1) / kRunChunk;
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-    const std::size_t first = chunk * kRunChunk, count = std::min(points.size() - first, kRunChunk);
-    const float width = 8.0f * static_cast<float>(field.finder()->at(points[first]).voxel);
-    std::pair<std::uint64_t, std::uint32_t> keys[kRunChunk];
+namespace {
+
+// A chunk of points, ordered so that those with the same tapes and resolution follow one another.
+class GroupedChunk {
+ public:
+  struct Group {
+    LocalField::Local here;
+    std::size_t end = 0;  // in order()
+  };
+
+  GroupedChunk(const glm::vec3* points, std::size_t count, LocalField::Finder& finder) : order_(count) {
+    std::map<std::pair<const Tape*, double>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> groupOf(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const glm::vec3 cell = glm::floor(points[first + i] / width);
-      std::uint64_t key = 0;
-      for (int axis = 0; axis < 3; ++axis)
-        key = key << 21 | (static_cast<std::uint64_t>(static_cast<std::int64_t>(cell[axis])) & 0x1fffff);
-      keys[i] = {key, static_cast<std::uint32_t>(first + i)};
+      const LocalField::Local here = finder.at(points[i]);
+      const auto sameAs = [&](const LocalField::Local& o) {
+        return o.tapes.surface == here.tapes.surface && o.voxel == here.voxel;
+      };
+      if (i > 0 && sameAs(groups_[groupOf[i - 1]].here)) {
+        groupOf[i] = groupOf[i - 1];
+      } else {
+        const auto number = static_cast<std::uint32_t>(groups_.size());
+        const auto [at, isNew] = numbers.try_emplace({here.tapes.surface.get(), here.voxel}, number);
+        if (isNew) groups_.push_back({here});
+        groupOf[i] = at->second;
+      }
+      ++groups_[groupOf[i]].end;
     }
-    std::sort(keys, keys + count);
-    for (std::size_t i = 0; i < count; ++i) order[first + i] = keys[i].second;
+    std::size_t begin = 0;
+    for (Group& g : groups_) begin += std::exchange(g.end, begin);
+    for (std::size_t i = 0; i < count; ++i) order_[groups_[groupOf[i]].end++] = i;
+  }
+
+  const std::vector<Group>& groups() const { return groups_; }
+  /// The points' numbers in the chunk, a group after the other.
+  const std::vector<std::size_t>& order() const { return order_; }
+
+ private:
+  std::vector<Group> groups_;
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace
+
+void forEachGroupedRun(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
+                       const std::function<void(const PointRun&, const std::size_t*)>& work) {
+  tbb::enumerable_thread_specific<BatchEvaluator> evaluators;
+  const std::size_t chunks = (points.size() + kRunChunk - 1) / kRunChunk;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+    if (progress.stopped()) return;
+    const std::size_t first = chunk * kRunChunk, count = std::min(points.size() - first, kRunChunk);
+    const GroupedChunk grouped(&points[first], count, *field.finder());
+    PointRows rows;
+    std::size_t which[kBatchPoints], k = 0;
+    for (const GroupedChunk::Group& group : grouped.groups())
+      while (k < group.end) {
+        const std::size_t begin = k;
+        for (; k < group.end && k - begin < kBatchPoints; ++k) {
+          which[k - begin] = first + grouped.order()[k];
+          rows.set(k - begin, points[which[k - begin]]);
+        }
+        work({first + begin, k - begin, rows, group.here.tapes, group.here.voxel, evaluators.local()}, which);
+      }
+    progress.update(static_cast<double>(++done) / static_cast<double>(chunks));
   });
-  return order;
 }
 
 void RunGradients::evaluate(const PointRun& run, const PointRows& at) {

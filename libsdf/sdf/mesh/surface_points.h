@@ -31,8 +31,10 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
                 const LocalField& field, Progress& progress,
                 const std::function<void(const PointRun&)>& work);
 
-/// An order in which points that share their tapes follow one another, kept within chunks of kRunChunk.
-std::vector<std::uint32_t> orderByRegion(const std::vector<glm::vec3>& points, const LocalField& field);
+/// The same for points that may lie anywhere: those of a chunk that share their tapes make a run, whose k-th
+/// point is number which[k]: work(run, which).
+void forEachGroupedRun(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
+                       const std::function<void(const PointRun&, const std::size_t* which)>& work);
 
 /// First-order distances and gradients of one run: |f| / |grad f| is the distance to the zero set up to
 /// second order (Taubin 1994).
@@ -57,14 +59,11 @@ struct RunGradients {
 template <class Take>
 void forEachGradient(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
                      const Take& take) {
-  const std::vector<std::uint32_t> order = orderByRegion(points, field);
-  forEachRun(
-      points.size(), [&](std::size_t i) { return points[order[i]]; }, field, progress,
-      [&](const PointRun& run) {
-        RunGradients g;
-        g.evaluate(run, run.points);
-        for (std::size_t k = 0; k < run.count; ++k) take(order[run.first + k], g, k);
-      });
+  forEachGroupedRun(points, field, progress, [&](const PointRun& run, const std::size_t* which) {
+    RunGradients g;
+    g.evaluate(run, run.points);
+    for (std::size_t k = 0; k < run.count; ++k) take(which[k], g, k);
+  });
 }
 
 }  // namespace sdf
