@@ -291,7 +291,7 @@ TEST(Remesh, LeavesWhatIsHeld) {
   Fine fine(sphere(1.0), 0.1);
   FeatureMesh& mesh = fine.mesh;
   const auto isHeld = [](const glm::vec3& p) { return p.x > 0.3f; };
-  for (const glm::vec3& p : mesh.positions) mesh.held.push_back(isHeld(p));
+  for (const glm::vec3& p : mesh.positions) mesh.held.push_back(isHeld(p) ? Hold::Kept : Hold::None);
   const auto order = [](const glm::vec3& a, const glm::vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
@@ -308,7 +308,7 @@ TEST(Remesh, LeavesWhatIsHeld) {
   EXPECT_LT(m.mesh.triangles.size(), mesh.triangles.size() * 6 / 10) << "the rest is thinned";
   std::size_t marked = 0;
   for (std::size_t v = 0; v < m.mesh.positions.size(); ++v) {
-    if (!m.mesh.held[v]) continue;
+    if (m.mesh.held[v] == Hold::None) continue;
     ++marked;
     EXPECT_TRUE(isHeld(m.mesh.positions[v]));
   }

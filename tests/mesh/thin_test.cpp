@@ -55,6 +55,44 @@ TEST(Thin, StepsAndRimsBelowTheToleranceDoNotCross) {
     EXPECT_LE(thinned(cup | standing, 0.025, tolerance).mesh.triangles.size(), 4000u) << tolerance;
 }
 
+// Where a crescent's horns run out to nothing no tolerance can be kept. Elsewhere it is.
+TEST(Thin, WhatCannotBeKeptIsLeftAsItIsWhereThatIsAllowed) {
+  const Shape crescent = subtract({sphere(0.5), translate(sphere(0.5), {0.05, 0.0, 0.0})});
+  constexpr double kVoxel = 0.02, kTolerance = 1e-3;
+  const auto meshed = [&](bool strict) {
+    Progress progress;
+    return meshShape(crescent, "part", {.voxelSize = kVoxel, .tolerance = kTolerance, .strict = strict},
+                     progress);
+  };
+  const Result<MeshedShape> refused = meshed(true), best = meshed(false);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::Limits);
+  ASSERT_TRUE(best.ok()) << best.error().message;
+  EXPECT_TRUE(best->stats.watertight && best->stats.manifold);
+  EXPECT_EQ(best->stats.crossings, 0u);
+  EXPECT_GT(best->stats.maxDistance, kTolerance);
+  EXPECT_LE(best->stats.maxDistance, kVoxel);
+  const Evaluator field(crescent.distance);
+  const double horns = std::sqrt(0.25 - 0.025 * 0.025);
+  for (const glm::vec3& p : best->mesh.positions) {
+    const double along = std::hypot(p.x - 0.025, std::hypot(p.y, p.z) - horns);
+    if (along > 8.0 * kVoxel) EXPECT_LE(std::abs(field(glm::dvec3(p))), 1.01 * kTolerance);
+  }
+  Progress progress;
+  const Result<MeshedShape> uniform =
+      meshShape(crescent, "part", {.voxelSize = best->stats.voxelSize}, progress);
+  ASSERT_TRUE(uniform.ok());
+  EXPECT_LT(2 * best->mesh.triangles.size(), uniform->mesh.triangles.size());
+}
+
+TEST(Thin, MeshesThatAreTornOpenAreRefused) {
+  const Shape ball = field((length(position()) - 1.0) * 2.0, Box{glm::dvec3(-1.0), glm::dvec3(1.0)}, 1.0);
+  Progress progress;
+  const Result<MeshedShape> mesh = meshShape(ball, "part", {.tolerance = 1e-3}, progress);
+  ASSERT_FALSE(mesh.ok());
+  EXPECT_NE(mesh.error().message.find("torn open"), std::string::npos) << mesh.error().message;
+}
+
 // The share of a mesh's area whose interpolated normals are more than 15 degrees from the gradient under it.
 double wrongShare(const Mesh& mesh, const Shape& shape) {
   const Evaluator field(shape.distance);

@@ -70,7 +70,8 @@ TEST_F(BadInput, FlagsSayWhichValuesTheyTake) {
   expectBadFlags({"--triangles", "9", "--tolerance", "1"}, {"--triangles finds the tolerance"});
   expectBadFlags({"--triangles", "9", "--animate", "--frames", "2"}, {"--triangles counts", "--animate"});
   expectBadFlags({"--lod", "17", "--tolerance", "1"}, {"--lod needs a whole number from 1 to 16", "'17'"});
-  expectBadFlags({"--lod", "2"}, {"--lod takes four times the tolerance", "say --tolerance"});
+  expectBadFlags({"--lod", "2", "--voxel-size", "0.1"},
+                 {"--lod takes four times the tolerance", "say --tolerance", "leave --voxel-size out"});
   expectBadFlags({"--lod", "2", "--tolerance", "1", "--animate", "--frames", "2"},
                  {"--lod: leave --animate"});
   expectBadFlags({"--time", "noon"}, {"--time needs a finite number", "noon"});
@@ -243,7 +244,7 @@ TEST_F(BadInput, AFullDiskLeavesNothing) {
   const std::string disk = out("");
   if (::mount("none", disk.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "mounting needs root";
   for (const char* name : {"a.glb", "a.gltf", "a.stl", "a.ply", "a.obj"}) {
-    expectRefusal(run({scene(kSphere), "-o", out(name)}), kFiles,
+    expectRefusal(run({scene(kSphere), "-o", out(name), "--voxel-size", "0.02"}), kFiles,
                   {name, "No space left on device", "free some space"});
   }
   ::umount(disk.c_str());

@@ -9,14 +9,16 @@ class Compress : public Export {};
 TEST_F(Compress, TheLatticeTakesAQuarterAtMost) {
   const std::string lattice = SDF_SOURCE_DIR "/samples/lattice.lua";
   // It warns of walls thinner than its voxels.
-  ASSERT_EQ(run({lattice, "-o", out("plain.glb")}).status, 0);
-  ASSERT_EQ(run({lattice, "-o", out("small.glb"), "--compress"}).status, 0);
+  ASSERT_EQ(run({lattice, "-o", out("plain.glb"), "--voxel-size", "0.02"}).status, 0);
+  ASSERT_EQ(run({lattice, "-o", out("small.glb"), "--voxel-size", "0.02", "--compress"}).status, 0);
   EXPECT_LE(4 * std::filesystem::file_size(out("small.glb")), std::filesystem::file_size(out("plain.glb")));
 }
 
 TEST_F(Compress, RoundingCountsInTheFiguresOfEveryPart) {
-  const Json plain = report({scene(kTwoParts), "-o", out("a.glb")})["outputs"][0];
-  const Json small = report({scene(kTwoParts), "-o", out("a.glb"), "--compress"})["outputs"][0];
+  const std::string twoParts = scene(kTwoParts);
+  const Json plain = report({twoParts, "-o", out("a.glb"), "--voxel-size", "0.02"})["outputs"][0];
+  const Json small =
+      report({twoParts, "-o", out("a.glb"), "--voxel-size", "0.02", "--compress"})["outputs"][0];
   const Json file = glbJson(out("a.glb"));
   ASSERT_EQ(small["parts"].size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -35,6 +37,17 @@ TEST_F(Compress, RoundingCountsInTheFiguresOfEveryPart) {
   }
   EXPECT_EQ(file["asset"]["extras"]["maxDistance"], small["total"]["max_distance"]);
   EXPECT_GT(small["total"]["max_distance"].get<double>(), plain["total"]["max_distance"].get<double>());
+}
+
+TEST_F(Compress, RoundingIsWithinTheTolerance) {
+  const Json output = report({scene("part('ball', sphere(1)) part('ring', torus(2, 0.3))"), "-o",
+                              out("a.glb"), "--compress", "--tolerance", "0.004"})["outputs"][0];
+  ASSERT_EQ(output["parts"].size(), 2u);
+  for (const Json& part : output["parts"]) {
+    EXPECT_EQ(part["tolerance"], 0.004);
+    EXPECT_LE(part["max_distance"].get<double>(), 0.004);
+    EXPECT_GT(part["max_distance"].get<double>(), 0.8 * 0.004);
+  }
 }
 
 TEST_F(Compress, AnimationsAreCompressedToo) {

@@ -327,6 +327,37 @@ TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
   EXPECT_DOUBLE_EQ(output["parts"][1]["voxel_size"].get<double>(), 3.5 / 200);
 }
 
+TEST_F(Export, KeepsATwoThousandthOfTheDiagonalUnlessToldOtherwise) {
+  const std::string file = scene(kTwoParts);
+  const Json output = report({file, "-o", out("a.glb")})["outputs"][0];
+  const double diagonal = std::sqrt(3.5 * 3.5 + 2.0 * 2.0 + 2.0 * 2.0);
+  for (const Json& part : output["parts"]) {
+    EXPECT_NEAR(part["tolerance"].get<double>(), diagonal / 2000, 1e-12);
+    EXPECT_LE(part["max_distance"], part["tolerance"]);
+  }
+  EXPECT_EQ(output["parts"][1]["triangles"], 12);
+  const Json uniform = report({file, "-o", out("a.glb"), "--voxel-size", "0.05"})["outputs"][0]["parts"][1];
+  EXPECT_TRUE(uniform["tolerance"].is_null());
+  EXPECT_GT(uniform["triangles"], 1000);
+}
+
+// A crescent runs out to nothing at its horns.
+TEST_F(Export, SaysWhereTheToleranceOfItsOwnIsNotKept) {
+  const std::string file = scene("return sphere(0.5) - sphere(0.5):translate(0.01, 0, 0)");
+  const Outcome outcome = run({file, "-o", out("a.glb"), "--report", out("report.json")});
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* words :
+       {"sdf2gltf: warning: part 'part 1': the tolerance of 0.00087 is not kept everywhere: ", " off near (",
+        "; a smaller voxel size may keep it there\n"})
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  const Json part = Json::parse(contents(out("report.json")))["outputs"][0]["parts"][0];
+  EXPECT_TRUE(part["watertight"]);
+  EXPECT_EQ(part["self_intersections"], 0);
+  EXPECT_GT(part["max_distance"], part["tolerance"]);
+  EXPECT_LT(part["max_distance"].get<double>(), part["voxel_size"].get<double>());
+  EXPECT_EQ(run({file, "-o", out("a.glb"), "--tolerance", "0.05%"}).status, 4);
+}
+
 TEST_F(Export, MeshesAnySizeAlike) {
   const auto totalAt = [&](const std::string& size) {
     const std::string file = scene("local s = " + size + " return box(s, 0.51 * s, 0.33 * s)");

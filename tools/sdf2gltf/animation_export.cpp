@@ -66,7 +66,7 @@ Status AnimationExport::meshNew(FrameExport& frame) {
   std::vector<Part> bodies;
   for (const Part& part : frame.scene.parts)
     if (!follow(trackOf(part.name), part.shape, frame.clip)) bodies.push_back(part);
-  if (Status s = frame.mesh(bodies, *voxelSize_, options_.tolerance.value_or(0.0)); !s) return s;
+  if (Status s = frame.mesh(bodies, *voxelSize_, options_.tolerance); !s) return s;
   for (std::size_t i = 0; i < bodies.size(); ++i) begin(trackOf(bodies[i].name), bodies[i].shape, frame, i);
   return okStatus();
 }

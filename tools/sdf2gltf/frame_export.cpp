@@ -25,6 +25,8 @@ constexpr double kDefaultVoxels = 200.0;
 /// few triangles says little of others.
 constexpr double kFirstTolerance = 1000.0, kAim = 0.95, kEnough = 0.9, kStep = 16.0;
 constexpr int kTries = 6;
+/// Of the tolerance: with --compress the rest is left to rounding.
+constexpr double kBeforeRounding = 0.95;
 constexpr std::string_view kStepsAreNotBaked =
     "ambient_occlusion: what counts steps depends on who looks and is not baked; take kind = 'taps'";
 
@@ -161,6 +163,7 @@ Status FrameExport::meshOne(const Part& body, double voxelSize, double tolerance
     return meshShape(body.shape, body.name, meshOptions(voxelSize, tolerance), progress_);
   });
   if (!meshed) return meshed.error();
+  if (tolerance > 0.0) meshed->stats.tolerance = tolerance;
   line.stages = std::move(meshed->stageSeconds);
   line.stats = meshed->stats;
   line.peakMemory = peakMemory();
@@ -204,7 +207,8 @@ Status FrameExport::write(const std::filesystem::path& target) {
 
 MeshOptions FrameExport::meshOptions(double voxelSize, double tolerance) const {
   return {.voxelSize = voxelSize,
-          .tolerance = tolerance,
+          .tolerance = options_.compress ? kBeforeRounding * tolerance : tolerance,
+          .strict = options_.strict,
           .bounds = clip,
           .certify = options_.certify,
           .maxMemory = options_.maxMemory};

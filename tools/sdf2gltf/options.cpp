@@ -37,8 +37,16 @@ Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
                *text + "'");
 }
 
-Status tolerance(const std::optional<std::string>& text, Options& options) {
-  if (!text) return okStatus();
+/// Of the diagonal, unless told otherwise.
+constexpr double kDefaultTolerance = 1.0 / 2000;
+
+Status tolerance(const Words& words, Options& options) {
+  const std::optional<std::string>& text = words.tolerance;
+  if (!text) {
+    options.strict = words.triangles.has_value();
+    if (!words.voxelSize) options.tolerance = kDefaultTolerance, options.toleranceOfDiagonal = true;
+    return okStatus();
+  }
   std::string number = *text;
   options.toleranceOfDiagonal = number.ends_with('%');
   if (options.toleranceOfDiagonal) number.pop_back();
@@ -72,8 +80,10 @@ Status checkDetail(const Words& words) {
     return usage("--triangles finds the tolerance that so many triangles keep; leave --tolerance out");
   if (words.triangles && words.animate)
     return usage("--triangles counts those of one moment; with --animate, say --tolerance");
-  if (words.levels && !words.tolerance)
-    return usage("--lod takes four times the tolerance for each level; say --tolerance of the first");
+  if (words.levels && words.voxelSize && !words.tolerance)
+    return usage(
+        "--lod takes four times the tolerance for each level, and with --voxel-size there is none; say "
+        "--tolerance of the first, or leave --voxel-size out");
   if (words.levels && words.animate) return usage("--lod: leave --animate out, or call it for each level");
   return okStatus();
 }
@@ -98,12 +108,12 @@ void declare(CLI::App& app, Words& words) {
     return app.add_option(flag, word, what)->type_name(value);
   };
   add("-o,--output", words.output, "OUT", "file to write: .glb .gltf .stl .ply .obj")->required();
-  add("--voxel-size", words.voxelSize, "H",
-      "sampling distance in scene units [1/200 of the longest side of all that is exported]");
   add("--tolerance", words.tolerance, "E",
       "distance from the surface that meshes keep with few triangles, in scene units or, as E%, in "
-      "hundredths "
-      "of the diagonal of all that is exported [none]");
+      "hundredths of the diagonal of all that is exported [0.05%, where it can be kept]");
+  add("--voxel-size", words.voxelSize, "H",
+      "sampling distance in scene units [1/200 of the longest side of all that is exported]; without "
+      "--tolerance, triangles are as large everywhere");
   add("--triangles", words.triangles, "N", "the smallest tolerance that so many triangles keep");
   add("--lod", words.levels, "N",
       "write N levels of detail, OUT and OUT_lod1 on, each with 4 times the tolerance");
@@ -146,17 +156,17 @@ Result<Options> interpreted(const Words& words) {
 
   constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
   if (Status s = checkExtension(words.output); !s) return s.error();
-  for (const Status& s : {checkBake(words), checkCompress(words), checkSequence(words), checkDetail(words),
-                          take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive),
-                          tolerance(words.tolerance, options),
-                          take<int>("--triangles", words.triangles, options.triangles, largeCount),
-                          take<int>("--lod", words.levels, options.levels, smallCount),
-                          take<double>("--time", words.time, options.time, seconds),
-                          take<int>("--frames", words.frames, options.frames, count),
-                          take<double>("--fps", words.fps, options.framesPerSecond, positive),
-                          take<int>("--threads", words.threads, options.threads, count),
-                          take<double>("--max-memory", words.maxMemory, options.maxMemory, positive, kGiB),
-                          box(words.bounds, options.bounds)})
+  for (const Status& s :
+       {checkBake(words), checkCompress(words), checkSequence(words), checkDetail(words),
+        take<double>("--voxel-size", words.voxelSize, options.voxelSize, positive), tolerance(words, options),
+        take<int>("--triangles", words.triangles, options.triangles, largeCount),
+        take<int>("--lod", words.levels, options.levels, smallCount),
+        take<double>("--time", words.time, options.time, seconds),
+        take<int>("--frames", words.frames, options.frames, count),
+        take<double>("--fps", words.fps, options.framesPerSecond, positive),
+        take<int>("--threads", words.threads, options.threads, count),
+        take<double>("--max-memory", words.maxMemory, options.maxMemory, positive, kGiB),
+        box(words.bounds, options.bounds)})
     if (!s) return s.error();
   Result<std::map<std::string, double>> values = parameters(words.parameters);
   if (!values) return values.error();
@@ -170,7 +180,7 @@ double frameTime(const Options& options, int i) { return options.time + i / opti
 
 double levelTolerance(const Options& options, int level) {
   constexpr double kBetweenLevels = 4.0;  // and as many triangles
-  return options.tolerance.value_or(0.0) * std::pow(kBetweenLevels, level);
+  return options.tolerance * std::pow(kBetweenLevels, level);
 }
 
 std::filesystem::path levelName(const std::filesystem::path& output, int level) {

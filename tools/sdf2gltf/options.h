@@ -16,8 +16,9 @@ struct Options {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::optional<double> voxelSize;
-  std::optional<double> tolerance;   ///< scene units, or
-  bool toleranceOfDiagonal = false;  ///< a share of the diagonal of all that is exported
+  double tolerance = 0.0;            ///< scene units; 0: triangles as large as voxels
+  bool toleranceOfDiagonal = false;  ///< it is a share of the diagonal of all that is exported
+  bool strict = true;                ///< MeshOptions::strict: the tolerance was asked for
   std::optional<int> triangles;      ///< of a file at most
   std::optional<int> levels;         ///< of detail: files, each of them with four times the tolerance
   std::optional<Box> bounds;

@@ -114,6 +114,10 @@ void printWarnings(std::ostream& out, const FileReport& report) {
           << "; how the mesh hangs together there depends on the voxel size, take "
           << (stats.resolvingVoxel > 0.0 ? "one of " + roundedDown(stats.resolvingVoxel) : "a smaller one")
           << " to see them\n";
+    if (stats.tolerance > 0.0 && stats.maxDistance > stats.tolerance)
+      out << part << "the tolerance of " << formatted("%.2g", stats.tolerance)
+          << " is not kept everywhere: " << formatted("%.2g", stats.maxDistance) << " off near "
+          << place(stats.farthest) << "; a smaller voxel size may keep it there\n";
     if (stats.crossings > 0)
       out << part << "the mesh intersects itself in " << grouped(stats.crossings)
           << " pairs of triangles, the first near " << place(stats.firstCrossing)

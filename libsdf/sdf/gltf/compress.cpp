@@ -30,7 +30,10 @@ int gridFor(const ExportPart& part) {
   int exponent = 0;
   std::frexp(largestCoordinate(part.mesh), &exponent);
   const int finest = std::max(exponent - kMostBits, kLeastExponent);
-  const double wished = kShare * part.stats.rmsDistance / kFarthest;
+  double most = kShare * part.stats.rmsDistance;
+  if (part.stats.tolerance > part.stats.maxDistance)
+    most = std::min(most, part.stats.tolerance - part.stats.maxDistance);
+  const double wished = most / kFarthest;
   return wished > 0.0 ? std::clamp(std::ilogb(wished), finest, finest + kFewer) : finest;
 }
 

@@ -58,12 +58,9 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
 constexpr double kLeastTolerance = 0x1p-20;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
-// Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
-// cannot mend.
-constexpr double kResolved = 0.25;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
-// it does not resolve, which may be a contact.
-constexpr std::size_t kMostTriangles = 1'000'000, kMostUnresolved = 100'000;
+// may not be mended by it.
+constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
 
 // Does what is seen on the surface change from place to place?
 bool isPainted(const Shape& shape) {
@@ -103,18 +100,20 @@ class Mesher {
       FeatureMesh mesh = extract(*sampled, field, !thins);
       const bool last =
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
-      if (!last && result_.stats.unresolved > 0 && mesh.triangles.size() <= kMostUnresolved) continue;
+      const bool cheap = mesh.triangles.size() <= kMostToTry;
+      if (!last && cheap && canResolve(h / std::exp2(kHalvings - halvings))) continue;
       if (mesh.triangles.empty()) return noSurface(h);
       if (thins) {
         begin("remeshing");
         result_.stats.tolerance = options_.tolerance;
-        measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
-        if (result_.stats.maxDistance > std::max(options_.tolerance, kResolved * h)) {
-          if (!last) continue;
-          return checkTolerance().error();
+        if (Status s = checkLattice(mesh, *bounds, h, field); !s) return s.error();
+        const bool finer = !last && (options_.strict || cheap);
+        if (result_.stats.maxDistance > std::max(options_.tolerance, kMendable * h)) {
+          if (finer) continue;
+          if (options_.strict) return checkTolerance().error();
         }
-        const bool kept = thin(mesh, field, {options_.tolerance, h, painted_}, progress_);
-        if (!kept && !last) continue;
+        const bool kept = thin(mesh, field, {options_.tolerance, h, painted_, options_.strict}, progress_);
+        if (!kept && finer && options_.strict) continue;
       }
       return finish(shape, model, *bounds, h, *sampled, field, mesh);
     }
@@ -149,6 +148,21 @@ class Mesher {
       cutAtBorders(mesh, field, progress_);
     }
     return std::move(mesh);
+  }
+
+  // Of what is not closed remeshing could make nothing.
+  Status checkLattice(const FeatureMesh& mesh, const Box& bounds, double voxel, const BandField& field) {
+    const std::vector<float> distances =
+        measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
+    measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
+    if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
+    return checkClaims(mesh, bounds, voxel, distances);
+  }
+
+  // Would voxels as small as these see what the present ones do not? Solids that touch are thinner than any.
+  bool canResolve(double least) const {
+    const MeshStats& stats = result_.stats;
+    return stats.unresolved > 0 && (stats.resolvingVoxel == 0.0 || stats.resolvingVoxel >= least);
   }
 
   // Measures, checks and colours what was made.
@@ -188,7 +202,7 @@ class Mesher {
 
   Status checkTolerance() const {
     const MeshStats& stats = result_.stats;
-    if (stats.tolerance == 0.0 || stats.maxDistance <= stats.tolerance) return okStatus();
+    if (!options_.strict || stats.tolerance == 0.0 || stats.maxDistance <= stats.tolerance) return okStatus();
     return Error{ErrorKind::Limits,
                  "part '" + name_ + "': a tolerance of " + shown(stats.tolerance) +
                      " could not be kept; the best that was reached is " + shown(stats.maxDistance) +

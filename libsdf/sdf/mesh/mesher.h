@@ -19,6 +19,10 @@ struct MeshOptions {
   /// Distance between mesh and surface to be kept with few triangles, scene units; voxels are halved up to
   /// three times for it, and for what is thinner than they are. 0: none.
   double tolerance = 0.0;
+  /// Is a tolerance that cannot be kept everywhere an error (Limits)? Otherwise it is kept where it can be,
+  /// and voxels are not halved for the rest where that would take long; stats.maxDistance tells what was
+  /// reached.
+  bool strict = true;
   std::optional<Box> bounds{};  ///< clips the shape, closed and watertight
   Values values{};              ///< of the shape's inputs; its bounds hold for all in their ranges
   bool certify = false;  ///< also prove the mesh's two-sided distance to the surface (stats.provenDistance)

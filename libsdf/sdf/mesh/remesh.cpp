@@ -118,7 +118,7 @@ class Remesher {
       if (measured_.exceeding.empty() || measured_.exceeding.size() > kRunaway * fewest) return;
       fewest = std::min(fewest, measured_.exceeding.size() + kFew);
       changes_.project(measured_.vertices);
-      changes_.splitTriangles(measured_.exceeding);
+      changes_.splitTriangles(measured_.exceeding, options_.force);
     }
     changes_.collapseShortest();
     measure();
@@ -129,7 +129,7 @@ class Remesher {
     for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
       colors_ = measureColors(mesh_, static_cast<float>(options_.tolerance), field_, paint_, quiet_);
       if (colors_.exceeding.empty()) break;
-      changes_.splitTriangles(colors_.exceeding);
+      changes_.splitTriangles(colors_.exceeding, options_.force);
     }
     halveExceeding();
   }

@@ -16,6 +16,8 @@ struct RemeshOptions {
   /// Does what is seen on the surface change from place to place? Then borders of materials and colours are
   /// held, too (remesh_paint.h).
   bool painted = false;
+  /// Is the tolerance to be kept even where that makes needles or folds?
+  bool force = true;
 };
 
 /// What was measured of the mesh that remesh left.

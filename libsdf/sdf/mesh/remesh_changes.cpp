@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "sdf/mesh/remesh_paint.h"
@@ -9,11 +10,23 @@
 
 namespace sdf {
 
+namespace {
+
+float halfExtent(const std::vector<glm::vec3>& positions) {
+  glm::vec3 low(HUGE_VALF), high(-HUGE_VALF);
+  for (const glm::vec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+  const glm::vec3 half = 0.5f * (high - low);
+  return std::max({half.x, half.y, half.z});
+}
+
+}  // namespace
+
 RemeshChanges::RemeshChanges(RemeshTopology& mesh, const LocalField& field, double tolerance, bool painted,
                              Progress& progress)
     : mesh_(mesh),
       field_(field),
       tolerance_(static_cast<float>(tolerance)),
+      size_(halfExtent(mesh.positions)),
       painted_(painted),
       progress_(progress) {
   grow();

@@ -44,8 +44,9 @@ class RemeshChanges {
   void split();
   /// Puts these vertices onto the surface.
   void project(const std::vector<std::uint32_t>& vertices);
-  /// Splits these triangles where they are farthest off, whatever it makes of them, and adjusts what is new.
-  void splitTriangles(const std::vector<std::uint32_t>& triangles);
+  /// Splits these triangles where they are farthest off, where it makes needles or folds of them only if
+  /// `force`, and adjusts what is new.
+  void splitTriangles(const std::vector<std::uint32_t>& triangles, bool force);
 
   float evenness(std::uint32_t h) const;
   void setTolerance(double tolerance);
@@ -77,13 +78,13 @@ class RemeshChanges {
   void tryCollapses(const std::vector<std::uint32_t>& edges, Care care, Fans& fans,
                     std::vector<FanError>& errors) const;
   void estimate(Fans& fans, std::vector<FanError>& errors) const;
-  // Is the edge long enough to be resolved when it is halved?
+  // Is the edge long enough to be resolved when it is halved, and not to be left as it is?
   bool maySplit(std::uint32_t edge) const;
   std::uint32_t longestSide(std::uint32_t h) const;
   std::vector<Candidate> splitCandidates();
-  // The new vertices lie on the surface (`onto`), and where that makes needles or folds the triangles are
-  // split all the same; or to either side of it as balances the distances, and such splits are left out.
-  void splitRound(const std::vector<Candidate>& candidates, bool onto);
+  // The new vertices lie on the surface (`onto`), or to either side of it as balances the distances. What
+  // makes needles or folds is left out, or done all the same (`force`).
+  void splitRound(const std::vector<Candidate>& candidates, bool onto, bool force);
   void moveToOffsets(Fans& fans, const std::vector<FanError>& errors) const;
   bool claim(std::uint32_t v);
   bool claimEdge(std::uint32_t h);
@@ -93,6 +94,7 @@ class RemeshChanges {
   RemeshTopology& mesh_;
   const LocalField& field_;
   float tolerance_;
+  float size_;  // half the mesh's longest extent
   bool painted_;
   Progress& progress_;
   std::uint32_t round_ = 1;

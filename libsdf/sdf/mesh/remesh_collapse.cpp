@@ -24,7 +24,7 @@ constexpr float kHopeless = 14.0f;
 constexpr float kCrease = 1.2f;
 // Vertices nearer to each other than this share of the tolerance are one.
 constexpr float kShortest = 0.01f;
-// Where the surface is flat the shortest edges go first.
+// Where the surface is flat the shortest edges go first: of the tolerance, for one that spans the mesh.
 constexpr float kFlat = 1e-3f;
 
 }  // namespace
@@ -57,7 +57,8 @@ float RemeshChanges::collapseCost(std::uint32_t h) const {
   const std::uint32_t u = mesh_.from(h), v = mesh_.to(h);
   const glm::vec3 along = mesh_.positions[v] - mesh_.positions[u];
   const float length = glm::length(along);
-  if (mesh_.isCrease(h)) return creaseCost(h) + kFlat * length * tolerance_;
+  const float flat = kFlat * length / size_ * tolerance_;
+  if (mesh_.isCrease(h)) return creaseCost(h) + flat;
   glm::vec3 turn(0.0f);
   if (mesh_.creasesAt(u) == 0 && mesh_.creasesAt(v) == 0) {
     turn = normals_[v] - normals_[u];
@@ -70,7 +71,7 @@ float RemeshChanges::collapseCost(std::uint32_t h) const {
     const std::uint32_t smooth = mesh_.creasesAt(u) == 0 ? u : v;
     turn = 2.0f * (normals_[smooth] - glm::normalize(facets));
   }
-  return length * glm::length(turn) + kFlat * length * tolerance_;
+  return length * glm::length(turn) + flat;
 }
 
 // The half-edge of h's edge to collapse along, from the vertex that may go; kNone if there is none.

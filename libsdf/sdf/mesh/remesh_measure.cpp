@@ -47,6 +47,8 @@ TriangleDistances judged(const std::array<glm::vec3, 3>& corners, std::span<cons
   return t;
 }
 
+bool counts(const RemeshTopology& mesh, std::uint32_t h) { return mesh.alive(h) && !mesh.isLeftTriangle(h); }
+
 // Reads those of the triangles, by their first half-edges, that are not known.
 class Reader {
  public:
@@ -98,14 +100,14 @@ DenseDistances measureDensely(const RemeshTopology& mesh, const LocalField& fiel
   known.resize(mesh.halfEdges() / 3);
   Reader reader(mesh, field, known, progress);
   for (std::uint32_t h = 0; h < mesh.halfEdges() && !progress.stopped(); h += 3)
-    if (mesh.alive(h) && !(known[h / 3].meanSquare >= 0.0 && known[h / 3].corners == mesh.corners(h)))
+    if (counts(mesh, h) && !(known[h / 3].meanSquare >= 0.0 && known[h / 3].corners == mesh.corners(h)))
       reader.add(h);
   reader.flush();
   DenseDistances result;
   if (progress.stopped()) return result;
   double area = 0.0, squares = 0.0;
   for (std::uint32_t h = 0; h < mesh.halfEdges(); h += 3) {
-    if (!mesh.alive(h)) continue;
+    if (!counts(mesh, h)) continue;
     const TriangleDistances& t = known[h / 3];
     for (std::uint32_t i = 0; i < 3; ++i)
       if (!(t.atCorners[i] <= tolerance)) result.vertices.push_back(mesh.from(h + i));

@@ -31,7 +31,8 @@ struct TriangleDistances {
 };
 
 /// First-order distances at points all over each triangle, half a voxel (LocalField::Local::voxel) apart at
-/// most, and at its corners: features that the field resolves are larger than that. Triangles that are as
+/// most, and at its corners: features that the field resolves are larger than that. What is to be left as it
+/// is (Hold) is passed over. Triangles that are as
 /// they were in `known`, by number, are not read again. Cost: the area of the others in voxels.
 DenseDistances measureDensely(const RemeshTopology& mesh, const LocalField& field, double tolerance,
                               std::vector<TriangleDistances>& known, Progress& progress);

@@ -26,6 +26,7 @@ constexpr double kShortest = 1.0 / 16;
 
 bool RemeshChanges::maySplit(std::uint32_t edge) const {
   const glm::vec3 &a = mesh_.positions[mesh_.from(edge)], &b = mesh_.positions[mesh_.to(edge)];
+  if (mesh_.isLeft(mesh_.from(edge)) && mesh_.isLeft(mesh_.to(edge))) return false;
   return glm::distance(a, b) > kShortest * field_.finder()->at(a).voxel;
 }
 
@@ -48,7 +49,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
   std::vector<std::uint32_t> vertices;
   Fans fans;
   for (std::uint32_t v = 0; v < mesh_.vertices(); ++v) {
-    if (!mesh_.vertexAlive(v) || changed_[v] < since) continue;
+    if (!mesh_.vertexAlive(v) || mesh_.isLeft(v) || changed_[v] < since) continue;
     vertices.push_back(v);
     fans.addAround(mesh_, v);
   }
@@ -68,7 +69,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
   return all;
 }
 
-void RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool onto) {
+void RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool onto, bool force) {
   ++round_;
   std::vector<std::uint32_t> chosen;
   Fans fans;
@@ -91,7 +92,7 @@ void RemeshChanges::splitRound(const std::vector<Candidate>& candidates, bool on
   if (progress_.stopped()) return;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const bool moved = errors[i].sound, inPlace = !moved && atMiddles[i].sound;
-    if (!moved && !inPlace && !onto) continue;
+    if (!moved && !inPlace && !force) continue;
     const std::uint32_t v = mesh_.split(chosen[i], (inPlace ? middles : fans).all[i].centre);
     grow();
     normals_[v] = errors[i].normal;
@@ -107,13 +108,13 @@ void RemeshChanges::split() {
         static_cast<double>(candidates.size()) < kFew * static_cast<double>(mesh_.liveTriangles());
     if (candidates.empty() || (few && candidates.size() >= before)) return;
     before = candidates.size();
-    splitRound(candidates, false);
+    splitRound(candidates, false, false);
     flip();
     relocate();
   }
 }
 
-void RemeshChanges::splitTriangles(const std::vector<std::uint32_t>& triangles) {
+void RemeshChanges::splitTriangles(const std::vector<std::uint32_t>& triangles, bool force) {
   std::vector<glm::vec3> middles;
   for (const std::uint32_t t : triangles)
     for (std::uint32_t k = 0; k < 3; ++k)
@@ -130,7 +131,7 @@ void RemeshChanges::splitTriangles(const std::vector<std::uint32_t>& triangles) 
     if (maySplit(h)) all.push_back({0.0f, std::min(h, mesh_.twin(h))});
   }
   std::sort(all.begin(), all.end());
-  splitRound(all, true);
+  splitRound(all, true, force);
   flip();
   relocate();
 }

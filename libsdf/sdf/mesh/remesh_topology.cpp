@@ -57,7 +57,7 @@ FeatureMesh RemeshTopology::compacted() const {
     if (!vertexAlive(v)) continue;
     number[v] = static_cast<Index>(mesh.positions.size());
     mesh.positions.push_back(positions[v]);
-    if (!held_.empty()) mesh.held.push_back(isHeld(v));
+    if (!held_.empty()) mesh.held.push_back(v < held_.size() ? held_[v] : Hold::None);
   }
   for (Index h = 0; h < from_.size(); h += 3) {
     if (!alive(h)) continue;

@@ -44,7 +44,12 @@ class RemeshTopology {
   Index vertices() const { return static_cast<Index>(out_.size()); }
   std::size_t liveTriangles() const { return live_; }
   /// Is v to stay, and with it the edges that end there?
-  bool isHeld(Index v) const { return v < held_.size() && held_[v] != 0; }
+  bool isHeld(Index v) const { return v < held_.size() && held_[v] != Hold::None; }
+  bool isLeft(Index v) const { return v < held_.size() && held_[v] == Hold::Left; }
+  /// Is the triangle that h is the first half-edge of to be left as it is?
+  bool isLeftTriangle(Index h) const {
+    return isLeft(from_[h]) && isLeft(from_[h + 1]) && isLeft(from_[h + 2]);
+  }
   /// Creases that end at v: 0 on a smooth piece, 2 on a crease; any other number makes a corner, which a
   /// vertex that is held counts as.
   int creasesAt(Index v) const { return creases_[v]; }
@@ -71,7 +76,7 @@ class RemeshTopology {
   std::vector<int> materials_;         // by triangle; empty where all are of one
   std::vector<std::uint8_t> crease_;   // by half-edge
   std::vector<std::uint8_t> creases_;  // by vertex; 3 stands for more
-  std::vector<char> held_;             // by vertex, of the first ones
+  std::vector<Hold> held_;             // by vertex, of the first ones
   std::size_t live_ = 0;
 };
 

@@ -6,10 +6,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "sdf/mesh/crossings.h"
 #include "sdf/mesh/remesh.h"
+#include "sdf/mesh/remesh_measure.h"
 #include "sdf/mesh/remesh_topology.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/mesh/tiles.h"
@@ -21,7 +23,10 @@ namespace {
 constexpr double kStricter = 0.95, kStrictest = 0.5;
 // Where remeshing fails the mesh is held so many voxels around, each time so many times as far, so often.
 constexpr double kReach = 2.0, kFarther = 2.0;
-constexpr int kHolds = 3;
+constexpr int kHolds = 3, kHoldsToBest = 1;
+// Where the tolerance need not be kept more than these triangles are thinned roughly only, in a tenth of the
+// time.
+constexpr std::size_t kMostToBest = 60'000;
 // Voxels are tried no closer than so many along the mesh.
 constexpr double kMostTiles = 256.0;
 // A tolerance of more than a voxel that cannot be kept is too coarse for the shape: it is divided by so much.
@@ -63,7 +68,7 @@ void closeCreases(FeatureMesh& mesh) {
 }
 
 // The vertices within a reach of some places are held.
-void holdNear(const std::vector<glm::vec3>& places, double reach, FeatureMesh& mesh) {
+void holdNear(const std::vector<glm::vec3>& places, double reach, Hold hold, FeatureMesh& mesh) {
   glm::vec3 low = mesh.positions[0], high = low;
   for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   const glm::vec3 size = high - low;
@@ -73,9 +78,9 @@ void holdNear(const std::vector<glm::vec3>& places, double reach, FeatureMesh& m
   for (const glm::vec3& p : places)
     tiles.forEach(
         p, p, [&](std::uint32_t tile) { marked[tile] = 1; }, 1);
-  mesh.held.resize(mesh.positions.size(), 0);
+  mesh.held.resize(mesh.positions.size(), Hold::None);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    if (marked[tiles.at(mesh.positions[v])]) mesh.held[v] = 1;
+    if (marked[tiles.at(mesh.positions[v])]) mesh.held[v] = std::max(mesh.held[v], hold);
 }
 
 class Thinner {
@@ -83,6 +88,7 @@ class Thinner {
   Thinner(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress)
       : mesh_(mesh), field_(field), options_(options), progress_(progress) {
     closeCreases(mesh);
+    if (!options.strict) leaveHopeless();
     lattice_ = mesh;
   }
 
@@ -92,56 +98,128 @@ class Thinner {
       if (tolerance <= options_.voxel || progress_.stopped()) break;
       tolerance = std::max(tolerance / kFiner, options_.voxel);
     }
-    if (crossing_.triangles.empty()) return false;
-    mesh_ = std::move(crossing_);
-    return true;
+    if (options_.strict && !crossing_.mesh.triangles.empty()) {
+      mesh_ = std::move(crossing_.mesh);
+      return true;
+    }
+    if (!closest_.mesh.triangles.empty()) mesh_ = std::move(closest_.mesh);
+    return false;
   }
 
  private:
   bool keep(double tolerance) {
-    mesh_ = lattice_;
-    thinRoughly(mesh_, field_, {.tolerance = tolerance, .painted = options_.painted}, progress_);
-    FeatureMesh rough = mesh_;
-    double reach = kReach * options_.voxel;
-    for (int i = 0; i <= kHolds && !progress_.stopped(); ++i, reach *= kFarther) {
-      std::vector<glm::vec3> trouble;
-      if (remeshStrictly(tolerance, trouble)) return true;
-      if (trouble.empty()) break;
-      holdNear(trouble, reach, rough);
-      mesh_ = rough;
+    const int holds = options_.strict ? kHolds : kHoldsToBest;
+    FeatureMesh rough = thinned(lattice_, tolerance);
+    if (!options_.strict && rough.triangles.size() > kMostToBest) {
+      closest_ = {thinnedWithoutCrossings(std::move(rough), tolerance), 0, 0.0};
+      return false;
     }
+    double reach = kReach * options_.voxel;
+    for (int i = 0; i <= holds && !progress_.stopped(); ++i, reach *= kFarther) {
+      mesh_ = rough;
+      std::vector<glm::vec3> trouble;
+      if (remeshStrictly(tolerance, options_.strict || i == 0, trouble)) return true;
+      if (trouble.empty()) break;
+      if (i == 0) rough = thinnedWithoutCrossings(std::move(rough), tolerance);
+      leave(trouble, reach, rough);
+    }
+    if (!options_.strict && closest_.crossings > 0) closest_ = {std::move(rough), 0, 0.0};
     return false;
   }
 
+  FeatureMesh thinned(FeatureMesh mesh, double tolerance) {
+    thinRoughly(mesh, field_, {.tolerance = tolerance, .painted = options_.painted}, progress_);
+    return mesh;
+  }
+
+  // The lattice thinned, but for where this mesh of it crosses itself.
+  FeatureMesh thinnedWithoutCrossings(FeatureMesh mesh, double tolerance) {
+    FeatureMesh start = lattice_;
+    double reach = kReach * options_.voxel;
+    for (int i = 0; i < kHolds && !progress_.stopped(); ++i, reach *= kFarther) {
+      const std::vector<glm::vec3> crossing = cornersOfCrossings(mesh);
+      if (crossing.empty()) break;
+      holdNear(crossing, reach, Hold::Kept, start);
+      mesh = thinned(start, tolerance);
+    }
+    return mesh;
+  }
+
   // What misses the tolerance by little once more by a stricter one. Where it failed otherwise: in `trouble`.
-  bool remeshStrictly(double tolerance, std::vector<glm::vec3>& trouble) {
+  bool remeshStrictly(double tolerance, bool force, std::vector<glm::vec3>& trouble) {
     for (double held = tolerance; held > kStrictest * tolerance && !progress_.stopped();) {
       const RemeshResult r =
-          remesh(mesh_, field_, {.tolerance = held, .painted = options_.painted}, progress_);
-      MeshStats stats;
-      measureDistance(mesh_.positions, mesh_.triangles, field_, progress_, stats);
-      const TrianglePairs pairs = crossingTriangles(mesh_.positions, mesh_.triangles);
-      const double missed = std::max(r.maxDistance, stats.maxDistance) / tolerance;
-      if (missed <= 1.0 && pairs.empty()) return true;
-      if (missed <= 1.0 && pairs.size() < fewest_) fewest_ = pairs.size(), crossing_ = mesh_;
+          remesh(mesh_, field_, {.tolerance = held, .painted = options_.painted, .force = force}, progress_);
+      const std::vector<glm::vec3> crossing = cornersOfCrossings(mesh_);
+      const double distance = std::max(r.maxDistance, farthest()), missed = distance / tolerance;
+      if (missed <= 1.0 && crossing.empty()) return true;
+      if (missed <= 1.0) crossing_.take({mesh_, crossing.size(), distance});
+      closest_.take({mesh_, crossing.size(), distance});
       trouble = r.exceeding;
-      for (const auto& pair : pairs)
-        for (const std::uint32_t t : pair)
-          for (int k = 0; k < 3; ++k) trouble.push_back(mesh_.positions[mesh_.triangles[t][k]]);
+      trouble.insert(trouble.end(), crossing.begin(), crossing.end());
       if (!trouble.empty()) return false;
       held *= kStricter / missed;
     }
     return false;
   }
 
+  // Of the whole mesh from the surface, by the last measure, which what is left as it is would decide.
+  double farthest() const {
+    if (leaves_) return 0.0;
+    MeshStats stats;
+    measureDistance(mesh_.positions, mesh_.triangles, field_, progress_, stats);
+    return stats.maxDistance;
+  }
+
+  static std::vector<glm::vec3> cornersOfCrossings(const FeatureMesh& mesh) {
+    std::vector<glm::vec3> corners;
+    for (const auto& pair : crossingTriangles(mesh.positions, mesh.triangles))
+      for (const std::uint32_t t : pair)
+        for (int k = 0; k < 3; ++k) corners.push_back(mesh.positions[mesh.triangles[t][k]]);
+    return corners;
+  }
+
+  void leave(const std::vector<glm::vec3>& places, double reach, FeatureMesh& mesh) {
+    holdNear(places, reach, options_.strict ? Hold::Kept : Hold::Left, mesh);
+    leaves_ = !options_.strict;
+  }
+
+  // What remeshing cannot mend stays as it is.
+  void leaveHopeless() {
+    std::vector<glm::vec3> points, places;
+    for (const glm::uvec3& t : mesh_.triangles) {
+      const glm::vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
+      for (const glm::vec3& p : {(a + b + c) / 3.0f, (a + b) / 2.0f, (b + c) / 2.0f, (c + a) / 2.0f})
+        points.push_back(p);
+    }
+    const std::vector<float> distances = distancesAt(points, field_, progress_);
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      largest = distances[i] <= largest ? largest : distances[i];
+      if (!(distances[i] <= options_.tolerance)) places.push_back(points[i]);
+    }
+    if (largest <= std::max(options_.tolerance, kMendable * options_.voxel)) return;
+    leave(places, kReach * options_.voxel, mesh_);
+  }
+
+  // The best of what was tried: that crosses itself least, then that is closest.
+  struct Best {
+    FeatureMesh mesh;
+    std::size_t crossings = std::numeric_limits<std::size_t>::max();
+    double distance = 0.0;
+    void take(Best other) {
+      if (std::tie(other.crossings, other.distance) < std::tie(crossings, distance)) *this = std::move(other);
+    }
+  };
+
   FeatureMesh& mesh_;
   const LocalField& field_;
   const ThinOptions& options_;
   Progress& progress_;
   FeatureMesh lattice_;
-  // Of those that keep the tolerance, the one that crosses itself least.
-  FeatureMesh crossing_;
-  std::size_t fewest_ = std::numeric_limits<std::size_t>::max();
+  bool leaves_ = false;  // is some of the mesh left as it is?
+  Best crossing_;        // of those that keep the tolerance
+  Best closest_;         // of all
 };
 
 }  // namespace

@@ -6,16 +6,23 @@
 
 namespace sdf {
 
+/// Voxels: a lattice's mesh that is farther from its surface has met an edge that it could not follow, which
+/// remeshing cannot mend.
+inline constexpr double kMendable = 0.25;
+
 struct ThinOptions {
   double tolerance;      ///< distance between mesh and surface, scene units; positive
   double voxel;          ///< the lattice's, scene units
   bool painted = false;  ///< RemeshOptions::painted
+  /// Otherwise what exceeds the tolerance is left as it is where nothing helps.
+  bool strict = true;
 };
 
 /// Remeshes with few triangles (remesh.h). Where the result misses the tolerance or crosses itself, which it
 /// does where walls, gaps and steps are about as thin as the tolerance, the mesh is left as it was and the
-/// rest is remeshed again. Returns whether the tolerance is kept; the mesh may cross itself even then, where
-/// nothing helped. Cost: once to some times what remeshing costs.
+/// rest is remeshed again. Returns whether the tolerance is kept, but for what is left as it is; the mesh may
+/// cross itself even then, where nothing helped. If it is not, the mesh is the best of what was tried. Cost:
+/// once to some times what remeshing costs.
 bool thin(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress);
 
 }  // namespace sdf
