@@ -76,7 +76,9 @@ TEST(Thin, WhatCannotBeKeptIsLeftAsItIsWhereThatIsAllowed) {
   const double horns = std::sqrt(0.25 - 0.025 * 0.025);
   for (const glm::vec3& p : best->mesh.positions) {
     const double along = std::hypot(p.x - 0.025, std::hypot(p.y, p.z) - horns);
-    if (along > 8.0 * kVoxel) EXPECT_LE(std::abs(field(glm::dvec3(p))), 1.01 * kTolerance);
+    if (along > 8.0 * kVoxel) {
+      EXPECT_LE(std::abs(field(glm::dvec3(p))), 1.01 * kTolerance);
+    }
   }
   Progress progress;
   const Result<MeshedShape> uniform =
