@@ -332,7 +332,7 @@ TEST_F(Export, KeepsATwoThousandthOfTheDiagonalUnlessToldOtherwise) {
   const Json output = report({file, "-o", out("a.glb")})["outputs"][0];
   const double diagonal = std::sqrt(3.5 * 3.5 + 2.0 * 2.0 + 2.0 * 2.0);
   for (const Json& part : output["parts"]) {
-    EXPECT_NEAR(part["tolerance"].get<double>(), diagonal / 2000, 1e-12);
+    EXPECT_DOUBLE_EQ(part["tolerance"].get<double>(), diagonal / 2000);
     EXPECT_LE(part["max_distance"], part["tolerance"]);
   }
   EXPECT_EQ(output["parts"][1]["triangles"], 12);

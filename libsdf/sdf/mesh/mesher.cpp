@@ -58,6 +58,9 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
 constexpr double kLeastTolerance = 0x1p-20;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
+// Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
+// cannot mend.
+constexpr double kResolved = 0.25;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
@@ -108,11 +111,11 @@ class Mesher {
         result_.stats.tolerance = options_.tolerance;
         if (Status s = checkLattice(mesh, *bounds, h, field); !s) return s.error();
         const bool finer = !last && (options_.strict || cheap);
-        if (result_.stats.maxDistance > std::max(options_.tolerance, kMendable * h)) {
-          if (finer) continue;
-          if (options_.strict) return checkTolerance().error();
-        }
-        const bool kept = thin(mesh, field, {options_.tolerance, h, painted_, options_.strict}, progress_);
+        const bool broken = result_.stats.maxDistance > std::max(options_.tolerance, kResolved * h);
+        if (broken && finer) continue;
+        if (broken && options_.strict) return checkTolerance().error();
+        const bool kept =
+            thin(mesh, field, {options_.tolerance, h, painted_, options_.strict, broken}, progress_);
         if (!kept && finer && options_.strict) continue;
       }
       return finish(shape, model, *bounds, h, *sampled, field, mesh);

@@ -88,7 +88,7 @@ class Thinner {
   Thinner(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress)
       : mesh_(mesh), field_(field), options_(options), progress_(progress) {
     closeCreases(mesh);
-    if (!options.strict) leaveHopeless();
+    if (options.broken) leaveBroken();
     lattice_ = mesh;
   }
 
@@ -121,7 +121,7 @@ class Thinner {
       if (remeshStrictly(tolerance, options_.strict || i == 0, trouble)) return true;
       if (trouble.empty()) break;
       if (i == 0) rough = thinnedWithoutCrossings(std::move(rough), tolerance);
-      leave(trouble, reach, rough);
+      hold(trouble, reach, rough);
     }
     if (!options_.strict && closest_.crossings > 0) closest_ = {std::move(rough), 0, 0.0};
     return false;
@@ -179,13 +179,14 @@ class Thinner {
     return corners;
   }
 
-  void leave(const std::vector<glm::vec3>& places, double reach, FeatureMesh& mesh) {
+  // Around trouble: where the tolerance need not be kept nothing is asked of it any more.
+  void hold(const std::vector<glm::vec3>& places, double reach, FeatureMesh& mesh) {
     holdNear(places, reach, options_.strict ? Hold::Kept : Hold::Left, mesh);
     leaves_ = !options_.strict;
   }
 
-  // What remeshing cannot mend stays as it is.
-  void leaveHopeless() {
+  // What exceeds the tolerance from the start stays as it is.
+  void leaveBroken() {
     std::vector<glm::vec3> points, places;
     for (const glm::uvec3& t : mesh_.triangles) {
       const glm::vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
@@ -193,13 +194,9 @@ class Thinner {
         points.push_back(p);
     }
     const std::vector<float> distances = distancesAt(points, field_, progress_);
-    float largest = 0.0f;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      largest = distances[i] <= largest ? largest : distances[i];
+    for (std::size_t i = 0; i < points.size(); ++i)
       if (!(distances[i] <= options_.tolerance)) places.push_back(points[i]);
-    }
-    if (largest <= std::max(options_.tolerance, kMendable * options_.voxel)) return;
-    leave(places, kReach * options_.voxel, mesh_);
+    if (!places.empty()) hold(places, kReach * options_.voxel, mesh_);
   }
 
   // The best of what was tried: that crosses itself least, then that is closest.

@@ -6,16 +6,14 @@
 
 namespace sdf {
 
-/// Voxels: a lattice's mesh that is farther from its surface has met an edge that it could not follow, which
-/// remeshing cannot mend.
-inline constexpr double kMendable = 0.25;
-
 struct ThinOptions {
   double tolerance;      ///< distance between mesh and surface, scene units; positive
   double voxel;          ///< the lattice's, scene units
   bool painted = false;  ///< RemeshOptions::painted
   /// Otherwise what exceeds the tolerance is left as it is where nothing helps.
   bool strict = true;
+  /// Is some of the mesh farther off than remeshing can mend?
+  bool broken = false;
 };
 
 /// Remeshes with few triangles (remesh.h). Where the result misses the tolerance or crosses itself, which it
