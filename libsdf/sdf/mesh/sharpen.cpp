@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sdf/mesh/divide.h"
+#include "sdf/mesh/islands.h"
 #include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/mesh/uncross.h"
@@ -39,6 +40,7 @@ class Sharpener {
   }
 
   Sharpened run() {
+    const std::vector<Island> islands = findIslands(cuts_.extracted, normals_, triangles_);
     crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_);
     nameCrossings();
     for (int round = 0; round < kHalvings; ++round)
@@ -54,6 +56,7 @@ class Sharpener {
     const std::vector<Crossed> crossed = crossedTriangles();
     findCorners(crossed);
     cutTriangles(crossed);
+    if (!islands.empty()) dropSwallowed(mesh_, islands, islandOf(islands));
     normals_.resize(mesh_.positions.size(), glm::vec3(0.0f));
     const double shortest = kShort * field_.finder()->at(mesh_.positions[0]).voxel;
     const Collapses collapses = collapseShortEdges(mesh_, normals_, anchors_, shortest);
@@ -249,6 +252,15 @@ class Sharpener {
       add({on, t[(k + 1) % 3], corner});
       addCrease(on, corner);
     }
+  }
+
+  // By vertex, with those that were added since.
+  std::vector<std::uint32_t> islandOf(const std::vector<Island>& islands) const {
+    std::vector<std::uint32_t> of(mesh_.positions.size(), kNone);
+    for (std::uint32_t i = 0; i < islands.size(); ++i)
+      for (const std::uint32_t v : islands[i].vertices) of[v] = i;
+    for (std::size_t v = cuts_.first; v < of.size(); ++v) of[v] = of[cuts_.added[v - cuts_.first].of.x];
+    return of;
   }
 
   static constexpr double kShort = 0.2;  // voxels

@@ -1,0 +1,96 @@
+#include "sdf/mesh/islands.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/scenes.h"
+#include "sdf/mesh/mesher.h"
+
+namespace sdf::test {
+namespace {
+
+constexpr std::uint32_t kNone = ~0u;
+
+// A tetrahedron with a corner at a point and legs along the axes; turned inside out it is a hole.
+void addTetrahedron(FeatureMesh& mesh, const glm::vec3& at, float leg, bool solid = true) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const glm::vec3& to : {glm::vec3(0.0f), glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f),
+                              glm::vec3(0.0f, 0.0f, 1.0f)})
+    mesh.positions.push_back(at + leg * to);
+  for (glm::uvec3 t : {glm::uvec3(0, 2, 1), glm::uvec3(0, 1, 3), glm::uvec3(0, 3, 2), glm::uvec3(1, 2, 3)}) {
+    if (!solid) std::swap(t.x, t.y);
+    mesh.triangles.push_back(t + first);
+  }
+}
+
+// The number of tetrahedra that stay of a large solid one and a small one somewhere.
+std::size_t left(const glm::vec3& at, bool solid) {
+  FeatureMesh mesh;
+  addTetrahedron(mesh, glm::vec3(0.0f), 1.0f);
+  addTetrahedron(mesh, at, 0.05f, solid);
+  Island island;
+  std::vector<std::uint32_t> islandOf(8, kNone);
+  for (std::uint32_t v = 4; v < 8; ++v) {
+    island.vertices.push_back(v);
+    island.centre += glm::dvec3(mesh.positions[v]) / 4.0;
+    islandOf[v] = 0;
+  }
+  island.solid = solid;
+  dropSwallowed(mesh, {island}, islandOf);
+  return mesh.triangles.size() / 4;
+}
+
+TEST(Islands, GoWhereTheRestSwallowsThem) {
+  const glm::vec3 inside(0.2f), outside(0.7f), acrossASide(0.2f, 0.2f, -0.04f);
+  EXPECT_EQ(left(inside, true), 1u);
+  EXPECT_EQ(left(outside, true), 2u);
+  EXPECT_EQ(left(acrossASide, true), 1u);
+  EXPECT_EQ(left(inside, false), 2u) << "a hole in what is solid";
+  EXPECT_EQ(left(outside, false), 1u);
+  // In line with the rest's edges and corners.
+  EXPECT_EQ(left({-0.5f, 0.0f, 0.0f}, true), 2u);
+  EXPECT_EQ(left({-0.5f, 0.2f, 0.2f}, true), 2u);
+}
+
+TEST(Islands, AreFoundAtSharpEdgesOnly) {
+  FeatureMesh mesh;
+  addTetrahedron(mesh, glm::vec3(0.0f), 1.0f);
+  const std::vector<glm::vec3> alike(4, glm::vec3(0.0f, 0.0f, 1.0f));
+  std::vector<glm::vec3> turned = alike;
+  turned[2] = glm::vec3(0.0f, 0.8f, -0.6f);
+  EXPECT_TRUE(findIslands(mesh.positions, alike, mesh.triangles).empty());
+  const std::vector<Island> found = findIslands(mesh.positions, turned, mesh.triangles);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].vertices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(found[0].centre, glm::dvec3(0.25));
+  EXPECT_TRUE(found[0].solid);
+}
+
+// Along its rim the samples of a thin wedge hang together only here and there.
+TEST(Islands, DoNotCrowdTheRimOfACrescent) {
+  const Shape crescent = subtract(sphere(0.6), translate(sphere(0.6), Vec3E(0.25, 0.1, 0.0)));
+  for (const double voxel : {0.006, 0.008, 0.013, 0.02, 0.03}) {
+    Progress progress;
+    MeshOptions options;
+    options.voxelSize = voxel;
+    const Result<MeshedShape> meshed = meshShape(crescent, "crescent", options, progress);
+    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
+    EXPECT_EQ(meshed->stats.components, 1) << voxel;
+    EXPECT_TRUE(meshed->stats.manifold) << voxel;
+  }
+}
+
+// With its rim whole few triangles will do.
+TEST(Islands, LeaveACrescentSmall) {
+  const Shape crescent = subtract(sphere(0.6), translate(sphere(0.6), Vec3E(0.25, 0.1, 0.0)));
+  Progress progress;
+  MeshOptions options;
+  options.tolerance = 1e-3;
+  options.strict = false;
+  const Result<MeshedShape> meshed = meshShape(crescent, "crescent", options, progress);
+  ASSERT_TRUE(meshed.ok()) << meshed.error().message;
+  EXPECT_LE(meshed->stats.triangles, 4000u);
+  EXPECT_LE(meshed->stats.maxDistance, 2e-3);
+}
+
+}  // namespace
+}  // namespace sdf::test
