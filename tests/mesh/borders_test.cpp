@@ -76,6 +76,28 @@ TEST(Borders, AJumpOfTheColourIsALineOfCreases) {
   }
 }
 
+// A border is straight where surface and paint are: to what halving leaves, whichever way it crosses edges.
+TEST(Borders, AreStraightOnFlatSides) {
+  for (const double angle : {0.0, 0.3, 0.8, 1.2}) {
+    const double c = std::cos(angle), s = std::sin(angle), at = 0.0137;
+    const Cut cut(
+        box({0.5, 0.5, 0.5})
+            .paint({.color =
+                        Vec3E(select(less(c * position().x + s * position().y, at), 0.25, 0.75), 0.5, 0.5)}));
+    int points = 0;
+    double farthest = 0.0;
+    for (const auto& crease : cut.mesh.creases)
+      for (const std::uint32_t v : crease) {
+        const glm::dvec3 p(cut.mesh.positions[v]);
+        if (std::abs(std::abs(p.z) - 0.5) > 1e-5 || std::max(std::abs(p.x), std::abs(p.y)) > 0.4) continue;
+        farthest = std::max(farthest, std::abs(c * p.x + s * p.y - at));
+        ++points;
+      }
+    EXPECT_GT(points, 40) << angle;
+    EXPECT_LT(farthest, kVoxel / 64) << angle;
+  }
+}
+
 // Half a ball and two quarters.
 TEST(Borders, OfThreeColoursMeetInTwoPoints) {
   const Vec3E p = position();

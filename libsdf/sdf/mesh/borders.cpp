@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kNone = ~0u;
 
 // How far inside its corners and sides a triangle looks for its paint, as a share of the way to the centroid.
-constexpr float kInto = 0.1f;
+constexpr float kInto = 0.025f;
 constexpr int kHalvings = 7;
 // Rounds in which triangles that a border does not cross straight are divided, and how far beside a straight
 // cut's middle they are looked at, as a share of the way to the triangle's corner.
@@ -138,8 +138,33 @@ class BorderCutter {
     return kept;
   }
 
+  // Two crossings of a triangle tell where the border goes on to its sides.
   void findCrossings() {
-    for (const Search& s : crossingsOf(allTriangles())) addCrossing(s);
+    const std::vector<Search> crossings = crossingsOf(allTriangles());
+    for (std::size_t s = 0, end = 0; s < crossings.size(); s = end) {
+      while (end < crossings.size() && crossings[end].where == crossings[s].where) ++end;
+      const bool two = end == s + 2;
+      for (std::size_t i = s; i < end; ++i)
+        addCrossing(crossings[i],
+                    two ? shareOnSide(crossings[i], crossings[2 * s + 1 - i]) : crossings[i].middle());
+    }
+  }
+
+  // Searches look a little inside. Where the line through two crossings meets the side of the first one, as a
+  // share of that side.
+  static float shareOnSide(const Search& a, const Search& b) {
+    // Shares are those of the triangle's corners; what is inside has a third of kInto of each at least.
+    constexpr float kLeast = kInto / 3.0f, kAlong = 1.0f - kInto;
+    const auto weights = [&](const Search& s) {
+      glm::vec3 w(kLeast);
+      w[s.side] += kAlong * (1.0f - s.middle());
+      w[(s.side + 1) % 3] += kAlong * s.middle();
+      return w;
+    };
+    const int opposite = (a.side + 2) % 3;
+    const glm::vec3 first = weights(a), second = weights(b), way = first - second;
+    if (way[opposite] == 0.0f) return a.middle();
+    return (first - way * (first[opposite] / way[opposite]))[(a.side + 1) % 3];
   }
 
   // Triangles that a border does not cross straight: it has a corner in them, or others meet it there.
@@ -223,15 +248,15 @@ class BorderCutter {
   }
 
   // The first of an edge's two triangles decides where.
-  void addCrossing(const Search& s) {
+  void addCrossing(const Search& s, float share) {
     cutSides_[s.where][s.side] = true;
     const glm::uvec3& t = mesh_.triangles[s.where];
     const std::uint32_t a = t[s.side], b = t[(s.side + 1) % 3];
     const auto [it, fresh] =
         crossings_.try_emplace(edgeKey(a, b), static_cast<std::uint32_t>(mesh_.positions.size()));
     if (fresh)
-      mesh_.positions.push_back(glm::mix(mesh_.positions[a], mesh_.positions[b],
-                                         std::clamp(s.middle(), kShortest, 1.0f - kShortest)));
+      mesh_.positions.push_back(
+          glm::mix(mesh_.positions[a], mesh_.positions[b], std::clamp(share, kShortest, 1.0f - kShortest)));
   }
 
   // Pieces that are too thin for floats may cross: then the edges that end in one stay whole. Returns whether
