@@ -2,40 +2,37 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/scenes.h"
+#include "mesh/feature_meshes.h"
 #include "sdf/mesh/mesher.h"
 
 namespace sdf::test {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
-
-// A tetrahedron with a corner at a point and legs along the axes; turned inside out it is a hole.
-void addTetrahedron(FeatureMesh& mesh, const glm::vec3& at, float leg, bool solid = true) {
+// A tetrahedron with a corner at a point and legs along the axes.
+void addTetrahedron(FeatureMesh& mesh, const glm::vec3& at, float leg) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const glm::vec3& to : {glm::vec3(0.0f), glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f),
                               glm::vec3(0.0f, 0.0f, 1.0f)})
     mesh.positions.push_back(at + leg * to);
-  for (glm::uvec3 t : {glm::uvec3(0, 2, 1), glm::uvec3(0, 1, 3), glm::uvec3(0, 3, 2), glm::uvec3(1, 2, 3)}) {
-    if (!solid) std::swap(t.x, t.y);
+  for (const glm::uvec3& t :
+       {glm::uvec3(0, 2, 1), glm::uvec3(0, 1, 3), glm::uvec3(0, 3, 2), glm::uvec3(1, 2, 3)})
     mesh.triangles.push_back(t + first);
-  }
 }
 
-// The number of tetrahedra that stay of a large solid one and a small one somewhere.
+// The number of tetrahedra that stay of a large solid one and a small one somewhere, where the field says
+// whether it is solid.
 std::size_t left(const glm::vec3& at, bool solid) {
   FeatureMesh mesh;
   addTetrahedron(mesh, glm::vec3(0.0f), 1.0f);
-  addTetrahedron(mesh, at, 0.05f, solid);
+  addTetrahedron(mesh, at, 0.05f);
   Island island;
-  std::vector<std::uint32_t> islandOf(8, kNone);
   for (std::uint32_t v = 4; v < 8; ++v) {
     island.vertices.push_back(v);
-    island.centre += glm::dvec3(mesh.positions[v]) / 4.0;
-    islandOf[v] = 0;
+    island.centre += mesh.positions[v] / 4.0f;
   }
-  island.solid = solid;
-  dropSwallowed(mesh, {island}, islandOf);
+  Progress progress;
+  dropSwallowed(mesh, {island}, WholeField(solid ? sphere(9.0) : translate(sphere(1.0), Vec3E(9.0)), 0.1),
+                progress);
   return mesh.triangles.size() / 4;
 }
 
@@ -51,18 +48,17 @@ TEST(Islands, GoWhereTheRestSwallowsThem) {
   EXPECT_EQ(left({-0.5f, 0.2f, 0.2f}, true), 2u);
 }
 
-TEST(Islands, AreFoundAtSharpEdgesOnly) {
+TEST(Islands, AreSmallPieces) {
   FeatureMesh mesh;
   addTetrahedron(mesh, glm::vec3(0.0f), 1.0f);
-  const std::vector<glm::vec3> alike(4, glm::vec3(0.0f, 0.0f, 1.0f));
-  std::vector<glm::vec3> turned = alike;
-  turned[2] = glm::vec3(0.0f, 0.8f, -0.6f);
-  EXPECT_TRUE(findIslands(mesh.positions, alike, mesh.triangles).empty());
-  const std::vector<Island> found = findIslands(mesh.positions, turned, mesh.triangles);
+  std::vector<glm::vec3> normals(4, glm::vec3(0.0f, 0.0f, 1.0f));
+  EXPECT_FALSE(hasSharpEdges(normals, mesh.triangles));
+  normals[2] = glm::vec3(0.0f, 0.8f, -0.6f);
+  EXPECT_TRUE(hasSharpEdges(normals, mesh.triangles));
+  const std::vector<Island> found = findIslands(mesh.positions, mesh.triangles);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].vertices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
-  EXPECT_EQ(found[0].centre, glm::dvec3(0.25));
-  EXPECT_TRUE(found[0].solid);
+  EXPECT_EQ(found[0].centre, glm::vec3(0.25f));
 }
 
 // Along its rim the samples of a thin wedge hang together only here and there.

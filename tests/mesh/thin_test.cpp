@@ -9,6 +9,7 @@
 #include "sdf/mesh/mesher.h"
 #include "sdf/shape/catalog.h"
 #include "sdf/shape/deform.h"
+#include "sdf/shape/flats.h"
 #include "support/evaluate.h"
 
 namespace sdf::test {
@@ -141,6 +142,27 @@ TEST(Thin, SmallRoundingsAreShadedAsEdges) {
   const Shape board = displace(box({1.1, 0.7, 0.12}), -0.05 * sin(4.0 * position().x));
   EXPECT_LT(wrongShare(thinned(board, 0.011, 3e-3).mesh, board), 0.03);
   EXPECT_TRUE(thinned(sphere(1.0), 0.04, 0.1).mesh.copyOf.empty());
+}
+
+// Each triangle at a tip has the normal of its own side there. The lemon is curved along its sides, too.
+TEST(Thin, TipsStayAndAreShadedAllAround) {
+  for (const double turn : {0.0, 0.7}) {
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(1.0, 0.3, 0.5));
+    for (const auto& [shape, tip] : {std::pair{cone(0.5, 0.8), 0.8}, std::pair{cone(0.5, 0.4), 0.4},
+                                     std::pair{revolve(translate(circle(1.0), {-0.6, 0.0, 0.0})), 0.8}}) {
+      const Shape turned = rotateAbout(shape, axis, turn);
+      const MeshedShape m = thinned(turned, 0.01, 1.2e-3);
+      EXPECT_LT(wrongShare(m.mesh, turned), 0.02);
+      EXPECT_LE(m.mesh.triangles.size(), 1300u);
+      const glm::dvec3 at(0.0, tip, 0.0);
+      const glm::dvec3 there = std::cos(turn) * at + std::sin(turn) * glm::cross(axis, at) +
+                               (1.0 - std::cos(turn)) * glm::dot(axis, at) * axis;
+      double nearest = HUGE_VAL;
+      for (const glm::vec3& p : m.mesh.positions)
+        nearest = std::min(nearest, glm::distance(glm::dvec3(p), there));
+      EXPECT_LE(nearest, 1e-5);
+    }
+  }
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace sdf {
 
-/// What remeshing is to leave of a vertex: nothing in particular; where it is, with its edges; and of
-/// triangles between such also as far from the surface as they are.
-enum class Hold : std::uint8_t { None, Kept, Left };
+/// What remeshing is to leave of a vertex: nothing in particular; where it is, for it is a tip (tips.h); its
+/// edges, too; and of triangles between such also as far from the surface as they are.
+enum class Hold : std::uint8_t { None, Tip, Kept, Left };
 
 /// Triangles, counter-clockwise seen from outside, closed and manifold, and those of their edges along which
 /// the surface has an edge or its paint a border. A vertex without creases lies on one smooth piece of the
@@ -21,7 +21,9 @@ struct FeatureMesh {
   std::vector<std::array<std::uint32_t, 2>> creases;  ///< pairs of vertices, the lower first; sorted
   /// Of each triangle, the number among the shape's; where two meet there is a crease. Empty: all are of one.
   std::vector<int> materials{};
-  std::vector<Hold> held{};  ///< by vertex; empty: none is held
+  std::vector<Hold> held{};  ///< of the first vertices; of all others none is held
+
+  Hold heldAt(std::uint32_t v) const { return v < held.size() ? held[v] : Hold::None; }
 };
 
 /// A triangle that was taken away, and keeps its place in the list for a while, has one vertex for all

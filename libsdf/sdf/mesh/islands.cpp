@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sdf/mesh/indices-inl.h"
+#include "sdf/mesh/surface_points.h"
 
 namespace sdf {
 namespace {
@@ -57,9 +58,7 @@ bool isMet(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const 
 
 }  // namespace
 
-std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
-                                const std::vector<glm::vec3>& normals,
-                                const std::vector<glm::uvec3>& triangles) {
+bool hasSharpEdges(const std::vector<glm::vec3>& normals, const std::vector<glm::uvec3>& triangles) {
   const auto turns = [&](std::uint32_t a, std::uint32_t b) {
     return glm::dot(normals[a], normals[b]) < kTurned;
   };
@@ -67,34 +66,43 @@ std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
     const glm::uvec3& t = triangles[i];
     return turns(t.x, t.y) || turns(t.y, t.z) || turns(t.z, t.x);
   };
-  if (indicesThat(triangles.size(), isTurned).empty()) return {};
+  return !indicesThat(triangles.size(), isTurned).empty();
+}
+
+std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
+                                const std::vector<glm::uvec3>& triangles) {
   std::vector<Island> islands;
   for (const auto& [vertex, piece] : smallPieces(triangles, positions.size())) {
-    const auto corner = [&](std::uint32_t v) { return glm::dvec3(positions[v] - positions[piece[0].x]); };
     Island island;
-    double volume = 0.0;
-    for (const glm::uvec3& t : piece) {
-      volume += glm::dot(corner(t.x), glm::cross(corner(t.y), corner(t.z)));
+    for (const glm::uvec3& t : piece)
       for (int k = 0; k < 3; ++k) island.vertices.push_back(t[k]);
-    }
-    island.solid = volume > 0.0;
     std::ranges::sort(island.vertices);
     const auto repeated = std::ranges::unique(island.vertices);
     island.vertices.erase(repeated.begin(), repeated.end());
-    for (const std::uint32_t v : island.vertices) island.centre += glm::dvec3(positions[v]);
-    island.centre /= static_cast<double>(island.vertices.size());
+    for (const std::uint32_t v : island.vertices)
+      island.centre += positions[v] / static_cast<float>(island.vertices.size());
     islands.push_back(std::move(island));
   }
   return islands;
 }
 
-void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands,
-                   const std::vector<std::uint32_t>& islandOf) {
+void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands, const LocalField& field,
+                   Progress& progress) {
+  if (islands.empty()) return;
+  std::vector<char> isSolid(islands.size(), 0);
+  forEachRun(
+      islands.size(), [&](std::size_t i) { return islands[i].centre; }, field, progress,
+      [&](const PointRun& run) {
+        RunGradients g;
+        g.evaluate(run, run.points);
+        for (std::size_t i = 0; i < run.count; ++i) isSolid[run.first + i] = g.distance(i) < 0.0f;
+      });
   const auto corner = [&](std::uint32_t v) { return glm::dvec3(mesh.positions[v]); };
   std::vector<Probe> probes;
+  std::vector<std::uint32_t> islandOf(mesh.positions.size(), kNone);
   for (std::uint32_t i = 0; i < islands.size(); ++i) {
-    probes.push_back({islands[i].centre, i, true});
-    for (const std::uint32_t v : islands[i].vertices) probes.push_back({corner(v), i});
+    probes.push_back({glm::dvec3(islands[i].centre), i, true});
+    for (const std::uint32_t v : islands[i].vertices) probes.push_back({corner(v), i}), islandOf[v] = i;
   }
   std::ranges::sort(probes, {}, [](const Probe& p) { return p.at.y; });
   for (const glm::uvec3& t : mesh.triangles) {
@@ -106,7 +114,7 @@ void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands,
   }
   std::vector<std::size_t> within(islands.size(), 0);
   for (const Probe& p : probes)
-    if (p.inside == islands[p.island].solid)
+    if (p.inside == (isSolid[p.island] != 0))
       within[p.island] += p.isCentre ? islands[p.island].vertices.size() : 1;
   const auto isGone = [&](std::uint32_t v) {
     const std::uint32_t i = islandOf[v];

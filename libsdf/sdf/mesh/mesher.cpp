@@ -59,8 +59,8 @@ constexpr double kLeastTolerance = 0x1p-20;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
-// cannot mend.
-constexpr double kResolved = 0.25;
+// cannot mend. Four vertices around a rod that is two voxels thick leave 1 - sqrt(1/2).
+constexpr double kResolved = 0.3;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
@@ -136,8 +136,8 @@ class Mesher {
     begin("creases");
     auto [mesh, doubtful] =
         sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress_);
+    placeTips(mesh, normals, doubtful, field, progress_);
     if (balanced) {
-      placeTips(mesh, normals, doubtful, field, progress_);
       begin("balancing");
       const std::vector<glm::vec3> before = mesh.positions;
       balanceVertices(mesh, normals);

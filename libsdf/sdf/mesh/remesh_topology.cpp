@@ -47,7 +47,7 @@ RemeshTopology::RemeshTopology(const FeatureMesh& mesh)
     for (const Index v : edge) creases_[v] = static_cast<std::uint8_t>(std::min(creases_[v] + 1, 3));
   }
   for (Index v = 0; v < held_.size(); ++v)
-    if (isHeld(v)) creases_[v] = 3;
+    if (held_[v] != Hold::None) creases_[v] = 3;
 }
 
 FeatureMesh RemeshTopology::compacted() const {

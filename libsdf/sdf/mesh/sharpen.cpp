@@ -40,7 +40,8 @@ class Sharpener {
   }
 
   Sharpened run() {
-    const std::vector<Island> islands = findIslands(cuts_.extracted, normals_, triangles_);
+    std::vector<Island> islands;
+    if (hasSharpEdges(normals_, triangles_)) islands = findIslands(cuts_.extracted, triangles_);
     crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_);
     nameCrossings();
     for (int round = 0; round < kHalvings; ++round)
@@ -56,7 +57,8 @@ class Sharpener {
     const std::vector<Crossed> crossed = crossedTriangles();
     findCorners(crossed);
     cutTriangles(crossed);
-    if (!islands.empty()) dropSwallowed(mesh_, islands, islandOf(islands));
+    if (!islands.empty()) addCuts(islands);
+    dropSwallowed(mesh_, islands, field_, progress_);
     normals_.resize(mesh_.positions.size(), glm::vec3(0.0f));
     const double shortest = kShort * field_.finder()->at(mesh_.positions[0]).voxel;
     const Collapses collapses = collapseShortEdges(mesh_, normals_, anchors_, shortest);
@@ -254,13 +256,15 @@ class Sharpener {
     }
   }
 
-  // By vertex, with those that were added since.
-  std::vector<std::uint32_t> islandOf(const std::vector<Island>& islands) const {
+  // The vertices that were added since.
+  void addCuts(std::vector<Island>& islands) const {
     std::vector<std::uint32_t> of(mesh_.positions.size(), kNone);
     for (std::uint32_t i = 0; i < islands.size(); ++i)
       for (const std::uint32_t v : islands[i].vertices) of[v] = i;
-    for (std::size_t v = cuts_.first; v < of.size(); ++v) of[v] = of[cuts_.added[v - cuts_.first].of.x];
-    return of;
+    for (std::uint32_t v = cuts_.first; v < of.size(); ++v) {
+      of[v] = of[cuts_.added[v - cuts_.first].of.x];
+      if (of[v] != kNone) islands[of[v]].vertices.push_back(v);
+    }
   }
 
   static constexpr double kShort = 0.2;  // voxels

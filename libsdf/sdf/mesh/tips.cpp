@@ -16,6 +16,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sdf/mesh/crossings.h"
+#include "sdf/mesh/islands.h"
 #include "sdf/mesh/short_edges.h"
 #include "sdf/mesh/surface_points.h"
 
@@ -237,14 +239,23 @@ class Crowner {
         if (const std::uint32_t v = mesh.triangles[t][k]; isNear[v]) fans_[v].push_back(t);
   }
 
-  // Takes ever more triangles, up to those that reach so far, until they leave a hole that a fan closes.
-  void crown(const Tip& tip, double most) {
-    for (double reach = 1.01 * tip.far; reach <= most; reach *= kWider)
-      if (find(tip, reach)) return close(tip);
+  // Takes ever more triangles until they leave a hole that a fan closes, a round one if it need not reach far
+  // for that.
+  void crown(const Tip& tip, double voxel) {
+    const double least = std::max(1.01 * tip.far, kNarrowest * voxel);
+    for (double reach = least; reach <= kFarForRound * voxel; reach *= kWider)
+      if (find(tip, reach) && widest_ < kRound && !crosses(tip)) return close(tip);
+    for (double reach = least; reach <= kWidest * kReach * voxel; reach *= kWider)
+      if (find(tip, reach) && !crosses(tip)) return close(tip);
   }
 
  private:
   static constexpr double kWider = 1.3;
+  static constexpr double kNarrowest = 0.1, kFarForRound = 3.0;  // voxels
+  // Of triangles around a fan, which it may cross.
+  static constexpr int kRings = 3;
+  // What a fan's triangle may turn around the axis: 100 degrees.
+  static constexpr double kRound = 1.745;
   // Cosine between a fan's triangle and the normals at its corners, squared, at least: 60 degrees.
   static constexpr double kAgree = 0.25;
 
@@ -286,8 +297,9 @@ class Crowner {
   }
 
   // Does a fan from the tip to the hole's sides go round once, and lie as the surface does?
-  bool isFan(const Tip& tip) const {
+  bool isFan(const Tip& tip) {
     std::size_t steps = 0;
+    widest_ = 0.0;
     double turned = 0.0;
     std::uint32_t a = next_.begin()->first;
     do {
@@ -307,14 +319,47 @@ class Crowner {
       const double turn = std::atan2(glm::dot(area, axis), glm::dot(flat(u), flat(v)));
       if (!(turn > 0.0)) return false;
       turned += turn;
+      widest_ = std::max(widest_, turn);
       a = b;
     } while (a != next_.begin()->first);
     return steps == next_.size() && std::abs(turned - 2.0 * std::numbers::pi) < 0.1;
   }
 
+  // Would the fan cross what is around it?
+  bool crosses(const Tip& tip) const {
+    std::set<std::uint32_t> around, vertices;
+    for (const auto& [a, b] : next_) vertices.insert(a);
+    for (int ring = 0; ring < kRings; ++ring) {
+      for (const std::uint32_t v : vertices)
+        if (const auto fan = fans_.find(v); fan != fans_.end())
+          around.insert(fan->second.begin(), fan->second.end());
+      for (const std::uint32_t t : around)
+        for (int k = 0; k < 3; ++k) vertices.insert(mesh_.triangles[t][k]);
+    }
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    std::map<std::uint32_t, std::uint32_t> number;
+    const auto add = [&](const glm::uvec3& t) {
+      glm::uvec3& copy = triangles.emplace_back();
+      for (int k = 0; k < 3; ++k) {
+        const auto [at, fresh] = number.try_emplace(t[k], static_cast<std::uint32_t>(positions.size()));
+        if (fresh) positions.push_back(t[k] == tip.vertex ? glm::vec3(tip.at) : mesh_.positions[t[k]]);
+        copy[k] = at->second;
+      }
+    };
+    for (const auto& [a, b] : next_) add({a, b, tip.vertex});
+    const auto fan = static_cast<std::uint32_t>(triangles.size());
+    for (const std::uint32_t t : around)
+      if (!std::ranges::binary_search(gone_, t)) add(mesh_.triangles[t]);
+    return std::ranges::any_of(crossingTriangles(positions, triangles),
+                               [&](const auto& pair) { return std::min(pair[0], pair[1]) < fan; });
+  }
+
   void close(const Tip& tip) {
     mesh_.positions[tip.vertex] = glm::vec3(tip.at);
     normals_[tip.vertex] = glm::vec3(0.0f);
+    mesh_.held.resize(mesh_.positions.size());
+    mesh_.held[tip.vertex] = Hold::Tip;
     for (const std::uint32_t t : gone_) mesh_.triangles[t] = glm::uvec3(0);
     for (const auto& [a, b] : next_) {
       mesh_.triangles.push_back({a, b, tip.vertex});
@@ -332,6 +377,7 @@ class Crowner {
   std::vector<std::uint32_t> gone_;
   std::map<std::uint32_t, std::uint32_t> next_;  // along the hole's sides
   std::set<std::uint32_t> within_;               // vertices that are not on these
+  double widest_ = 0.0;                          // turn of a triangle of the fan
 };
 
 }  // namespace
@@ -353,8 +399,9 @@ void placeTips(FeatureMesh& mesh, std::vector<glm::vec3>& normals, std::vector<s
   std::ranges::sort(tips, {}, &Tip::far);
   Crowner crowner(mesh, normals, finder.vertices());
   const auto locals = field.finder();
-  for (const Tip& tip : tips) crowner.crown(tip, kWidest * kReach * locals->at(glm::vec3(tip.at)).voxel);
+  for (const Tip& tip : tips) crowner.crown(tip, locals->at(glm::vec3(tip.at)).voxel);
   std::erase_if(mesh.triangles, isGone);
+  dropSwallowed(mesh, findIslands(mesh.positions, mesh.triangles), field, progress);
   const std::vector<std::uint32_t> place = dropUnused(mesh, normals);
   for (std::uint32_t& v : doubtful) v = place[v];
   std::erase(doubtful, Collapses::kNone);
