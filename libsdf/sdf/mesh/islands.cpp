@@ -1,45 +1,51 @@
 #include "sdf/mesh/islands.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numeric>
 #include <utility>
 
 #include "sdf/mesh/indices-inl.h"
 #include "sdf/mesh/surface_points.h"
+#include "sdf/mesh/tiles.h"
 
 namespace sdf {
 namespace {
 
 constexpr std::size_t kMostTriangles = 512;
-// Vertices of which one is to be within the rest, if the centre is not.
-constexpr std::size_t kSwallowed = 8;
+// So many vertices of an island are looked at, and so many of these are to be within the rest, or the centre.
+constexpr int kProbes = 16, kSwallowed = 2;
 constexpr float kTurned = -0.1736f;  // cos 100 degrees
 constexpr std::uint32_t kNone = ~0u;
+constexpr double kMostTiles = 1024.0;  // to a side
 
-using Pieces = std::map<std::uint32_t, std::vector<glm::uvec3>>;  // by one of their vertices
-
-Pieces smallPieces(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
-  std::vector<std::uint32_t> of(vertices), size(vertices, 0);
+// For each vertex the least one of its piece.
+std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
+  std::vector<std::uint32_t> of(vertices);
   std::iota(of.begin(), of.end(), 0u);
   const auto root = [&](std::uint32_t v) {
     while (of[v] != v) v = of[v] = of[of[v]];
     return v;
   };
-  for (const glm::uvec3& t : triangles) of[root(t.x)] = root(t.y), of[root(t.y)] = root(t.z);
-  for (const glm::uvec3& t : triangles) ++size[root(t.x)];
-  Pieces pieces;
-  for (const glm::uvec3& t : triangles)
-    if (const std::uint32_t r = root(t.x); size[r] <= kMostTriangles) pieces[r].push_back(t);
-  return pieces;
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    (a < b ? of[b] : of[a]) = std::min(a, b);
+  };
+  for (const glm::uvec3& t : triangles) join(t.x, t.y), join(t.y, t.z);
+  for (std::uint32_t& v : of) v = of[v];
+  return of;
 }
 
 // A point of an island.
 struct Probe {
-  glm::dvec3 at;
+  glm::vec3 at;
   std::uint32_t island;
-  bool isCentre = false;
+  int weight;
   bool inside = false;  // the rest of the mesh
 };
 
@@ -54,6 +60,42 @@ bool isMet(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const 
   cross(a, b), cross(b, c), cross(c, a);
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   return met && glm::dot(normal, a - p) * normal.x > 0.0;
+}
+
+// Which of the probes the rest of the mesh has inside.
+void findInside(const FeatureMesh& mesh, const std::vector<std::uint32_t>& islandOf,
+                std::vector<Probe>& probes) {
+  const auto flat = [](const glm::vec3& p) { return glm::vec3(0.0f, p.y, p.z); };
+  glm::vec3 low = flat(probes[0].at), high = low;
+  for (const Probe& p : probes) low = glm::min(low, flat(p.at)), high = glm::max(high, flat(p.at));
+  const double along = std::sqrt(static_cast<double>(probes.size()));
+  const Tiles tiles(low, high, static_cast<int>(std::clamp(along, 1.0, kMostTiles)));
+  std::ranges::sort(probes, {}, [&](const Probe& p) { return tiles.at(flat(p.at)); });
+  std::vector<std::uint32_t> first(tiles.count() + 1, 0);
+  for (const Probe& p : probes) ++first[tiles.at(flat(p.at)) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  const auto forEachMet = [&](const glm::uvec3& t, const auto& take) {
+    const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    const glm::vec3 least = glm::min(glm::min(a, b), c), most = glm::max(glm::max(a, b), c);
+    if (most.y < low.y || least.y > high.y || most.z < low.z || least.z > high.z) return;
+    tiles.forEach(flat(least), flat(most), [&](std::uint32_t tile) {
+      for (std::uint32_t i = first[tile]; i < first[tile + 1]; ++i) {
+        const glm::vec3& p = probes[i].at;
+        if (p.x <= most.x && p.y >= least.y && p.y <= most.y && p.z >= least.z && p.z <= most.z &&
+            islandOf[t.x] != probes[i].island && isMet(p, a, b, c))
+          take(i);
+      }
+    });
+  };
+  constexpr std::size_t kChunk = 8192;
+  std::vector<std::vector<std::uint32_t>> met((mesh.triangles.size() + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, met.size(), [&](std::size_t chunk) {
+    const std::size_t end = std::min(mesh.triangles.size(), (chunk + 1) * kChunk);
+    for (std::size_t t = chunk * kChunk; t < end; ++t)
+      forEachMet(mesh.triangles[t], [&](std::uint32_t i) { met[chunk].push_back(i); });
+  });
+  for (const auto& some : met)
+    for (const std::uint32_t i : some) probes[i].inside ^= true;
 }
 
 }  // namespace
@@ -71,18 +113,21 @@ bool hasSharpEdges(const std::vector<glm::vec3>& normals, const std::vector<glm:
 
 std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
                                 const std::vector<glm::uvec3>& triangles) {
+  const std::vector<std::uint32_t> of = piecesOf(triangles, positions.size());
+  std::vector<std::uint32_t> size(of.size(), 0);
+  for (const glm::uvec3& t : triangles) ++size[of[t.x]];
+  std::vector<std::array<std::uint32_t, 2>> small;  // vertices, after their pieces
+  for (std::uint32_t v = 0; v < of.size(); ++v)
+    if (size[of[v]] > 0 && size[of[v]] <= kMostTriangles) small.push_back({of[v], v});
+  std::ranges::sort(small);
   std::vector<Island> islands;
-  for (const auto& [vertex, piece] : smallPieces(triangles, positions.size())) {
-    Island island;
-    for (const glm::uvec3& t : piece)
-      for (int k = 0; k < 3; ++k) island.vertices.push_back(t[k]);
-    std::ranges::sort(island.vertices);
-    const auto repeated = std::ranges::unique(island.vertices);
-    island.vertices.erase(repeated.begin(), repeated.end());
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    if (i == 0 || small[i][0] != small[i - 1][0]) islands.emplace_back();
+    islands.back().vertices.push_back(small[i][1]);
+  }
+  for (Island& island : islands)
     for (const std::uint32_t v : island.vertices)
       island.centre += positions[v] / static_cast<float>(island.vertices.size());
-    islands.push_back(std::move(island));
-  }
   return islands;
 }
 
@@ -97,28 +142,22 @@ void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands, const 
         g.evaluate(run, run.points);
         for (std::size_t i = 0; i < run.count; ++i) isSolid[run.first + i] = g.distance(i) < 0.0f;
       });
-  const auto corner = [&](std::uint32_t v) { return glm::dvec3(mesh.positions[v]); };
-  std::vector<Probe> probes;
   std::vector<std::uint32_t> islandOf(mesh.positions.size(), kNone);
+  std::vector<Probe> probes;
   for (std::uint32_t i = 0; i < islands.size(); ++i) {
-    probes.push_back({glm::dvec3(islands[i].centre), i, true});
-    for (const std::uint32_t v : islands[i].vertices) probes.push_back({corner(v), i}), islandOf[v] = i;
+    const std::vector<std::uint32_t>& vertices = islands[i].vertices;
+    for (const std::uint32_t v : vertices) islandOf[v] = i;
+    probes.push_back({islands[i].centre, i, kProbes});
+    for (int k = 0; k < kProbes; ++k)
+      probes.push_back({mesh.positions[vertices[vertices.size() * k / kProbes]], i, 1});
   }
-  std::ranges::sort(probes, {}, [](const Probe& p) { return p.at.y; });
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 a = corner(t.x), b = corner(t.y), c = corner(t.z);
-    const auto [low, high] = std::minmax({a.y, b.y, c.y});
-    auto p = std::ranges::lower_bound(probes, low, {}, [](const Probe& probe) { return probe.at.y; });
-    for (; p != probes.end() && p->at.y <= high; ++p)
-      if (islandOf[t.x] != p->island && isMet(p->at, a, b, c)) p->inside ^= true;
-  }
-  std::vector<std::size_t> within(islands.size(), 0);
+  findInside(mesh, islandOf, probes);
+  std::vector<int> within(islands.size(), 0);
   for (const Probe& p : probes)
-    if (p.inside == (isSolid[p.island] != 0))
-      within[p.island] += p.isCentre ? islands[p.island].vertices.size() : 1;
+    if (p.inside == (isSolid[p.island] != 0)) within[p.island] += p.weight;
   const auto isGone = [&](std::uint32_t v) {
     const std::uint32_t i = islandOf[v];
-    return i != kNone && kSwallowed * within[i] >= islands[i].vertices.size();
+    return i != kNone && within[i] >= kSwallowed;
   };
   std::erase_if(mesh.triangles, [&](const glm::uvec3& t) { return isGone(t.x); });
   std::erase_if(mesh.creases, [&](const auto& crease) { return isGone(crease[0]); });
