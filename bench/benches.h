@@ -16,6 +16,8 @@ void addBatchFigures(const Medians& medians, std::vector<Figure>& figures);
 bool meshersAgree();
 void registerMeshing();
 void addMeshingFigures(const Medians& medians, std::vector<Figure>& figures);
+/// What the time of the sharp meshes goes into.
+void printStages();
 
 /// The exporter as its users run it: time, and peak memory; also exports each measuring shape once at N = 512
 /// for the latter.

@@ -26,5 +26,7 @@ int main(int argc, char** argv) {
   addBatchFigures(medians, figures);
   addMeshingFigures(medians, figures);
   addToolFigures(medians, figures);
-  return printFigures(figures) ? 0 : 1;
+  const bool reached = printFigures(figures);
+  printStages();
+  return reached ? 0 : 1;
 }

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -50,21 +53,42 @@ struct Sharp {
   FeatureMesh mesh;
 };
 
+// Seconds of each stage of one mesh.
+constexpr std::array kStages = {"sampling", "extraction", "projection", "creases", "tips", "balancing"};
+class StageClock {
+ public:
+  void end() {
+    seconds.push_back(
+        std::chrono::duration<double>(Clock::now() - std::exchange(last_, Clock::now())).count());
+  }
+  std::vector<double> seconds;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
 Sharp meshSharply(NarrowBand& band, const ModelTapes& model, const Box& bounds, double voxel,
-                  Progress& progress) {
+                  Progress& progress, StageClock& clock) {
   band = sampleNarrowBand(model, {voxel, bounds, kInfinity}, progress).value();
   Sharp sharp{std::make_unique<BandField>(band, LocalTapes{model.whole(), model.whole()->firstOutputOnly()}),
               {}};
+  clock.end();
   RawSurface raw = band.extract();
+  clock.end();
   const std::vector<glm::vec3> extracted = raw.points;
   std::vector<glm::vec3> normals;
   refineVertices(raw.points, normals, *sharp.field, progress);
+  clock.end();
   auto [mesh, doubtful] =
       sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, *sharp.field, progress);
+  clock.end();
   placeTips(mesh, normals, doubtful, *sharp.field, progress);
+  clock.end();
   const std::vector<glm::vec3> before = mesh.positions;
   balanceVertices(mesh, normals);
   uncrossMoved(mesh, doubtful, before);
+  clock.end();
   sharp.mesh = std::move(mesh);
   return sharp;
 }
@@ -92,21 +116,25 @@ void addSparse(int i, int n, int repetitions) {
       [shape = measuringShape(i), n] { return meshSparsely(shape, region(), 2.0 * kRegion / n); });
 }
 
-// Both with the Progress and the tapes made anew, as a program would.
-std::size_t sharpTriangles(int i) {
+// With the Progress and the tapes made anew, as a program would.
+struct SharpRun {
+  explicit SharpRun(int i) : model(Model(measuringShape(i)).at()) {
+    result = meshSharply(band, model, region(), 2.0 * kRegion / kAccurate[i].n, progress, clock);
+  }
   Progress progress;
   NarrowBand band;
-  return meshSharply(band, Model(measuringShape(i)).at(), region(), 2.0 * kRegion / kAccurate[i].n, progress)
-      .mesh.triangles.size();
-}
+  ModelTapes model;
+  StageClock clock;
+  Sharp result;
+};
+
+std::size_t sharpTriangles(int i) { return SharpRun(i).result.mesh.triangles.size(); }
 
 double rmsOf(int i) {
-  Progress progress;
-  NarrowBand band;
-  const ModelTapes model = Model(measuringShape(i)).at();
-  const Sharp sharp = meshSharply(band, model, region(), 2.0 * kRegion / kAccurate[i].n, progress);
+  SharpRun run(i);
   MeshStats stats;
-  measureDistance(sharp.mesh.positions, sharp.mesh.triangles, *sharp.field, progress, stats);
+  measureDistance(run.result.mesh.positions, run.result.mesh.triangles, *run.result.field, run.progress,
+                  stats);
   return stats.rmsDistance;
 }
 
@@ -164,6 +192,26 @@ void addMeshingFigures(const Medians& medians, std::vector<Figure>& figures) {
                          medians.seconds(sparseName(i, 2 * n)) / medians.seconds(sparseName(i, n))});
   figures.push_back({"meshing, N = 256, 10 to 1000 balls of one total area: times the cost", false,
                      kManyBalls, medians.seconds(ballsName(1000)) / medians.seconds(ballsName(10))});
+}
+
+void printStages() {
+  constexpr int kRuns = 7;
+  std::printf("\nmedian milliseconds of a sharp mesh\n%-12s", "");
+  for (const char* stage : kStages) std::printf(" %11s", stage);
+  std::printf("\n");
+  for (int i = 0; i < kCompared; ++i) {
+    std::array<std::array<double, kRuns>, kStages.size()> seconds{};
+    for (int run = 0; run < kRuns; ++run) {
+      const SharpRun one(i);
+      for (std::size_t k = 0; k < kStages.size(); ++k) seconds[k][run] = one.clock.seconds[k];
+    }
+    std::printf("%s, N = %-4d", shapeName(i).c_str(), kAccurate[i].n);
+    for (auto& times : seconds) {
+      std::ranges::nth_element(times, times.begin() + kRuns / 2);
+      std::printf(" %11.2f", 1e3 * times[kRuns / 2]);
+    }
+    std::printf("\n");
+  }
 }
 
 }  // namespace sdf::bench

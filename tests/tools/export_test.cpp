@@ -64,6 +64,10 @@ TEST_F(Export, PrintsATableOfPartsAndTotal) {
     words.push_back(word);
   }
   EXPECT_EQ(words, (std::vector<std::string>{out("a.glb"), "part", "ball", "block", "total"}));
+  // The tolerance is the column after the names, where there is one.
+  EXPECT_NE(outcome.out.find("part   tolerance  triangles"), std::string::npos) << outcome.out;
+  const Outcome uniform = run({scene(kTwoParts), "-o", out("a.glb"), "--voxel-size", "0.1"});
+  EXPECT_EQ(uniform.out.find("tolerance"), std::string::npos) << uniform.out;
 }
 
 TEST_F(Export, PrintsNothingWhenQuiet) {

@@ -35,11 +35,14 @@ std::string formatted(const char* format, double value) {
 /// A bound is rounded up.
 std::string bound(double value) { return formatted("%.2e", 1.005 * value); }
 
-std::vector<std::string> row(const ReportLine& line, bool proven) {
-  std::vector<std::string> cells{line.name, grouped(line.stats.triangles),
-                                 formatted("%.2e", line.stats.rmsDistance),
-                                 formatted("%.2e", line.stats.maxDistance)};
-  if (proven) cells.push_back(bound(line.stats.provenDistance));
+/// With a tolerance and a proven distance where those of the whole file say so.
+std::vector<std::string> row(const ReportLine& line, const MeshStats& total) {
+  std::vector<std::string> cells{line.name};
+  if (total.tolerance > 0.0) cells.push_back(formatted("%.2e", line.stats.tolerance));
+  cells.push_back(grouped(line.stats.triangles));
+  cells.push_back(formatted("%.2e", line.stats.rmsDistance));
+  cells.push_back(formatted("%.2e", line.stats.maxDistance));
+  if (total.provenDistance > 0.0) cells.push_back(bound(line.stats.provenDistance));
   cells.push_back(formatted("%.2f s", line.seconds));
   cells.push_back(formatted("%.0f MiB", line.peakMemory / kMiB));
   return cells;
@@ -136,12 +139,13 @@ void printWarnings(std::ostream& out, const FileReport& report) {
 }
 
 void printTable(std::ostream& out, const FileReport& report) {
-  const bool proven = report.total.stats.provenDistance > 0.0;
+  const MeshStats& total = report.total.stats;
   std::vector<std::vector<std::string>> rows{
       {"part", "triangles", "rms error", "max error", "time", "peak memory"}};
-  if (proven) rows[0].insert(rows[0].begin() + 4, "proven");
-  for (const ReportLine& part : report.parts) rows.push_back(row(part, proven));
-  rows.push_back(row(report.total, proven));
+  if (total.provenDistance > 0.0) rows[0].insert(rows[0].begin() + 4, "proven");
+  if (total.tolerance > 0.0) rows[0].insert(rows[0].begin() + 1, "tolerance");
+  for (const ReportLine& part : report.parts) rows.push_back(row(part, total));
+  rows.push_back(row(report.total, total));
 
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& cells : rows) {

@@ -44,6 +44,7 @@ MeshStats combined(const std::vector<MeshStats>& meshes) {
     all.vertices += one.vertices;
     all.triangles += one.triangles;
     all.voxelSize = std::max(all.voxelSize, one.voxelSize);
+    all.tolerance = std::max(all.tolerance, one.tolerance);
     if (one.maxDistance > all.maxDistance) all.maxDistance = one.maxDistance, all.farthest = one.farthest;
     all.provenDistance = std::max(all.provenDistance, one.provenDistance);
     all.watertight = all.watertight && one.watertight;

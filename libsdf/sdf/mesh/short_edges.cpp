@@ -1,6 +1,7 @@
 #include "sdf/mesh/short_edges.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <glm/geometric.hpp>
 #include <tuple>
 
@@ -45,10 +46,13 @@ class Collapser {
   }
 
  private:
+  template <int n>
+  using Few = boost::container::small_vector<std::uint32_t, n>;
+
   struct Fan {
     std::uint32_t vertex = ~0u;
-    std::vector<std::uint32_t> triangles{};
-    std::vector<std::uint32_t> creases{};  // neighbours
+    Few<10> triangles{};
+    Few<3> creases{};  // neighbours
     bool anchored = false;
     bool whole = false;  // all its triangles are listed
   };
@@ -180,7 +184,7 @@ class Collapser {
     if (std::min(upright(sides[0]), upright(sides[1])) >= kUpright) {
       done_.begin(Collapses::kNone);
       for (int k = 0; k < 2; ++k) done_.add(triangles_[sides[k]].place, old[k]);
-      std::erase(fan(b).triangles, sides[0]), std::erase(fan(a).triangles, sides[1]);
+      drop(fan(b).triangles, sides[0]), drop(fan(a).triangles, sides[1]);
       fan(d).triangles.push_back(sides[0]), fan(c).triangles.push_back(sides[1]);
       return;
     }
@@ -199,8 +203,11 @@ class Collapser {
   double length(std::uint32_t a, std::uint32_t b) const {
     return glm::distance(mesh_.positions[a], mesh_.positions[b]);
   }
-  static bool has(const std::vector<std::uint32_t>& list, std::uint32_t v) {
+  static bool has(const auto& list, std::uint32_t v) {
     return std::find(list.begin(), list.end(), v) != list.end();
+  }
+  static void drop(auto& list, std::uint32_t v) {
+    list.erase(std::remove(list.begin(), list.end(), v), list.end());
   }
   bool contains(std::uint32_t t, std::uint32_t v) const {
     const glm::uvec3& c = triangles_[t].corners;
@@ -215,8 +222,8 @@ class Collapser {
     return has(own.creases, kept) && !own.anchored;
   }
 
-  std::vector<std::uint32_t> neighbours(std::uint32_t v) const {
-    std::vector<std::uint32_t> around;
+  Few<24> neighbours(std::uint32_t v) const {
+    Few<24> around;
     for (const std::uint32_t t : fan(v).triangles)
       for (int k = 0; k < 3; ++k)
         if (triangles_[t].corners[k] != v) around.push_back(triangles_[t].corners[k]);
@@ -227,7 +234,7 @@ class Collapser {
 
   bool linked(std::uint32_t gone, std::uint32_t kept) const {
     const auto a = neighbours(gone), b = neighbours(kept);
-    std::vector<std::uint32_t> common;
+    Few<24> common;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
     return common.size() == 2 && std::binary_search(a.begin(), a.end(), kept);
   }
@@ -282,7 +289,7 @@ class Collapser {
       done_.add(triangles_[t].place, triangles_[t].corners);
       if (contains(t, kept)) {
         for (int k = 0; k < 3; ++k)
-          if (triangles_[t].corners[k] != gone) std::erase(fan(triangles_[t].corners[k]).triangles, t);
+          if (triangles_[t].corners[k] != gone) drop(fan(triangles_[t].corners[k]).triangles, t);
         triangles_[t].corners = glm::uvec3(0u);
         continue;
       }
@@ -291,7 +298,7 @@ class Collapser {
     }
     for (const std::uint32_t other : fan(gone).creases) {
       auto& theirs = fan(other).creases;
-      std::erase(theirs, gone);
+      drop(theirs, gone);
       if (other == kept || has(theirs, kept)) continue;
       theirs.push_back(kept);
       fan(kept).creases.push_back(other);

@@ -1,6 +1,7 @@
 #include "sdf/mesh/tips.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -124,7 +125,7 @@ class Finder {
       }
     });
     for (const auto& piece : pieces) around_.insert(around_.end(), piece.begin(), piece.end());
-    std::ranges::sort(around_);
+    tbb::parallel_sort(around_);
     around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
   }
 
