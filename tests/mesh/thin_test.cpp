@@ -144,6 +144,23 @@ TEST(Thin, SmallRoundingsAreShadedAsEdges) {
   EXPECT_TRUE(thinned(sphere(1.0), 0.04, 0.1).mesh.copyOf.empty());
 }
 
+// Near a rim that is thinner than the tolerance a point of the mesh is nearer to the other side.
+TEST(Thin, RimsThinnerThanTheToleranceAreShadedBySides) {
+  const glm::dvec3 off(0.25, 0.1, 0.0);
+  const Mesh mesh = thinned(subtract(sphere(0.6), translate(sphere(0.6), Vec3E(off))), 0.006, 3.3e-3).mesh;
+  int wrong = 0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    const glm::dvec3 facet = glm::normalize(glm::cross(b - a, c - a));
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 p = mesh.positions[t[k]], out = glm::normalize(p), in = glm::normalize(off - p);
+      const glm::dvec3& side = glm::dot(facet, out) > glm::dot(facet, in) ? out : in;
+      wrong += glm::dot(glm::dvec3(mesh.normals[t[k]]), side) < std::cos(20.0 * kPi / 180.0);
+    }
+  }
+  EXPECT_LE(wrong, 20);  // of 2,000: where the rim has a gap
+}
+
 // Each triangle at a tip has the normal of its own side there. The lemon is curved along its sides, too.
 TEST(Thin, TipsStayAndAreShadedAllAround) {
   for (const double turn : {0.0, 0.7}) {

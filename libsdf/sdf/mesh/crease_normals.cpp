@@ -142,19 +142,21 @@ std::vector<std::uint32_t> joinNormals(Mesh& mesh) {
 
 }  // namespace
 
-void splitAtCreases(const FeatureMesh& features, const LocalField& field, bool coarse, Progress& progress,
+void splitAtCreases(const FeatureMesh& features, const LocalField& field, float tolerance, Progress& progress,
                     Mesh& mesh) {
   mesh.positions = features.positions;
   mesh.triangles = features.triangles;
   mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
   std::vector<glm::vec3> looked = features.positions;  // where a vertex looks for its gradient
   std::vector<Edge> creases = features.creases;
-  if (coarse) {
+  if (tolerance > 0.0f) {
     const std::vector<Edge> tight = tightEdges(features, field, progress);
     creases.insert(creases.end(), tight.begin(), tight.end());
     std::ranges::sort(creases);
   }
   const std::vector<Fan> fans = FanFinder(features, creases).run();
+  std::vector<std::uint32_t> copies;  // each fan's vertex, its place to look and its facets' mean
+  std::vector<glm::vec3> inside, facets;
   for (std::size_t i = 0; i < fans.size(); ++i) {
     const Fan& fan = fans[i];
     std::uint32_t v = fan.vertex;
@@ -164,8 +166,11 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, bool c
       mesh.copyOf.push_back(fan.vertex);
       looked.emplace_back();
     }
-    glm::vec3 middle(0.0f);
+    glm::vec3 middle(0.0f), area(0.0f);
     for (const std::uint32_t t : fan.triangles) {
+      const glm::uvec3& c = features.triangles[t];
+      const glm::vec3& a = features.positions[c.x];
+      area += glm::cross(features.positions[c.y] - a, features.positions[c.z] - a);
       for (int k = 0; k < 3; ++k) {
         middle += features.positions[features.triangles[t][k]];
         if (features.triangles[t][k] == fan.vertex) mesh.triangles[t][k] = v;
@@ -173,11 +178,16 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, bool c
     }
     middle /= 3.0f * static_cast<float>(fan.triangles.size());
     looked[v] = glm::mix(features.positions[fan.vertex], middle, kInto);
+    copies.push_back(v), inside.push_back(looked[v]), facets.push_back(glm::normalize(area));
   }
   gradientNormals(looked, field, progress, mesh.normals);
+  if (tolerance > 0.0f) {
+    const std::vector<glm::vec3> facing = facingGradients(inside, facets, 2.0f * tolerance, field, progress);
+    for (std::size_t i = 0; i < copies.size(); ++i) mesh.normals[copies[i]] = facing[i];
+  }
   const std::vector<std::uint32_t> shared = joinNormals(mesh);
-  if (coarse)
-    fitToGradients(mesh.positions, mesh.triangles, shared, field, progress, mesh.normals);
+  if (tolerance > 0.0f)
+    fitToGradients(mesh.positions, mesh.triangles, shared, tolerance, field, progress, mesh.normals);
   else
     fitNormals(mesh.positions, mesh.triangles, mesh.normals);
 }

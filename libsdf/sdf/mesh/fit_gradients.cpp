@@ -40,10 +40,12 @@ void forEachPart(int n, const Take& take) {
 class GradientFit {
  public:
   GradientFit(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-              const std::vector<std::uint32_t>& shared, const LocalField& field, Progress& progress)
+              const std::vector<std::uint32_t>& shared, float tolerance, const LocalField& field,
+              Progress& progress)
       : positions_(positions),
         triangles_(triangles),
         shared_(shared),
+        tolerance_(tolerance),
         field_(field),
         progress_(progress),
         products_(triangles.size()),
@@ -68,7 +70,7 @@ class GradientFit {
   using Products = std::array<float, 6>;
 
   void read(std::size_t first, std::size_t last) {
-    std::vector<glm::vec3> points;
+    std::vector<glm::vec3> points, facets;
     std::vector<int> parts;
     const auto finder = field_.finder();
     for (std::size_t t = first; t < last; ++t) {
@@ -79,10 +81,10 @@ class GradientFit {
       parts.push_back(static_cast<int>(std::clamp(along, 1.0 * kFewest, 1.0 * kMost)));
       forEachPart(parts.back(),
                   [&](const Weights& w) { points.push_back(w[0] * p[0] + w[1] * p[1] + w[2] * p[2]); });
+      facets.resize(points.size(), glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0])));
     }
-    std::vector<glm::vec3> gradients(points.size());
-    forEachGradient(points, field_, progress_,
-                    [&](std::size_t i, const RunGradients& g, std::size_t k) { gradients[i] = g.normal(k); });
+    const std::vector<glm::vec3> gradients =
+        facingGradients(points, facets, 2.0f * tolerance_, field_, progress_);
     if (progress_.stopped()) return;
     const glm::vec3* g = gradients.data();
     for (std::size_t t = first; t < last; ++t) {
@@ -164,6 +166,7 @@ class GradientFit {
   const std::vector<glm::vec3>& positions_;
   const std::vector<glm::uvec3>& triangles_;
   const std::vector<std::uint32_t>& shared_;
+  float tolerance_;
   const LocalField& field_;
   Progress& progress_;
   std::vector<Products> products_;
@@ -173,10 +176,31 @@ class GradientFit {
 
 }  // namespace
 
+std::vector<glm::vec3> facingGradients(const std::vector<glm::vec3>& points,
+                                       const std::vector<glm::vec3>& facets, float reach,
+                                       const LocalField& field, Progress& progress) {
+  std::vector<glm::vec3> all(points.size(), glm::vec3(0.0f));
+  forEachGradient(points, field, progress,
+                  [&](std::size_t i, const RunGradients& g, std::size_t k) { all[i] = g.normal(k); });
+  std::vector<std::size_t> turned;
+  std::vector<glm::vec3> beside;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!(glm::dot(all[i], facets[i]) > kFacing)) turned.push_back(i);
+  for (const float way : {reach, -reach}) {
+    beside.clear();
+    for (const std::size_t i : turned) beside.push_back(points[i] + way * facets[i]);
+    forEachGradient(beside, field, progress, [&](std::size_t i, const RunGradients& g, std::size_t k) {
+      if (glm::dot(g.normal(k), facets[turned[i]]) > kFacing) all[turned[i]] = g.normal(k);
+    });
+    std::erase_if(turned, [&](std::size_t i) { return glm::dot(all[i], facets[i]) > kFacing; });
+  }
+  return all;
+}
+
 void fitToGradients(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                    const std::vector<std::uint32_t>& shared, const LocalField& field, Progress& progress,
-                    std::vector<glm::vec3>& normals) {
-  GradientFit(positions, triangles, shared, field, progress).run(normals);
+                    const std::vector<std::uint32_t>& shared, float tolerance, const LocalField& field,
+                    Progress& progress, std::vector<glm::vec3>& normals) {
+  GradientFit(positions, triangles, shared, tolerance, field, progress).run(normals);
 }
 
 }  // namespace sdf

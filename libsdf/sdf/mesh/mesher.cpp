@@ -182,7 +182,9 @@ class Mesher {
     if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
     begin("normals");
     Mesh& mesh = result_.mesh;
-    splitAtCreases(features, field, options_.tolerance > 0.0, progress_, mesh);
+    const double far =
+        options_.tolerance > 0.0 ? std::max(options_.tolerance, result_.stats.maxDistance) : 0.0;
+    splitAtCreases(features, field, static_cast<float>(far), progress_, mesh);
     begin("colouring");
     colorMesh(shape, features.materials, options_.values, field, progress_, mesh);
     end();

@@ -25,20 +25,29 @@ void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& n
 void gradientNormals(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
                      std::vector<glm::vec3>& normals);
 
+/// Unit gradients at points of facets that may be as far from the surface as half of `reach`, unit normals
+/// given: where a gradient is 60 degrees or more from its facet's normal, for the point is nearer to the
+/// other side of an edge, that of a point so far in front of or behind the facet is taken, if it agrees.
+std::vector<glm::vec3> facingGradients(const std::vector<glm::vec3>& points,
+                                       const std::vector<glm::vec3>& facets, float reach,
+                                       const LocalField& field, Progress& progress);
+
 /// Fills positions, triangles, welded, copyOf and normals from a mesh with creases. A vertex on a crease is
 /// repeated for each of the fans of triangles that the creases leave around it, with the gradient a little
-/// inside the fan; any other has the gradient at its place. Normals are fitted (fitNormals), of a `coarse`
-/// mesh, whose triangles span more than voxels, to the gradients all over the triangles (fitToGradients).
-void splitAtCreases(const FeatureMesh& features, const LocalField& field, bool coarse, Progress& progress,
+/// inside the fan; any other has the gradient at its place. Normals are fitted (fitNormals), of a mesh with a
+/// `tolerance` (0: none), whose triangles span more than voxels, to the gradients all over the triangles
+/// (fitToGradients).
+void splitAtCreases(const FeatureMesh& features, const LocalField& field, float tolerance, Progress& progress,
                     Mesh& mesh);
 
 /// The normals that, interpolated, are nearest to the unit gradients all over the triangles, in the mean
 /// square over the area; from `normals`. A large triangle beside a small rounding is then as flat or as round
 /// as it should be, where the gradient at the corner that both share would run through all of it. `shared`
-/// is, by vertex, the vertex whose normal it has. Cost: linear; some 4 to 64 gradients for each triangle.
+/// is, by vertex, the vertex whose normal it has; the mesh keeps the `tolerance`. Cost: linear; some 4 to 64
+/// gradients for each triangle.
 void fitToGradients(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                    const std::vector<std::uint32_t>& shared, const LocalField& field, Progress& progress,
-                    std::vector<glm::vec3>& normals);
+                    const std::vector<std::uint32_t>& shared, float tolerance, const LocalField& field,
+                    Progress& progress, std::vector<glm::vec3>& normals);
 
 /// How far a vertex's normal may be from the mean of the facets around it, in radians: 30 degrees. A facet
 /// whose side is d long is asin(d / 2r) from the normal of a surface that bends as a ball of radius r does:
