@@ -59,8 +59,8 @@ constexpr double kLeastTolerance = 0x1p-20;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
-// cannot mend. Four vertices around a rod that is two voxels thick leave 1 - sqrt(1/2).
-constexpr double kResolved = 0.3;
+// cannot mend.
+constexpr double kResolved = 0.25;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
@@ -111,7 +111,9 @@ class Mesher {
         result_.stats.tolerance = options_.tolerance;
         if (Status s = checkLattice(mesh, *bounds, h, field); !s) return s.error();
         const bool finer = !last && (options_.strict || cheap);
-        const bool broken = result_.stats.maxDistance > std::max(options_.tolerance, kResolved * h);
+        const double limit = std::max(options_.tolerance, kResolved * h);
+        const bool broken =
+            result_.stats.maxDistance > limit && !placesBeyond(limit, mesh, field, h, progress_).empty();
         if (broken && finer) continue;
         if (broken && options_.strict) return checkTolerance().error();
         const bool kept =

@@ -27,6 +27,8 @@ constexpr int kHolds = 3, kHoldsToBest = 1;
 // Where the tolerance need not be kept more than these triangles are thinned roughly only, in a tenth of the
 // time.
 constexpr std::size_t kMostToBest = 60'000;
+// A tip has voxels like these around it.
+constexpr double kAroundTip = 5.0;
 // Voxels are tried no closer than so many along the mesh.
 constexpr double kMostTiles = 256.0;
 // A tolerance of more than a voxel that cannot be kept is too coarse for the shape: it is divided by so much.
@@ -187,15 +189,8 @@ class Thinner {
 
   // What exceeds the tolerance from the start stays as it is.
   void leaveBroken() {
-    std::vector<glm::vec3> points, places;
-    for (const glm::uvec3& t : mesh_.triangles) {
-      const glm::vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
-      for (const glm::vec3& p : {(a + b + c) / 3.0f, (a + b) / 2.0f, (b + c) / 2.0f, (c + a) / 2.0f})
-        points.push_back(p);
-    }
-    const std::vector<float> distances = distancesAt(points, field_, progress_);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (!(distances[i] <= options_.tolerance)) places.push_back(points[i]);
+    const std::vector<glm::vec3> places =
+        placesBeyond(options_.tolerance, mesh_, field_, options_.voxel, progress_);
     if (!places.empty()) hold(places, kReach * options_.voxel, mesh_);
   }
 
@@ -220,6 +215,25 @@ class Thinner {
 };
 
 }  // namespace
+
+std::vector<glm::vec3> placesBeyond(double limit, const FeatureMesh& mesh, const LocalField& field,
+                                    double voxel, Progress& progress) {
+  std::vector<glm::vec3> points, places, tips;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    for (const glm::vec3& p : {(a + b + c) / 3.0f, (a + b) / 2.0f, (b + c) / 2.0f, (c + a) / 2.0f})
+      points.push_back(p);
+  }
+  for (std::uint32_t v = 0; v < mesh.held.size(); ++v)
+    if (mesh.held[v] == Hold::Tip) tips.push_back(mesh.positions[v]);
+  const std::vector<float> distances = distancesAt(points, field, progress);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!(distances[i] <= limit) && std::ranges::none_of(tips, [&](const glm::vec3& tip) {
+          return glm::distance(tip, points[i]) < kAroundTip * voxel;
+        }))
+      places.push_back(points[i]);
+  return places;
+}
 
 bool thin(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress) {
   return Thinner(mesh, field, options, progress).run();

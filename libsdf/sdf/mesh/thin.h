@@ -16,6 +16,12 @@ struct ThinOptions {
   bool broken = false;
 };
 
+/// Points of the mesh, of four in each triangle, that are farther from the surface than the limit, but for
+/// what is within five voxels of a tip: around it a lattice leaves rings of four vertices, however fine it
+/// is, and remeshing mends them.
+std::vector<glm::vec3> placesBeyond(double limit, const FeatureMesh& mesh, const LocalField& field,
+                                    double voxel, Progress& progress);
+
 /// Remeshes with few triangles (remesh.h). Where the result misses the tolerance or crosses itself, which it
 /// does where walls, gaps and steps are about as thin as the tolerance, the mesh is left as it was and the
 /// rest is remeshed again. Returns whether the tolerance is kept, but for what is left as it is; the mesh may
