@@ -19,8 +19,8 @@ void addTetrahedron(FeatureMesh& mesh, const glm::vec3& at, float leg) {
     mesh.triangles.push_back(t + first);
 }
 
-// The number of tetrahedra that stay of a large solid one and a small one somewhere, where the field says
-// whether it is solid.
+// The number of tetrahedra that stay of a large solid one and a small one somewhere, solid or a
+// hole.
 std::size_t left(const glm::vec3& at, bool solid) {
   FeatureMesh mesh;
   addTetrahedron(mesh, glm::vec3(0.0f), 1.0f);
@@ -30,9 +30,8 @@ std::size_t left(const glm::vec3& at, bool solid) {
     island.vertices.push_back(v);
     island.centre += mesh.positions[v] / 4.0f;
   }
-  Progress progress;
-  dropSwallowed(mesh, {island}, WholeField(solid ? sphere(9.0) : translate(sphere(1.0), Vec3E(9.0)), 0.1),
-                progress);
+  island.solid = solid;
+  dropSwallowed(mesh, {island});
   return mesh.triangles.size() / 4;
 }
 
@@ -59,6 +58,9 @@ TEST(Islands, AreSmallPieces) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].vertices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
   EXPECT_EQ(found[0].centre, glm::vec3(0.25f));
+  EXPECT_TRUE(found[0].solid);
+  for (glm::uvec3& t : mesh.triangles) std::swap(t.x, t.y);
+  EXPECT_FALSE(findIslands(mesh.positions, mesh.triangles)[0].solid);
 }
 
 // Along its rim the samples of a thin wedge hang together only here and there.
@@ -72,6 +74,21 @@ TEST(Islands, DoNotCrowdTheRimOfACrescent) {
     ASSERT_TRUE(meshed.ok()) << meshed.error().message;
     EXPECT_EQ(meshed->stats.components, 1) << voxel;
     EXPECT_TRUE(meshed->stats.manifold) << voxel;
+  }
+}
+
+// What stands alone is no bit of anything: a crescent among small balls, inside which no sample is near the
+// surface, and which are each of few triangles.
+TEST(Islands, ThatAreSolidsOfTheirOwnStay) {
+  Shape all = subtract(sphere(0.6), translate(sphere(0.6), Vec3E(0.25, 0.1, 0.0)));
+  for (int i = 0; i < 6; ++i) all = all | translate(sphere(0.1), Vec3E(0.3 * i - 0.75, 0.85, 0.1 * i));
+  for (const double voxel : {0.02, 0.03}) {
+    Progress progress;
+    MeshOptions options;
+    options.voxelSize = voxel;
+    const Result<MeshedShape> meshed = meshShape(all, "balls", options, progress);
+    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
+    EXPECT_EQ(meshed->stats.components, 7) << voxel;
   }
 }
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "sdf/mesh/indices-inl.h"
-#include "sdf/mesh/surface_points.h"
 #include "sdf/mesh/tiles.h"
 
 namespace sdf {
@@ -128,20 +127,21 @@ std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
   for (Island& island : islands)
     for (const std::uint32_t v : island.vertices)
       island.centre += positions[v] / static_cast<float>(island.vertices.size());
+  // Six times the volume of each, which is negative of a hole.
+  std::vector<std::uint32_t> islandAt(of.size(), kNone);
+  for (std::uint32_t i = 0; i < islands.size(); ++i) islandAt[of[islands[i].vertices[0]]] = i;
+  std::vector<double> volume(islands.size(), 0.0);
+  for (const glm::uvec3& t : triangles)
+    if (const std::uint32_t i = islandAt[of[t.x]]; i != kNone) {
+      const auto corner = [&](std::uint32_t v) { return glm::dvec3(positions[v] - islands[i].centre); };
+      volume[i] += glm::dot(corner(t.x), glm::cross(corner(t.y), corner(t.z)));
+    }
+  for (std::uint32_t i = 0; i < islands.size(); ++i) islands[i].solid = volume[i] > 0.0;
   return islands;
 }
 
-void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands, const LocalField& field,
-                   Progress& progress) {
+void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands) {
   if (islands.empty()) return;
-  std::vector<char> isSolid(islands.size(), 0);
-  forEachRun(
-      islands.size(), [&](std::size_t i) { return islands[i].centre; }, field, progress,
-      [&](const PointRun& run) {
-        RunGradients g;
-        g.evaluate(run, run.points);
-        for (std::size_t i = 0; i < run.count; ++i) isSolid[run.first + i] = g.distance(i) < 0.0f;
-      });
   std::vector<std::uint32_t> islandOf(mesh.positions.size(), kNone);
   std::vector<Probe> probes;
   for (std::uint32_t i = 0; i < islands.size(); ++i) {
@@ -154,7 +154,7 @@ void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands, const 
   findInside(mesh, islandOf, probes);
   std::vector<int> within(islands.size(), 0);
   for (const Probe& p : probes)
-    if (p.inside == (isSolid[p.island] != 0)) within[p.island] += p.weight;
+    if (p.inside == islands[p.island].solid) within[p.island] += p.weight;
   const auto isGone = [&](std::uint32_t v) {
     const std::uint32_t i = islandOf[v];
     return i != kNone && within[i] >= kSwallowed;

@@ -4,16 +4,16 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "sdf/base/progress.h"
 #include "sdf/mesh/feature_mesh.h"
-#include "sdf/mesh/local_field.h"
 
 namespace sdf {
 
-/// Around a sample or two that a thin wedge has caught near its rim, apart from all others.
+/// A piece of a mesh apart from all others, as it stands around a sample or two that a thin wedge has caught
+/// near its rim.
 struct Island {
   std::vector<std::uint32_t> vertices;
   glm::vec3 centre{0.0f};  ///< mean of these as they were when it was found
+  bool solid = false;      ///< or a hole; by its volume then
 };
 
 /// Has the surface edges of less than 80 degrees? The normals at a triangle's corners tell.
@@ -24,9 +24,8 @@ std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
                                 const std::vector<glm::uvec3>& triangles);
 
 /// Drops the islands that have their centre or an eighth of their vertices within the rest of the mesh: solid
-/// in what is solid, or holes in what is empty, which the field's sign at the centre tells. Their vertices
-/// stay, and are of no triangle any more. Cost: linear.
-void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands, const LocalField& field,
-                   Progress& progress);
+/// in what is solid, or holes in what is empty. Their vertices stay, and are of no triangle any more. Cost:
+/// linear.
+void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands);
 
 }  // namespace sdf

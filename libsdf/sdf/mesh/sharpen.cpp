@@ -58,7 +58,7 @@ class Sharpener {
     findCorners(crossed);
     cutTriangles(crossed);
     if (!islands.empty()) addCuts(islands);
-    dropSwallowed(mesh_, islands, field_, progress_);
+    dropSwallowed(mesh_, islands);
     normals_.resize(mesh_.positions.size(), glm::vec3(0.0f));
     const double shortest = kShort * field_.finder()->at(mesh_.positions[0]).voxel;
     const Collapses collapses = collapseShortEdges(mesh_, normals_, anchors_, shortest);

@@ -402,7 +402,7 @@ void placeTips(FeatureMesh& mesh, std::vector<glm::vec3>& normals, std::vector<s
   const auto locals = field.finder();
   for (const Tip& tip : tips) crowner.crown(tip, locals->at(glm::vec3(tip.at)).voxel);
   std::erase_if(mesh.triangles, isGone);
-  dropSwallowed(mesh, findIslands(mesh.positions, mesh.triangles), field, progress);
+  dropSwallowed(mesh, findIslands(mesh.positions, mesh.triangles));
   const std::vector<std::uint32_t> place = dropUnused(mesh, normals);
   for (std::uint32_t& v : doubtful) v = place[v];
   std::erase(doubtful, Collapses::kNone);
