@@ -31,6 +31,7 @@ std::size_t left(const glm::vec3& at, bool solid) {
     island.centre += mesh.positions[v] / 4.0f;
   }
   island.solid = solid;
+  island.holdsCentre = true;
   dropSwallowed(mesh, {island});
   return mesh.triangles.size() / 4;
 }
@@ -89,6 +90,34 @@ TEST(Islands, ThatAreSolidsOfTheirOwnStay) {
     const Result<MeshedShape> meshed = meshShape(all, "balls", options, progress);
     ASSERT_TRUE(meshed.ok()) << meshed.error().message;
     EXPECT_EQ(meshed->stats.components, 7) << voxel;
+  }
+}
+
+// The middle of a ring or of a hollow ball is not of it, and what has a hole may have something in the hole.
+TEST(Islands, ThatAreRingsOrHollowStay) {
+  const auto at = [](const Shape& shape, double x, double y) { return translate(shape, Vec3E(x, y, 0.0)); };
+  const Shape crescent = at(subtract(sphere(0.6), at(sphere(0.6), 0.25, 0.1)), 2.0, 0.0),
+              ring = torus(0.24, 0.06);
+  struct Case {
+    const char* name;
+    Shape shape;
+    double voxel;
+    int pieces;
+  };
+  const Case cases[] = {
+      {"a ring around a cone", cone(0.15, 1.0) | at(ring, 0.0, -0.1), 0.06, 2},
+      {"a ring around a rod", cylinder(0.07, 1.0) | ring | crescent, 0.06, 3},
+      {"two rings, linked", ring | at(rotate(ring, {kPi / 2.0, 0.0, 0.0}), 0.24, 0.0) | crescent, 0.06, 3},
+      {"a hollow ball", subtract(sphere(0.1), sphere(0.055)) | crescent, 0.03, 3},
+      {"a ball in a hollow one", subtract(sphere(0.8), sphere(0.105)) | sphere(0.045) | crescent, 0.03, 4},
+  };
+  for (const Case& c : cases) {
+    Progress progress;
+    MeshOptions options;
+    options.voxelSize = c.voxel;
+    const Result<MeshedShape> meshed = meshShape(c.shape, c.name, options, progress);
+    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
+    EXPECT_EQ(meshed->stats.components, c.pieces) << c.name;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -40,16 +41,24 @@ std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, st
   return of;
 }
 
+// Of a triangle seen from the origin, positive from behind (Van Oosterom, Strackee 1983).
+double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const double p = glm::length(a), q = glm::length(b), r = glm::length(c);
+  return 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                          p * q * r + glm::dot(a, b) * r + glm::dot(b, c) * p + glm::dot(c, a) * q);
+}
+
 // A point of an island.
 struct Probe {
   glm::vec3 at;
   std::uint32_t island;
   int weight;
-  bool inside = false;  // the rest of the mesh
+  int turns = 0;  // of the rest of the mesh around it: 1 in what is solid
 };
 
-// Does the way from p along x meet a triangle? What touches it counts to one of the triangles there.
-bool isMet(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+// Where the way from p along x meets a triangle: 1 out of what is solid, -1 into it, 0 nowhere. What touches
+// it counts to one of the triangles there.
+int passes(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   bool met = false;
   const auto cross = [&](glm::dvec3 from, glm::dvec3 to) {
     if ((from.y > p.y) == (to.y > p.y)) return;
@@ -58,12 +67,13 @@ bool isMet(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const 
   };
   cross(a, b), cross(b, c), cross(c, a);
   const glm::dvec3 normal = glm::cross(b - a, c - a);
-  return met && glm::dot(normal, a - p) * normal.x > 0.0;
+  if (!met || !(glm::dot(normal, a - p) * normal.x > 0.0)) return 0;
+  return normal.x > 0.0 ? 1 : -1;
 }
 
-// Which of the probes the rest of the mesh has inside.
-void findInside(const FeatureMesh& mesh, const std::vector<std::uint32_t>& islandOf,
-                std::vector<Probe>& probes) {
+// How often the rest of the mesh goes around the probes.
+void findTurns(const FeatureMesh& mesh, const std::vector<std::uint32_t>& islandOf,
+               std::vector<Probe>& probes) {
   const auto flat = [](const glm::vec3& p) { return glm::vec3(0.0f, p.y, p.z); };
   glm::vec3 low = flat(probes[0].at), high = low;
   for (const Probe& p : probes) low = glm::min(low, flat(p.at)), high = glm::max(high, flat(p.at));
@@ -81,20 +91,20 @@ void findInside(const FeatureMesh& mesh, const std::vector<std::uint32_t>& islan
       for (std::uint32_t i = first[tile]; i < first[tile + 1]; ++i) {
         const glm::vec3& p = probes[i].at;
         if (p.x <= most.x && p.y >= least.y && p.y <= most.y && p.z >= least.z && p.z <= most.z &&
-            islandOf[t.x] != probes[i].island && isMet(p, a, b, c))
-          take(i);
+            islandOf[t.x] != probes[i].island)
+          if (const int way = passes(p, a, b, c)) take(i, way);
       }
     });
   };
   constexpr std::size_t kChunk = 8192;
-  std::vector<std::vector<std::uint32_t>> met((mesh.triangles.size() + kChunk - 1) / kChunk);
+  std::vector<std::vector<std::pair<std::uint32_t, int>>> met((mesh.triangles.size() + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t{0}, met.size(), [&](std::size_t chunk) {
     const std::size_t end = std::min(mesh.triangles.size(), (chunk + 1) * kChunk);
     for (std::size_t t = chunk * kChunk; t < end; ++t)
-      forEachMet(mesh.triangles[t], [&](std::uint32_t i) { met[chunk].push_back(i); });
+      forEachMet(mesh.triangles[t], [&](std::uint32_t i, int way) { met[chunk].emplace_back(i, way); });
   });
   for (const auto& some : met)
-    for (const std::uint32_t i : some) probes[i].inside ^= true;
+    for (const auto& [i, way] : some) probes[i].turns += way;
 }
 
 }  // namespace
@@ -127,16 +137,22 @@ std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
   for (Island& island : islands)
     for (const std::uint32_t v : island.vertices)
       island.centre += positions[v] / static_cast<float>(island.vertices.size());
-  // Six times the volume of each, which is negative of a hole.
   std::vector<std::uint32_t> islandAt(of.size(), kNone);
   for (std::uint32_t i = 0; i < islands.size(); ++i) islandAt[of[islands[i].vertices[0]]] = i;
-  std::vector<double> volume(islands.size(), 0.0);
+  std::vector<double> volume(islands.size(), 0.0), turns(islands.size(), 0.0);
   for (const glm::uvec3& t : triangles)
     if (const std::uint32_t i = islandAt[of[t.x]]; i != kNone) {
-      const auto corner = [&](std::uint32_t v) { return glm::dvec3(positions[v] - islands[i].centre); };
-      volume[i] += glm::dot(corner(t.x), glm::cross(corner(t.y), corner(t.z)));
+      const auto corner = [&](std::uint32_t v) {
+        return glm::dvec3(positions[v]) - glm::dvec3(islands[i].centre);
+      };
+      const glm::dvec3 a = corner(t.x), b = corner(t.y), c = corner(t.z);
+      volume[i] += glm::dot(a, glm::cross(b, c));
+      turns[i] += solidAngle(a, b, c) / (4.0 * std::numbers::pi);
     }
-  for (std::uint32_t i = 0; i < islands.size(); ++i) islands[i].solid = volume[i] > 0.0;
+  for (std::uint32_t i = 0; i < islands.size(); ++i) {
+    islands[i].solid = volume[i] > 0.0;
+    islands[i].holdsCentre = islands[i].solid ? turns[i] > 0.5 : turns[i] < -0.5;
+  }
   return islands;
 }
 
@@ -147,14 +163,14 @@ void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands) {
   for (std::uint32_t i = 0; i < islands.size(); ++i) {
     const std::vector<std::uint32_t>& vertices = islands[i].vertices;
     for (const std::uint32_t v : vertices) islandOf[v] = i;
-    probes.push_back({islands[i].centre, i, kProbes});
+    if (islands[i].holdsCentre) probes.push_back({islands[i].centre, i, kProbes});
     for (int k = 0; k < kProbes; ++k)
       probes.push_back({mesh.positions[vertices[vertices.size() * k / kProbes]], i, 1});
   }
-  findInside(mesh, islandOf, probes);
+  findTurns(mesh, islandOf, probes);
   std::vector<int> within(islands.size(), 0);
   for (const Probe& p : probes)
-    if (p.inside == islands[p.island].solid) within[p.island] += p.weight;
+    if (islands[p.island].solid ? p.turns > 0 : p.turns <= 0) within[p.island] += p.weight;
   const auto isGone = [&](std::uint32_t v) {
     const std::uint32_t i = islandOf[v];
     return i != kNone && within[i] >= kSwallowed;

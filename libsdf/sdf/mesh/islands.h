@@ -12,8 +12,9 @@ namespace sdf {
 /// near its rim.
 struct Island {
   std::vector<std::uint32_t> vertices;
-  glm::vec3 centre{0.0f};  ///< mean of these as they were when it was found
-  bool solid = false;      ///< or a hole; by its volume then
+  glm::vec3 centre{0.0f};    ///< mean of these as they were when it was found
+  bool solid = false;        ///< or a hole; by its volume then
+  bool holdsCentre = false;  ///< the centre was within it, as no ring's is
 };
 
 /// Has the surface edges of less than 80 degrees? The normals at a triangle's corners tell.
@@ -23,9 +24,9 @@ bool hasSharpEdges(const std::vector<glm::vec3>& normals, const std::vector<glm:
 std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
                                 const std::vector<glm::uvec3>& triangles);
 
-/// Drops the islands that have their centre or an eighth of their vertices within the rest of the mesh: solid
-/// in what is solid, or holes in what is empty. Their vertices stay, and are of no triangle any more. Cost:
-/// linear.
+/// Drops the islands that have their centre, if they hold it, or an eighth of their vertices within the rest
+/// of the mesh: solid in what is solid, or holes in what is empty, by the number of times that the rest goes
+/// around these points. Their vertices stay, and are of no triangle any more. Cost: linear.
 void dropSwallowed(FeatureMesh& mesh, const std::vector<Island>& islands);
 
 }  // namespace sdf
