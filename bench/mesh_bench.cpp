@@ -58,8 +58,8 @@ constexpr std::array kStages = {"sampling", "extraction", "projection", "creases
 class StageClock {
  public:
   void end() {
-    seconds.push_back(
-        std::chrono::duration<double>(Clock::now() - std::exchange(last_, Clock::now())).count());
+    const Clock::time_point now = Clock::now();
+    seconds.push_back(std::chrono::duration<double>(now - std::exchange(last_, now)).count());
   }
   std::vector<double> seconds;
 

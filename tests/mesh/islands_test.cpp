@@ -19,8 +19,7 @@ void addTetrahedron(FeatureMesh& mesh, const glm::vec3& at, float leg) {
     mesh.triangles.push_back(t + first);
 }
 
-// The number of tetrahedra that stay of a large solid one and a small one somewhere, solid or a
-// hole.
+// The number of tetrahedra that stay of a large solid one and a small one somewhere, solid or a hole.
 std::size_t left(const glm::vec3& at, bool solid) {
   FeatureMesh mesh;
   addTetrahedron(mesh, glm::vec3(0.0f), 1.0f);
@@ -68,13 +67,8 @@ TEST(Islands, AreSmallPieces) {
 TEST(Islands, DoNotCrowdTheRimOfACrescent) {
   const Shape crescent = subtract(sphere(0.6), translate(sphere(0.6), Vec3E(0.25, 0.1, 0.0)));
   for (const double voxel : {0.006, 0.008, 0.013, 0.02, 0.03}) {
-    Progress progress;
-    MeshOptions options;
-    options.voxelSize = voxel;
-    const Result<MeshedShape> meshed = meshShape(crescent, "crescent", options, progress);
-    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
-    EXPECT_EQ(meshed->stats.components, 1) << voxel;
-    EXPECT_TRUE(meshed->stats.manifold) << voxel;
+    SCOPED_TRACE(voxel);
+    EXPECT_EQ(meshed(crescent, voxel).stats.components, 1);
   }
 }
 
@@ -84,12 +78,8 @@ TEST(Islands, ThatAreSolidsOfTheirOwnStay) {
   Shape all = subtract(sphere(0.6), translate(sphere(0.6), Vec3E(0.25, 0.1, 0.0)));
   for (int i = 0; i < 6; ++i) all = all | translate(sphere(0.1), Vec3E(0.3 * i - 0.75, 0.85, 0.1 * i));
   for (const double voxel : {0.02, 0.03}) {
-    Progress progress;
-    MeshOptions options;
-    options.voxelSize = voxel;
-    const Result<MeshedShape> meshed = meshShape(all, "balls", options, progress);
-    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
-    EXPECT_EQ(meshed->stats.components, 7) << voxel;
+    SCOPED_TRACE(voxel);
+    EXPECT_EQ(meshed(all, voxel).stats.components, 7);
   }
 }
 
@@ -112,12 +102,8 @@ TEST(Islands, ThatAreRingsOrHollowStay) {
       {"a ball in a hollow one", subtract(sphere(0.8), sphere(0.105)) | sphere(0.045) | crescent, 0.03, 4},
   };
   for (const Case& c : cases) {
-    Progress progress;
-    MeshOptions options;
-    options.voxelSize = c.voxel;
-    const Result<MeshedShape> meshed = meshShape(c.shape, c.name, options, progress);
-    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
-    EXPECT_EQ(meshed->stats.components, c.pieces) << c.name;
+    SCOPED_TRACE(c.name);
+    EXPECT_EQ(meshed(c.shape, c.voxel).stats.components, c.pieces);
   }
 }
 

@@ -1,9 +1,13 @@
 // Shapes and small measurements that the tests of the mesher share.
 #pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "sdf/mesh/mesher.h"
 #include "sdf/mesh/narrow_band.h"
 #include "sdf/mesh/stages.h"
 #include "sdf/shape/booleans.h"
@@ -69,6 +73,28 @@ inline Result<NarrowBand> tryBand(const Shape& s, const Box& bounds, double voxe
 inline NarrowBand bandOf(const Shape& s, const Box& bounds, double voxel) {
   Progress progress;
   return tryBand(s, bounds, voxel, progress).value();
+}
+
+/// A shape's mesh with its creases, sound and without crossings; of a tolerance, if one is given, which it
+/// keeps.
+inline MeshedShape meshed(const Shape& shape, double voxel, double tolerance = 0.0) {
+  Progress progress;
+  Result<MeshedShape> mesh = meshShape(shape, "part", {.voxelSize = voxel, .tolerance = tolerance}, progress);
+  EXPECT_TRUE(mesh.ok()) << mesh.error().message;
+  if (!mesh) return {};
+  EXPECT_TRUE(mesh->stats.watertight && mesh->stats.manifold);
+  EXPECT_EQ(mesh->stats.crossings, 0u);
+  if (tolerance > 0.0) {
+    EXPECT_LE(mesh->stats.maxDistance, tolerance);
+  }
+  return std::move(*mesh);
+}
+
+/// How far the vertex that is nearest to a point is from it.
+inline double nearestVertex(const std::vector<glm::vec3>& positions, const glm::dvec3& p) {
+  double nearest = kInfinity;
+  for (const glm::vec3& v : positions) nearest = std::min(nearest, glm::distance(glm::dvec3(v), p));
+  return nearest;
 }
 
 /// Volume inside a closed mesh; positive where its triangles run counter-clockwise seen from outside.

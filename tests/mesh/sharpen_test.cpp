@@ -41,12 +41,6 @@ std::vector<glm::dvec3> rotations(int count) {
   return all;
 }
 
-double nearestVertex(const FeatureMesh& mesh, const glm::dvec3& p) {
-  double nearest = kInfinity;
-  for (const glm::vec3& v : mesh.positions) nearest = std::min(nearest, glm::distance(glm::dvec3(v), p));
-  return nearest;
-}
-
 // Where a rotated shape has a point of the unrotated one.
 glm::dvec3 moved(const glm::dvec3& angles, const glm::dvec3& p) {
   // rotate() substitutes the position; the shape's bounds of a point tell where it went.
@@ -73,7 +67,7 @@ TEST(Sharpen, ShowsAllCornersOfPolyhedraAtAnyRotation) {
       EXPECT_EQ(s.stats.eulerCharacteristic, 2);
       EXPECT_EQ(s.stats.components, 1);
       for (const glm::dvec3& corner : c.corners)
-        EXPECT_LE(nearestVertex(s.mesh, moved(r, corner)), 1e-5)
+        EXPECT_LE(nearestVertex(s.mesh.positions, moved(r, corner)), 1e-5)
             << corner.x << ' ' << corner.y << ' ' << corner.z;
     }
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "mesh/scenes.h"
 #include "sdf/mesh/mesher.h"
@@ -15,21 +16,10 @@
 namespace sdf::test {
 namespace {
 
-MeshedShape thinned(const Shape& shape, double voxel, double tolerance) {
-  Progress progress;
-  Result<MeshedShape> mesh = meshShape(shape, "part", {.voxelSize = voxel, .tolerance = tolerance}, progress);
-  EXPECT_TRUE(mesh.ok()) << mesh.error().message;
-  if (!mesh) return {};
-  EXPECT_TRUE(mesh->stats.watertight && mesh->stats.manifold);
-  EXPECT_LE(mesh->stats.maxDistance, tolerance);
-  EXPECT_EQ(mesh->stats.crossings, 0u);
-  return std::move(*mesh);
-}
-
 // Triangles of the lattice are smaller than what is a needle beside such tolerances.
 TEST(Thin, TolerancesOfManyVoxelsLeaveFewTriangles) {
   for (const double tolerance : {0.1, 0.3, 2.0})
-    EXPECT_LE(thinned(sphere(1.0), 0.04, tolerance).mesh.triangles.size(), 60u) << tolerance;
+    EXPECT_LE(meshed(sphere(1.0), 0.04, tolerance).mesh.triangles.size(), 60u) << tolerance;
 }
 
 // A ball that waves rise from: where one ends an edge fades out.
@@ -39,7 +29,7 @@ TEST(Thin, EdgesThatFadeOutAreNotSplitIntoNeedles) {
                      0.5 * sin(9.0 * p.y + p.x) * sin(8.0 * p.z);
   const Shape planet = sphere(1.0) | displace(sphere(1.0), waves * -0.12);
   for (const double tolerance : {2e-3, 4e-3, 8e-3}) {
-    const MeshedShape m = thinned(planet, 0.03, tolerance);
+    const MeshedShape m = meshed(planet, 0.03, tolerance);
     // Three times what a ball needs for each octave.
     EXPECT_LE(static_cast<double>(m.mesh.triangles.size()), 12.0 / tolerance) << tolerance;
   }
@@ -53,7 +43,7 @@ TEST(Thin, StepsAndRimsBelowTheToleranceDoNotCross) {
   const Shape letter = box({0.3, 0.03, 1.0}) | rotate(box({0.03, 0.3, 1.0}), {0.0, 0.0, 0.2});
   const Shape standing = subtract({letter & cylinder(0.815, 0.5), cylinder(0.74, 2.0)});
   for (const double tolerance : {4e-3})
-    EXPECT_LE(thinned(cup | standing, 0.025, tolerance).mesh.triangles.size(), 4000u) << tolerance;
+    EXPECT_LE(meshed(cup | standing, 0.025, tolerance).mesh.triangles.size(), 4000u) << tolerance;
 }
 
 // Where a crescent's horns run out to nothing no tolerance can be kept. Elsewhere it is.
@@ -123,7 +113,7 @@ double wrongShare(const Mesh& mesh, const Shape& shape) {
 // with it. A fifteenth of the area is the roundings'.
 TEST(Thin, NormalsOfLargeTrianglesAreRightAllOverThem) {
   const Shape drum = round(cylinder(0.95, 0.65), 0.05);
-  EXPECT_LT(wrongShare(thinned(drum, 0.02, 3e-3).mesh, drum), 0.04);
+  EXPECT_LT(wrongShare(meshed(drum, 0.02, 3e-3).mesh, drum), 0.04);
 }
 
 // Three edges meet in each inner corner of the letter, where sharpening leaves a gap of a voxel.
@@ -131,7 +121,7 @@ TEST(Thin, GapsInEdgesDoNotGrow) {
   const Shape t =
       translate(box({0.06, 0.3, 0.5}), {0.3, 0.0, 0.9}) | translate(box({0.25, 0.06, 0.5}), {0.3, 0.24, 0.9});
   const Shape letter = t & subtract(cylinder(1.09, 0.6), cylinder(0.98, 0.8));
-  const MeshedShape m = thinned(letter, 0.0107, 3e-3);
+  const MeshedShape m = meshed(letter, 0.0107, 3e-3);
   EXPECT_LT(wrongShare(m.mesh, letter), 0.02);
   EXPECT_LE(m.mesh.triangles.size(), 80u);
 }
@@ -140,14 +130,14 @@ TEST(Thin, GapsInEdgesDoNotGrow) {
 // sides, which creases do not tell of. A ball has none, however coarse.
 TEST(Thin, SmallRoundingsAreShadedAsEdges) {
   const Shape board = displace(box({1.1, 0.7, 0.12}), -0.05 * sin(4.0 * position().x));
-  EXPECT_LT(wrongShare(thinned(board, 0.011, 3e-3).mesh, board), 0.03);
-  EXPECT_TRUE(thinned(sphere(1.0), 0.04, 0.1).mesh.copyOf.empty());
+  EXPECT_LT(wrongShare(meshed(board, 0.011, 3e-3).mesh, board), 0.03);
+  EXPECT_TRUE(meshed(sphere(1.0), 0.04, 0.1).mesh.copyOf.empty());
 }
 
 // Near a rim that is thinner than the tolerance a point of the mesh is nearer to the other side.
 TEST(Thin, RimsThinnerThanTheToleranceAreShadedBySides) {
   const glm::dvec3 off(0.25, 0.1, 0.0);
-  const Mesh mesh = thinned(subtract(sphere(0.6), translate(sphere(0.6), Vec3E(off))), 0.006, 3.3e-3).mesh;
+  const Mesh mesh = meshed(subtract(sphere(0.6), translate(sphere(0.6), Vec3E(off))), 0.006, 3.3e-3).mesh;
   int wrong = 0;
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
@@ -168,16 +158,11 @@ TEST(Thin, TipsStayAndAreShadedAllAround) {
     for (const auto& [shape, tip] : {std::pair{cone(0.5, 0.8), 0.8}, std::pair{cone(0.5, 0.4), 0.4},
                                      std::pair{revolve(translate(circle(1.0), {-0.6, 0.0, 0.0})), 0.8}}) {
       const Shape turned = rotateAbout(shape, axis, turn);
-      const MeshedShape m = thinned(turned, 0.01, 1.2e-3);
+      const MeshedShape m = meshed(turned, 0.01, 1.2e-3);
       EXPECT_LT(wrongShare(m.mesh, turned), 0.02);
       EXPECT_LE(m.mesh.triangles.size(), 1300u);
-      const glm::dvec3 at(0.0, tip, 0.0);
-      const glm::dvec3 there = std::cos(turn) * at + std::sin(turn) * glm::cross(axis, at) +
-                               (1.0 - std::cos(turn)) * glm::dot(axis, at) * axis;
-      double nearest = HUGE_VAL;
-      for (const glm::vec3& p : m.mesh.positions)
-        nearest = std::min(nearest, glm::distance(glm::dvec3(p), there));
-      EXPECT_LE(nearest, 1e-5);
+      EXPECT_LE(nearestVertex(m.mesh.positions, glm::angleAxis(turn, axis) * glm::dvec3(0.0, tip, 0.0)),
+                1e-5);
     }
   }
 }

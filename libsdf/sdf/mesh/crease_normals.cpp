@@ -147,7 +147,8 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, float 
   mesh.positions = features.positions;
   mesh.triangles = features.triangles;
   mesh.welded = static_cast<std::uint32_t>(mesh.positions.size());
-  std::vector<glm::vec3> looked = features.positions;  // where a vertex looks for its gradient
+  std::vector<glm::vec3> looked = features.positions;             // where a vertex looks for its gradient
+  std::vector<glm::vec3> facets(looked.size(), glm::vec3(0.0f));  // the mean ones of its fan, if it has one
   std::vector<Edge> creases = features.creases;
   if (tolerance > 0.0f) {
     const std::vector<Edge> tight = tightEdges(features, field, progress);
@@ -155,8 +156,6 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, float 
     std::ranges::sort(creases);
   }
   const std::vector<Fan> fans = FanFinder(features, creases).run();
-  std::vector<std::uint32_t> copies;  // each fan's vertex, its place to look and its facets' mean
-  std::vector<glm::vec3> inside, facets;
   for (std::size_t i = 0; i < fans.size(); ++i) {
     const Fan& fan = fans[i];
     std::uint32_t v = fan.vertex;
@@ -164,7 +163,7 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, float 
       v = static_cast<std::uint32_t>(mesh.positions.size());
       mesh.positions.push_back(glm::vec3(mesh.positions[fan.vertex]));
       mesh.copyOf.push_back(fan.vertex);
-      looked.emplace_back();
+      looked.emplace_back(), facets.emplace_back();
     }
     glm::vec3 middle(0.0f), area(0.0f);
     for (const std::uint32_t t : fan.triangles) {
@@ -178,13 +177,10 @@ void splitAtCreases(const FeatureMesh& features, const LocalField& field, float 
     }
     middle /= 3.0f * static_cast<float>(fan.triangles.size());
     looked[v] = glm::mix(features.positions[fan.vertex], middle, kInto);
-    copies.push_back(v), inside.push_back(looked[v]), facets.push_back(glm::normalize(area));
+    facets[v] = glm::normalize(area);
   }
   gradientNormals(looked, field, progress, mesh.normals);
-  if (tolerance > 0.0f) {
-    const std::vector<glm::vec3> facing = facingGradients(inside, facets, 2.0f * tolerance, field, progress);
-    for (std::size_t i = 0; i < copies.size(); ++i) mesh.normals[copies[i]] = facing[i];
-  }
+  if (tolerance > 0.0f) faceGradients(looked, facets, tolerance, field, progress, mesh.normals);
   const std::vector<std::uint32_t> shared = joinNormals(mesh);
   if (tolerance > 0.0f)
     fitToGradients(mesh.positions, mesh.triangles, shared, tolerance, field, progress, mesh.normals);

@@ -83,8 +83,10 @@ class GradientFit {
                   [&](const Weights& w) { points.push_back(w[0] * p[0] + w[1] * p[1] + w[2] * p[2]); });
       facets.resize(points.size(), glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0])));
     }
-    const std::vector<glm::vec3> gradients =
-        facingGradients(points, facets, 2.0f * tolerance_, field_, progress_);
+    std::vector<glm::vec3> gradients(points.size());
+    forEachGradient(points, field_, progress_,
+                    [&](std::size_t i, const RunGradients& g, std::size_t k) { gradients[i] = g.normal(k); });
+    faceGradients(points, facets, tolerance_, field_, progress_, gradients);
     if (progress_.stopped()) return;
     const glm::vec3* g = gradients.data();
     for (std::size_t t = first; t < last; ++t) {
@@ -176,25 +178,21 @@ class GradientFit {
 
 }  // namespace
 
-std::vector<glm::vec3> facingGradients(const std::vector<glm::vec3>& points,
-                                       const std::vector<glm::vec3>& facets, float reach,
-                                       const LocalField& field, Progress& progress) {
-  std::vector<glm::vec3> all(points.size(), glm::vec3(0.0f));
-  forEachGradient(points, field, progress,
-                  [&](std::size_t i, const RunGradients& g, std::size_t k) { all[i] = g.normal(k); });
+void faceGradients(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& facets,
+                   float tolerance, const LocalField& field, Progress& progress,
+                   std::vector<glm::vec3>& gradients) {
   std::vector<std::size_t> turned;
   std::vector<glm::vec3> beside;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!(glm::dot(all[i], facets[i]) > kFacing)) turned.push_back(i);
-  for (const float way : {reach, -reach}) {
+    if (facets[i] != glm::vec3(0.0f) && !(glm::dot(gradients[i], facets[i]) > kFacing)) turned.push_back(i);
+  for (const float way : {2.0f * tolerance, -2.0f * tolerance}) {
     beside.clear();
     for (const std::size_t i : turned) beside.push_back(points[i] + way * facets[i]);
     forEachGradient(beside, field, progress, [&](std::size_t i, const RunGradients& g, std::size_t k) {
-      if (glm::dot(g.normal(k), facets[turned[i]]) > kFacing) all[turned[i]] = g.normal(k);
+      if (glm::dot(g.normal(k), facets[turned[i]]) > kFacing) gradients[turned[i]] = g.normal(k);
     });
-    std::erase_if(turned, [&](std::size_t i) { return glm::dot(all[i], facets[i]) > kFacing; });
+    std::erase_if(turned, [&](std::size_t i) { return glm::dot(gradients[i], facets[i]) > kFacing; });
   }
-  return all;
 }
 
 void fitToGradients(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sdf/mesh/indices-inl.h"
+#include "sdf/mesh/stages.h"
 #include "sdf/mesh/tiles.h"
 
 namespace sdf {
@@ -23,23 +24,6 @@ constexpr int kProbes = 16, kSwallowed = 2;
 constexpr float kTurned = -0.1736f;  // cos 100 degrees
 constexpr std::uint32_t kNone = ~0u;
 constexpr double kMostTiles = 1024.0;  // to a side
-
-// For each vertex the least one of its piece.
-std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
-  std::vector<std::uint32_t> of(vertices);
-  std::iota(of.begin(), of.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (of[v] != v) v = of[v] = of[of[v]];
-    return v;
-  };
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    (a < b ? of[b] : of[a]) = std::min(a, b);
-  };
-  for (const glm::uvec3& t : triangles) join(t.x, t.y), join(t.y, t.z);
-  for (std::uint32_t& v : of) v = of[v];
-  return of;
-}
 
 // Of a triangle seen from the origin, positive from behind (Van Oosterom, Strackee 1983).
 double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {

@@ -25,12 +25,12 @@ void refineVertices(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& n
 void gradientNormals(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
                      std::vector<glm::vec3>& normals);
 
-/// Unit gradients at points of facets that may be as far from the surface as half of `reach`, unit normals
-/// given: where a gradient is 60 degrees or more from its facet's normal, for the point is nearer to the
-/// other side of an edge, that of a point so far in front of or behind the facet is taken, if it agrees.
-std::vector<glm::vec3> facingGradients(const std::vector<glm::vec3>& points,
-                                       const std::vector<glm::vec3>& facets, float reach,
-                                       const LocalField& field, Progress& progress);
+/// Unit gradients at points of facets, whose unit normals are given (0: of none) and which keep the
+/// `tolerance`: one that is 60 degrees or more from its facet's normal, for the point is nearer to the other
+/// side of an edge, becomes that of a point two tolerances in front of or behind the facet, if one agrees.
+void faceGradients(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& facets,
+                   float tolerance, const LocalField& field, Progress& progress,
+                   std::vector<glm::vec3>& gradients);
 
 /// Fills positions, triangles, welded, copyOf and normals from a mesh with creases. A vertex on a crease is
 /// repeated for each of the fans of triangles that the creases leave around it, with the gradient a little
@@ -80,6 +80,10 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
 /// Watertight, manifold, components (by shared vertices) and Euler characteristic of an indexed mesh. Cost: n
 /// log n.
 void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t vertices, MeshStats& stats);
+
+/// By vertex, the least vertex that triangles connect it with; one that no triangle has is alone. Cost: about
+/// linear.
+std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, std::size_t vertices);
 
 /// A vertex on an edge that is not balanced: with more triangles one way than the other. Precondition: there
 /// is one (measureTopology: not watertight).

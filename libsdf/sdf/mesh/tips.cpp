@@ -333,9 +333,10 @@ class Crowner {
     for (int ring = 0; ring < kRings; ++ring) {
       for (const std::uint32_t v : vertices)
         if (const auto fan = fans_.find(v); fan != fans_.end())
-          around.insert(fan->second.begin(), fan->second.end());
+          std::ranges::copy_if(fan->second, std::inserter(around, around.end()),
+                               [&](std::uint32_t t) { return !isGone(mesh_.triangles[t]); });
       for (const std::uint32_t t : around)
-        for (int k = 0; k < 3 && !isGone(mesh_.triangles[t]); ++k) vertices.insert(mesh_.triangles[t][k]);
+        for (int k = 0; k < 3; ++k) vertices.insert(mesh_.triangles[t][k]);
     }
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
@@ -351,7 +352,7 @@ class Crowner {
     for (const auto& [a, b] : next_) add({a, b, tip.vertex});
     const auto fan = static_cast<std::uint32_t>(triangles.size());
     for (const std::uint32_t t : around)
-      if (!std::ranges::binary_search(gone_, t) && !isGone(mesh_.triangles[t])) add(mesh_.triangles[t]);
+      if (!std::ranges::binary_search(gone_, t)) add(mesh_.triangles[t]);
     return std::ranges::any_of(crossingTriangles(positions, triangles),
                                [&](const auto& pair) { return std::min(pair[0], pair[1]) < fan; });
   }

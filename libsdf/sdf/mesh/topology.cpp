@@ -100,25 +100,23 @@ class VertexExaminer {
   std::vector<Spoke> spokes_;
 };
 
-int countComponents(const std::vector<glm::uvec3>& triangles, std::size_t vertices,
-                    std::ptrdiff_t usedVertices) {
-  std::vector<std::uint32_t> parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0u);
+}  // namespace
+
+std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
+  std::vector<std::uint32_t> of(vertices);
+  std::iota(of.begin(), of.end(), 0u);
   const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    while (of[v] != v) v = of[v] = of[of[v]];
     return v;
   };
-  for (const glm::uvec3& t : triangles) {
-    parent[root(t.x)] = root(t.y);
-    parent[root(t.y)] = root(t.z);
-  }
-  std::ptrdiff_t roots = 0;
-  for (std::uint32_t v = 0; v < vertices; ++v) roots += parent[v] == v;
-  return static_cast<int>(
-      roots - (static_cast<std::ptrdiff_t>(vertices) - usedVertices));  // an unused vertex is a root
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    (a < b ? of[b] : of[a]) = std::min(a, b);
+  };
+  for (const glm::uvec3& t : triangles) join(t.x, t.y), join(t.y, t.z);
+  for (std::uint32_t& v : of) v = of[v];
+  return of;
 }
-
-}  // namespace
 
 void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t vertices, MeshStats& stats) {
   const Incidence incidence(triangles, vertices);
@@ -134,7 +132,11 @@ void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t verti
   stats.vertices = static_cast<std::uint64_t>(s.vertices);
   stats.watertight = s.balanced && !triangles.empty();
   stats.manifold = s.manifold && !triangles.empty();
-  stats.components = countComponents(triangles, vertices, s.vertices);
+  // A vertex that no triangle has is a piece of its own.
+  const std::vector<std::uint32_t> pieces = piecesOf(triangles, vertices);
+  std::ptrdiff_t components = s.vertices - static_cast<std::ptrdiff_t>(vertices);
+  for (std::uint32_t v = 0; v < vertices; ++v) components += pieces[v] == v;
+  stats.components = static_cast<int>(components);
   stats.eulerCharacteristic =
       static_cast<int>(s.vertices - s.edges + static_cast<std::ptrdiff_t>(triangles.size()));
 }
