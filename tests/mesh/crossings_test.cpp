@@ -8,7 +8,7 @@
 #include <random>
 
 #include "mesh/feature_meshes.h"
-#include "sdf/mesh/triangle_pairs.h"
+#include "sdf/triangles/triangle_pairs.h"
 #ifdef SDF_REFERENCE
 #include "accuracy/reference.h"
 #endif

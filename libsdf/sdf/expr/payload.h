@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "sdf/number/interval.h"
 
@@ -18,6 +20,16 @@ struct ValueAndGradient {
 
 /// Rows of a payload's first, second and third arguments.
 using PayloadRows = std::array<const float*, 3>;
+
+/// A texture in three dimensions that a payload's shader reads, as `uniform sampler3D` of the payload's name
+/// and this one. Beyond its edge the edge goes on.
+struct PayloadVolume {
+  std::string name;
+  glm::ivec3 size{0};
+  int channels = 1;             ///< of each texel: 1 or 2
+  bool halves = false;          ///< floats of 16 bits do
+  std::vector<float> values{};  ///< by texel, x first, then y, then z
+};
 
 /// A function f of a point, in units of its own, that answers every reading itself. Arguments may be
 /// infinite, or NaN. Immutable, and read from any thread.
@@ -34,8 +46,9 @@ class Payload {
   /// Proven L with |f(p) - f(q)| <= L |p - q| for all p and q; infinite where none is known.
   virtual double lipschitz() const = 0;
 
-  /// By how much a value in float may be off at p, in the batch reading (besides half an ulp) and in a
-  /// shader. No less where the coordinates are larger. Derivatives in float may be those of a point near by.
+  /// By how much a value in float may be off at p, in the batch reading (besides half an ulp) and, unless
+  /// there are volumes(), in a shader. No less where the coordinates are larger. Derivatives in float may be
+  /// those of a point near by.
   virtual double rounding(const glm::dvec3& p) const = 0;
   /// f at `count` points, which do not overlap `out`. Unless it is overridden it rounds value().
   virtual void values(const PayloadRows& p, std::size_t count, float* out) const;
@@ -44,6 +57,8 @@ class Payload {
   /// GLSL of `float NAME(vec3 p)`, which is f, and `vec3 NAMESlopes(vec3 p)`, its derivatives, for 3.30 core
   /// and ES 3.00. Whatever else is defined has a name that begins with NAME. A shader has it once.
   virtual std::string glsl(const std::string& name) const = 0;
+  /// What that reads; its texture filter is linear. May be made when it is first asked for.
+  virtual std::span<const PayloadVolume> volumes() const { return {}; }
 };
 
 /// What a node of the graph or an instruction is of a payload.

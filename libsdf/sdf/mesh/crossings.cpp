@@ -15,7 +15,7 @@
 #include "sdf/mesh/feature_mesh.h"
 #include "sdf/mesh/indices-inl.h"
 #include "sdf/mesh/tiles.h"
-#include "sdf/mesh/triangle_pairs.h"
+#include "sdf/triangles/triangle_pairs.h"
 
 namespace sdf {
 namespace {

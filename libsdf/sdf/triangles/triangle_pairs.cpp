@@ -1,4 +1,4 @@
-#include "sdf/mesh/triangle_pairs.h"
+#include "sdf/triangles/triangle_pairs.h"
 
 #include <algorithm>
 #include <array>

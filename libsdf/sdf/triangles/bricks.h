@@ -1,0 +1,35 @@
+// A signed distance as textures for shaders: bricks of samples near the surface, and a coarse grid elsewhere.
+#pragma once
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "sdf/expr/payload.h"
+#include "sdf/triangles/distance.h"
+
+namespace sdf {
+
+/// The solid's box, and somewhat more, is divided into cells of 4 voxels a side. Cells within a cell's side
+/// of the surface have a brick of 5³ samples, a voxel apart; in all others the distance is interpolated
+/// between their corners, less what that may be too large by.
+struct Bricks {
+  double voxel = 0.0;      ///< scene units
+  glm::dvec3 origin{0.0};  ///< the first cell's least corner
+  glm::ivec3 cells{0};     ///< along each axis
+  glm::ivec3 columns{0};   ///< of bricks, in their texture
+  std::size_t count = 0;   ///< bricks
+  double worst = 0.0;  ///< how far interpolated distances were off, within a voxel of the surface: at most
+  double rms = 0.0;    ///< and in the root of the mean square
+  /// At the cells' corners: the distance, and the brick of the cell that begins there or -1; and the samples
+  /// of all bricks, in voxels.
+  std::vector<PayloadVolume> volumes;
+
+  /// GLSL of `float NAME(vec3 p)` and `vec3 NAMESlopes(vec3 p)`; see Payload::glsl.
+  std::string glsl(const std::string& name) const;
+};
+
+/// Samples the distance with so many voxels along the longest side of its box. Cost: some 0.3 microseconds a
+/// sample, on all cores; the samples grow with the surface.
+Bricks bricksOf(const TriangleDistance& distance, int voxels);
+
+}  // namespace sdf

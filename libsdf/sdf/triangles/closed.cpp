@@ -1,0 +1,280 @@
+#include "sdf/triangles/closed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <queue>
+#include <unordered_map>
+
+#include "sdf/base/flat_map.h"
+#include "sdf/triangles/triangle_pairs.h"
+
+namespace sdf {
+namespace {
+
+using Triangles = std::vector<glm::uvec3>;
+
+constexpr float kJoin = 1e-5f;  // of the mesh's size: how far apart points of borders may be that are one
+
+std::uint64_t directed(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
+std::uint64_t undirected(std::uint32_t a, std::uint32_t b) {
+  return directed(std::min(a, b), std::max(a, b));
+}
+
+struct SamePlace {
+  std::size_t operator()(const glm::vec3& p) const {
+    std::uint32_t bits[3];
+    std::memcpy(bits, &p, sizeof bits);
+    std::uint64_t h = bits[0];
+    for (const std::uint32_t more : {bits[1], bits[2]}) h = (h ^ more) * 0x9e3779b97f4a7c15ull;
+    return h ^ h >> 29;
+  }
+};
+
+void join(const TriangleMesh& mesh, ClosedTriangles& out) {
+  std::unordered_map<glm::vec3, std::uint32_t, SamePlace> placeOf;
+  placeOf.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> pointOf;
+  pointOf.reserve(mesh.positions.size());
+  for (const glm::vec3& at : mesh.positions) {
+    const glm::vec3 p = at + 0.0f;  // -0 is 0
+    const auto [place, fresh] = placeOf.try_emplace(p, static_cast<std::uint32_t>(out.points.size()));
+    if (fresh) out.points.push_back(p);
+    pointOf.push_back(place->second);
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3& t = mesh.triangles[i];
+    const glm::uvec3 u(pointOf[t.x], pointOf[t.y], pointOf[t.z]);
+    if (u.x == u.y || u.y == u.z || u.z == u.x || hasNoArea(out.points, u)) continue;
+    out.triangles.push_back(u);
+    out.source.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+/// Calls f(a, b) for each edge of each triangle, the way that it runs.
+template <class F>
+void forEdges(const Triangles& triangles, F f) {
+  for (const glm::uvec3& t : triangles)
+    for (int k = 0; k < 3; ++k) f(t[k], t[(k + 1) % 3]);
+}
+
+/// By how many more triangles go along an edge one way than the other: from the lower point to the higher
+/// one.
+FlatMap<int> balances(const Triangles& triangles) {
+  FlatMap<int> balance;
+  forEdges(triangles, [&](std::uint32_t a, std::uint32_t b) {
+    balance.insert(undirected(a, b), 0).first += a < b ? 1 : -1;
+  });
+  return balance;
+}
+
+/// The edges that would close the triangles, each as often as it is needed.
+std::vector<std::array<std::uint32_t, 2>> missingEdges(const Triangles& triangles) {
+  FlatMap<int> balance = balances(triangles);
+  std::vector<std::array<std::uint32_t, 2>> missing;
+  forEdges(triangles, [&](std::uint32_t a, std::uint32_t b) {
+    int& more = balance.insert(undirected(a, b), 0).first;
+    const int way = a < b ? 1 : -1;
+    for (; more * way > 0; more -= way) missing.push_back({b, a});
+  });
+  return missing;
+}
+
+/// Moves points of borders that are near one another to one place, in the order of their numbers.
+void joinBorders(ClosedTriangles& out) {
+  const auto missing = missingEdges(out.triangles);
+  if (missing.empty()) return;
+  glm::vec3 least(out.points[0]), most = least;
+  for (const glm::vec3& p : out.points) least = glm::min(least, p), most = glm::max(most, p);
+  const float reach = kJoin * glm::length(most - least);
+  std::vector<std::uint32_t> border;
+  for (const auto& edge : missing) border.push_back(edge[0]);
+  std::ranges::sort(border);
+  border.erase(std::unique(border.begin(), border.end()), border.end());
+  const auto cellOf = [&](const glm::vec3& p, const glm::ivec3& beside) {
+    const glm::vec3 cell = glm::floor((p - least) / (2.0f * reach)) + glm::vec3(beside);
+    std::uint64_t key = 0;
+    for (int k = 0; k < 3; ++k) key = key * 0x100003u + static_cast<std::uint64_t>(cell[k] + 2.0f);
+    return key;
+  };
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
+  std::vector<std::uint32_t> becomes(out.points.size());
+  std::iota(becomes.begin(), becomes.end(), 0u);
+  const auto joined = [&](std::uint32_t i) {
+    for (int side = 0; side < 27; ++side) {
+      const auto near = cells.find(cellOf(out.points[i], {side % 3 - 1, side / 3 % 3 - 1, side / 9 - 1}));
+      if (near == cells.end()) continue;
+      for (const std::uint32_t other : near->second)
+        if (glm::distance(out.points[i], out.points[other]) <= reach) return becomes[i] = other, true;
+    }
+    return false;
+  };
+  for (const std::uint32_t i : border)
+    if (!joined(i)) cells[cellOf(out.points[i], glm::ivec3(0))].push_back(i);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < out.triangles.size(); ++i) {
+    glm::uvec3 t = out.triangles[i];
+    for (int k = 0; k < 3; ++k) t[k] = becomes[t[k]];
+    if (t.x == t.y || t.y == t.z || t.z == t.x || hasNoArea(out.points, t)) continue;
+    out.triangles[kept] = t;
+    out.source[kept++] = out.source[i];
+  }
+  out.triangles.resize(kept);
+  out.source.resize(kept);
+}
+
+/// Turns triangles over until neighbours across edges of two run the same way around; of each patch as few
+/// as can be.
+void orient(ClosedTriangles& out) {
+  struct Pair {
+    std::uint32_t first = 0, second = 0;
+    int count = 0;
+  };
+  Triangles& triangles = out.triangles;
+  FlatMap<Pair> pairs;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      Pair& pair = pairs.insert(undirected(triangles[i][k], triangles[i][(k + 1) % 3]), Pair()).first;
+      (pair.count == 0 ? pair.first : pair.second) = i;
+      ++pair.count;
+    }
+  const auto runs = [&](std::uint32_t i, std::uint32_t a, std::uint32_t b) {
+    for (int k = 0; k < 3; ++k)
+      if (triangles[i][k] == a && triangles[i][(k + 1) % 3] == b) return true;
+    return false;
+  };
+  constexpr char kUnseen = 2;
+  std::vector<char> over(triangles.size(), kUnseen);
+  for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
+    if (over[seed] != kUnseen) continue;
+    std::vector<std::uint32_t> patch{seed};
+    over[seed] = 0;
+    std::size_t turned = 0;
+    for (std::size_t next = 0; next < patch.size(); ++next)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t i = patch[next], a = triangles[i][k], b = triangles[i][(k + 1) % 3];
+        const Pair& pair = pairs.insert(undirected(a, b), Pair()).first;
+        if (pair.count != 2) continue;
+        const std::uint32_t other = pair.first == i ? pair.second : pair.first;
+        if (over[other] != kUnseen) continue;
+        over[other] = runs(other, a, b) ? 1 - over[i] : over[i];
+        turned += over[other];
+        patch.push_back(other);
+      }
+    const char most = 2 * turned > patch.size() ? 1 : 0;
+    for (const std::uint32_t i : patch) {
+      if (over[i] == most) continue;
+      std::swap(triangles[i].y, triangles[i].z);
+      ++out.turned;
+    }
+  }
+}
+
+/// Takes the loops apart that the edges form: each point of a loop once.
+std::vector<std::vector<std::uint32_t>> loopsOf(std::vector<std::array<std::uint32_t, 2>> edges) {
+  std::ranges::sort(edges);
+  const auto firstOf = [&](std::uint32_t point) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(edges, std::array<std::uint32_t, 2>{point, 0}) -
+                                    edges.begin());
+  };
+  std::vector<std::size_t> next(edges.size());  // by a point's first edge: the one to be taken next
+  std::iota(next.begin(), next.end(), std::size_t{0});
+  std::vector<std::vector<std::uint32_t>> loops;
+  std::unordered_map<std::uint32_t, std::size_t> placeOf;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    const std::uint32_t from = edges[start][0];
+    const auto open = [&](std::uint32_t point) {
+      const std::size_t edge = next[firstOf(point)];
+      return edge < edges.size() && edges[edge][0] == point;
+    };
+    std::vector<std::uint32_t> path{from};
+    placeOf = {{from, 0}};
+    while (open(path.back())) {
+      const std::uint32_t to = edges[next[firstOf(path.back())]++][1];
+      const auto [place, fresh] = placeOf.try_emplace(to, path.size());
+      if (fresh) {
+        path.push_back(to);
+        continue;
+      }
+      const auto begin = path.begin() + static_cast<std::ptrdiff_t>(place->second);
+      loops.emplace_back(begin, path.end());
+      for (auto point = begin + 1; point != path.end(); ++point) placeOf.erase(*point);
+      path.erase(begin + 1, path.end());
+    }
+  }
+  return loops;
+}
+
+/// Closes a loop: cuts the corner with the shortest diagonal off, again and again.
+void close(const std::vector<std::uint32_t>& loop, ClosedTriangles& out) {
+  const std::size_t count = loop.size();
+  std::vector<std::size_t> before(count), after(count), age(count, 0);
+  for (std::size_t i = 0; i < count; ++i) before[i] = (i + count - 1) % count, after[i] = (i + 1) % count;
+  struct Corner {
+    float diagonal;
+    std::size_t place, age;
+    bool operator>(const Corner& other) const {
+      return diagonal != other.diagonal ? diagonal > other.diagonal : place > other.place;
+    }
+  };
+  std::priority_queue<Corner, std::vector<Corner>, std::greater<>> corners;
+  const auto offer = [&](std::size_t i) {
+    corners.push({glm::distance(out.points[loop[before[i]]], out.points[loop[after[i]]]), i, ++age[i]});
+  };
+  for (std::size_t i = 0; i < count; ++i) offer(i);
+  for (std::size_t left = count; left > 2; --left) {
+    while (corners.top().age != age[corners.top().place]) corners.pop();
+    const std::size_t i = corners.top().place, a = before[i], b = after[i];
+    out.triangles.emplace_back(loop[a], loop[i], loop[b]);
+    age[i] = 0;
+    after[a] = b;
+    before[b] = a;
+    if (left > 4) offer(a), offer(b);
+  }
+}
+
+/// Has every edge two triangles, one each way, and every point one fan?
+bool isManifold(const ClosedTriangles& all) {
+  FlatMap<std::uint32_t> third;  // by a directed edge: the point across, plus 1
+  for (const glm::uvec3& t : all.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (!third.insert(directed(t[k], t[(k + 1) % 3]), t[(k + 2) % 3] + 1).second) return false;
+  std::vector<std::uint32_t> corners(all.points.size(), 0);
+  for (const glm::uvec3& t : all.triangles)
+    for (int k = 0; k < 3; ++k) ++corners[t[k]];
+  std::vector<char> seen(all.points.size(), 0);
+  for (const glm::uvec3& t : all.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t hub = t[k];
+      if (seen[hub]) continue;
+      seen[hub] = 1;
+      std::uint32_t fan = 0;
+      for (std::uint32_t rim = t[(k + 1) % 3], first = rim; fan == 0 || rim != first; ++fan) {
+        const std::uint32_t across = third.insert(directed(hub, rim), 0).first;
+        if (across == 0 || fan > corners[hub]) return false;
+        rim = across - 1;
+      }
+      if (fan != corners[hub]) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+ClosedTriangles closed(const TriangleMesh& mesh) {
+  ClosedTriangles out;
+  join(mesh, out);
+  if (out.triangles.empty()) return out;
+  joinBorders(out);
+  orient(out);
+  const auto loops = loopsOf(missingEdges(out.triangles));
+  out.holes = loops.size();
+  for (const auto& loop : loops) close(loop, out);
+  out.manifold = isManifold(out);
+  return out;
+}
+
+}  // namespace sdf

@@ -1,0 +1,162 @@
+#include "sdf/triangles/distance.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
+
+#include "sdf/base/flat_map.h"
+#include "sdf/triangles/twofold.h"
+
+namespace sdf {
+namespace {
+
+int cornerOf(Feature feature) { return (static_cast<int>(feature) - 1) % 3; }
+
+std::pair<glm::dvec3, glm::dvec3> boxOf(const ClosedTriangles& all) {
+  glm::dvec3 min(HUGE_VAL), max(-HUGE_VAL);
+  for (const glm::uvec3& t : all.triangles)
+    for (int k = 0; k < 3; ++k) {
+      min = glm::min(min, glm::dvec3(all.points[t[k]]));
+      max = glm::max(max, glm::dvec3(all.points[t[k]]));
+    }
+  return {min, max};
+}
+
+glm::dvec3 areaOf(const std::array<glm::dvec3, 3>& t) { return glm::cross(t[1] - t[0], t[2] - t[0]); }
+
+/// The distance, and the way to the point from the feature, of length 1; 0 where the point is on it.
+std::pair<double, glm::dvec3> precise(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t,
+                                      Feature feature) {
+  if (feature == Feature::Face) {
+    const TwofoldVec n = cross(twofoldDifference(t[1], t[0]), twofoldDifference(t[2], t[0]));
+    const glm::dvec3 along = rounded(n);
+    const double steep = glm::length(along), height = dot(n, twofoldDifference(p, t[0])).high / steep;
+    return {std::abs(height), std::copysign(1.0, height) / steep * along};
+  }
+  const int k = cornerOf(feature);
+  const TwofoldVec from = twofoldDifference(p, t[k]);
+  glm::dvec3 way = rounded(from);
+  double distance = glm::length(way);
+  if (feature < Feature::Corner0) {
+    const TwofoldVec edge = twofoldDifference(t[(k + 1) % 3], t[k]), across = cross(from, edge);
+    const glm::dvec3 e = rounded(edge);
+    distance = glm::length(rounded(across)) / glm::length(e);
+    way = rounded(cross(edge, across));  // |e|^2 times the part of `from` that is across the edge
+  }
+  const double length = glm::length(way);
+  return {distance, length > 0.0 ? way / length : glm::dvec3(0.0)};
+}
+
+}  // namespace
+
+TriangleDistance::TriangleDistance(ClosedTriangles triangles)
+    : triangles_(std::move(triangles)),
+      min_(boxOf(triangles_).first),
+      max_(boxOf(triangles_).second),
+      tree_(triangles_.points, triangles_.triangles) {
+  setNormals();
+  if (triangles_.manifold && !tree_.crosses() && normalsTellSides()) signBy_ = SignBy::Normals;
+}
+
+std::array<glm::dvec3, 3> TriangleDistance::corners(std::uint32_t triangle) const {
+  const glm::uvec3& t = triangles_.triangles[triangle];
+  return {glm::dvec3(triangles_.points[t.x]), glm::dvec3(triangles_.points[t.y]),
+          glm::dvec3(triangles_.points[t.z])};
+}
+
+void TriangleDistance::setNormals() {
+  const std::vector<glm::uvec3>& all = triangles_.triangles;
+  std::vector<glm::dvec3> atPoint(triangles_.points.size(), glm::dvec3(0.0));
+  FlatMap<glm::dvec3> atEdge;
+  const auto key = [&](std::uint32_t i, int k) {
+    const std::uint32_t a = all[i][k], b = all[i][(k + 1) % 3];
+    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+  };
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const std::array<glm::dvec3, 3> t = corners(i);
+    const glm::dvec3 area = areaOf(t);
+    const double size = glm::length(area);
+    if (!(size > 0.0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 u = t[(k + 1) % 3] - t[k], v = t[(k + 2) % 3] - t[k];
+      atPoint[all[i][k]] += std::atan2(size, glm::dot(u, v)) / size * area;
+      atEdge.insert(key(i, k), glm::dvec3(0.0)).first += area / size;
+    }
+  }
+  for (const glm::dvec3& n : atPoint) pointNormals_.emplace_back(n);
+  for (std::uint32_t i = 0; i < all.size(); ++i)
+    for (int k = 0; k < 3; ++k) edgeNormals_.emplace_back(atEdge.insert(key(i, k), glm::dvec3(0.0)).first);
+}
+
+/// Is it outside of the solid on that side of each piece of the surface that its normals point to? So it is
+/// not where a shell within a shell is turned the wrong way. Asked is beside one triangle of each piece.
+bool TriangleDistance::normalsTellSides() const {
+  const std::vector<glm::uvec3>& all = triangles_.triangles;
+  std::vector<std::uint32_t> piece(triangles_.points.size());
+  std::iota(piece.begin(), piece.end(), 0u);
+  const auto rootOf = [&](std::uint32_t i) {
+    while (piece[i] != i) i = piece[i] = piece[piece[i]];
+    return i;
+  };
+  for (const glm::uvec3& t : all) piece[rootOf(t.x)] = piece[rootOf(t.y)] = rootOf(t.z);
+  std::vector<std::uint32_t> largest(piece.size(), static_cast<std::uint32_t>(all.size()));
+  const auto sizeOf = [&](std::uint32_t i) { return glm::length(areaOf(corners(i))); };
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    std::uint32_t& best = largest[rootOf(all[i].x)];
+    if (best == all.size() || sizeOf(i) > sizeOf(best)) best = i;
+  }
+  for (const std::uint32_t i : largest)
+    if (i < all.size() && sidesOf(i) != std::array{false, true}) return false;
+  return true;
+}
+
+std::array<bool, 2> TriangleDistance::sidesOf(std::uint32_t triangle) const {
+  const std::array<glm::dvec3, 3> t = corners(triangle);
+  const glm::dvec3 area = areaOf(t), middle = (t[0] + t[1] + t[2]) / 3.0;
+  const glm::dvec3 off = 1e-6 * area / std::sqrt(glm::length(area));
+  return {isWoundAround(middle + off), isWoundAround(middle - off)};
+}
+
+bool TriangleDistance::hasInside() const {
+  if (signBy_ == SignBy::Normals) return true;
+  constexpr std::size_t kMost = 20000;
+  const std::size_t count = triangles_.triangles.size(), step = count / kMost + 1;
+  for (std::size_t i = 0; i < count; i += step) {
+    const auto [before, behind] = sidesOf(static_cast<std::uint32_t>(i));
+    if (before || behind) return true;
+  }
+  return false;
+}
+
+bool TriangleDistance::isWoundAround(const glm::dvec3& p) const { return std::abs(tree_.winding(p)) > 0.5; }
+
+glm::dvec3 TriangleDistance::pseudonormal(const NearestPoint& nearest) const {
+  const std::uint32_t i = nearest.triangle;
+  if (nearest.feature == Feature::Face) return areaOf(corners(i));
+  const int k = cornerOf(nearest.feature);
+  return glm::dvec3(nearest.feature < Feature::Corner0 ? edgeNormals_[3 * i + k]
+                                                       : pointNormals_[triangles_.triangles[i][k]]);
+}
+
+bool TriangleDistance::isInside(const glm::dvec3& p, const NearestPoint& nearest,
+                                const glm::dvec3& way) const {
+  if (signBy_ == SignBy::Normals) return glm::dot(pseudonormal(nearest), way) < 0.0;
+  return isWoundAround(p);
+}
+
+TriangleDistance::Read TriangleDistance::read(const glm::dvec3& p, std::uint32_t hint) const {
+  const NearestPoint nearest = tree_.nearest(p, hint);
+  auto [distance, way] = precise(p, corners(nearest.triangle), nearest.feature);
+  const bool inside = distance > 0.0 && isInside(p, nearest, way);
+  if (way == glm::dvec3(0.0)) {  // on an edge or a corner
+    const glm::dvec3 normal = pseudonormal(nearest);
+    const double length = glm::length(normal);
+    way = length > 0.0 ? normal / length : glm::dvec3(0.0, 0.0, 1.0);
+    return {distance, way, nearest.triangle};
+  }
+  return {inside ? -distance : distance, inside ? -way : way, nearest.triangle};
+}
+
+}  // namespace sdf

@@ -1,0 +1,77 @@
+#include "sdf/triangles/mesh_field.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sdf {
+namespace {
+
+bool isFinite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+double ulpUp(double v) { return std::nextafter(v, HUGE_VAL); }
+
+}  // namespace
+
+const Bricks& MeshField::bricks() const {
+  std::call_once(sampled_, [&] { bricks_ = bricksOf(distance_, voxels_); });
+  return *bricks_;
+}
+
+// Where p is not finite the distance is as far as that, or no number.
+double MeshField::value(const glm::dvec3& p) const {
+  if (!isFinite(p)) return glm::length(p);
+  return distance_.read(p).distance;
+}
+
+ValueAndGradient MeshField::gradient(const glm::dvec3& p) const {
+  if (!isFinite(p)) return {glm::length(p), glm::dvec3(NAN)};
+  const TriangleDistance::Read read = distance_.read(p);
+  return {read.distance, read.gradient};
+}
+
+Interval MeshField::range(const std::array<Interval, 3>& box) const {
+  constexpr double kSlack = 1e-14;  // of the coordinates: what the value's rounding and the box's may be
+  glm::dvec3 middle, half;
+  bool nan = false;
+  for (int k = 0; k < 3; ++k) {
+    nan = nan || box[k].nan;
+    middle[k] = 0.5 * box[k].lo + 0.5 * box[k].hi;
+    half[k] = std::max(box[k].hi - middle[k], middle[k] - box[k].lo);
+  }
+  if (!isFinite(middle) || !isFinite(half)) return {-HUGE_VAL, HUGE_VAL, nan};
+  const double f = distance_.read(middle).distance, size = glm::length(middle) + glm::length(half);
+  const double reach = ulpUp(glm::length(half) * (1.0 + kSlack)) + kSlack * (size + std::abs(f));
+  return {f - reach, f + reach, nan};
+}
+
+double MeshField::rounding(const glm::dvec3& p) const {
+  return 0x1p-50 * (glm::length(p) + glm::length(distance_.min()) + glm::length(distance_.max()));
+}
+
+void MeshField::values(const PayloadRows& p, std::size_t count, float* out) const {
+  std::uint32_t hint = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 at(p[0][i], p[1][i], p[2][i]);
+    if (!isFinite(at)) {
+      out[i] = static_cast<float>(glm::length(at));
+      continue;
+    }
+    const TriangleDistance::Read read = distance_.read(at, hint);
+    out[i] = static_cast<float>(read.distance);
+    hint = read.triangle;
+  }
+}
+
+void MeshField::gradients(const PayloadRows& p, std::size_t count, const std::array<float*, 4>& out) const {
+  std::uint32_t hint = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 at(p[0][i], p[1][i], p[2][i]);
+    TriangleDistance::Read read{glm::length(at), glm::dvec3(NAN), hint};
+    if (isFinite(at)) read = distance_.read(at, hint);
+    hint = read.triangle;
+    out[0][i] = static_cast<float>(read.distance);
+    for (int k = 0; k < 3; ++k) out[k + 1][i] = static_cast<float>(read.gradient[k]);
+  }
+}
+
+}  // namespace sdf

@@ -1,0 +1,43 @@
+// Triangle meshes as functions of a point.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "sdf/expr/payload.h"
+#include "sdf/triangles/bricks.h"
+#include "sdf/triangles/distance.h"
+
+namespace sdf {
+
+/// The signed distance to a mesh whose holes are closed. Its slope is 1; over a box it is the value in the
+/// middle, more or less half the diagonal; in a shader it is interpolated between samples.
+class MeshField : public Payload {
+ public:
+  /// Triangles, at least one, and how many voxels a shader's samples have along the longest side.
+  MeshField(ClosedTriangles triangles, int voxels) : distance_(std::move(triangles)), voxels_(voxels) {}
+
+  const TriangleDistance& distance() const { return distance_; }
+  /// The samples, which are taken when they are first asked for.
+  const Bricks& bricks() const;
+
+  double value(const glm::dvec3& p) const override;
+  ValueAndGradient gradient(const glm::dvec3& p) const override;
+  Interval range(const std::array<Interval, 3>& box) const override;
+  double lipschitz() const override { return 1.0; }
+  double rounding(const glm::dvec3& p) const override;
+  void values(const PayloadRows& p, std::size_t count, float* out) const override;
+  void gradients(const PayloadRows& p, std::size_t count, const std::array<float*, 4>& out) const override;
+  std::string glsl(const std::string& name) const override { return bricks().glsl(name); }
+  std::span<const PayloadVolume> volumes() const override { return bricks().volumes; }
+
+ private:
+  TriangleDistance distance_;
+  int voxels_;
+  mutable std::once_flag sampled_;
+  mutable std::optional<Bricks> bricks_;
+};
+
+}  // namespace sdf

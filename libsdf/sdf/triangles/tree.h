@@ -1,0 +1,64 @@
+// A tree of boxes over triangles: which of them is nearest, what meets, and how often they wind around a
+// point.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <vector>
+
+namespace sdf {
+
+/// Where on a triangle a point is: inside, on the edge from corner k to the next, or at corner k.
+enum class Feature : std::uint8_t { Face, Edge0, Edge1, Edge2, Corner0, Corner1, Corner2 };
+
+/// The point of some triangles that is nearest to another one.
+struct NearestPoint {
+  std::uint32_t triangle = 0;
+  Feature feature = Feature::Face;
+  double squared = std::numeric_limits<double>::infinity();  ///< of the distance, rounded a few times
+};
+
+/// The nearest point of one triangle, which may have no area (Ericson, Real-Time Collision Detection, 2004,
+/// section 5.1.5).
+NearestPoint nearestOf(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+/// Immutable, and read from any thread.
+class TriangleTree {
+ public:
+  /// Sorts the triangles, at least one, into boxes, by the surface area heuristic with bins (Wald 2007). The
+  /// vectors must outlive the tree. Cost: n log n.
+  TriangleTree(const std::vector<glm::vec3>& points, const std::vector<glm::uvec3>& triangles);
+
+  /// The point of all triangles that is nearest to p. `hint` is a triangle that may be near, such as the one
+  /// that was nearest to a point near by. Cost: some log n.
+  NearestPoint nearest(const glm::dvec3& p, std::uint32_t hint = 0) const;
+
+  /// How often the triangles wind around p, within some hundredths: whole numbers if they are closed
+  /// (Jacobson et al. 2013); far clusters count as dipoles (Barill et al. 2018). Cost: some log n.
+  double winding(const glm::dvec3& p) const;
+
+  /// Do two triangles have a point in common beyond the corners and edges that they share?
+  bool crosses() const;
+
+ private:
+  struct Node {
+    glm::vec3 min, max;
+    std::uint32_t first = 0, count = 0;  // of order_; or, where count is 0, the first of two nodes
+  };
+  struct Dipole {
+    glm::dvec3 centre{0.0}, area{0.0};
+    double reach = 0.0;  // of a ball around the centre that holds all
+  };
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth);
+  void setDipoles();
+  double windingOf(std::uint32_t triangle, const glm::dvec3& p) const;
+  bool crosses(std::uint32_t triangle) const;
+
+  const std::vector<glm::vec3>& points_;
+  const std::vector<glm::uvec3>& triangles_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;  // of triangles, by leaf
+  std::vector<Dipole> dipoles_;       // by node
+};
+
+}  // namespace sdf
