@@ -8,6 +8,7 @@
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
+#include "viewer/render/volumes.h"
 
 namespace sdf::test {
 namespace {
@@ -96,6 +97,9 @@ std::vector<std::vector<float>> readByShader(std::span<const Expr> outputs, std:
   for (std::size_t i = 0; i < values.size(); ++i)
     rows[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
   if (!rows.empty()) program.set("sdfValues", rows);
+  viewer::Volumes volumes;
+  must(volumes.giveTo(program, viewer::volumesOf(writer)));
+  volumes.bind();
   const std::size_t layers = (outputs.size() + 3) / 4;
   const viewer::Target target = targetOf(height, layers);
   target.bind();

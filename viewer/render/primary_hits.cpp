@@ -31,7 +31,7 @@ constexpr int kCounts = std::size(kLayers);  // the number of the layer of readi
 
 }  // namespace
 
-Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders) {
+Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders, Volumes& volumes) {
   PrimaryHits made;
   made.counted_ = shaders.plan.options.countReadings;
   if (!shaders.boxCones.empty())
@@ -44,6 +44,9 @@ Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders) {
     const auto drawn = started ? Program::overTiles : Program::overScreen;
     if (!shader.hits.empty())
       if (auto s = keep(drawn(shader.hits), pass.hits); !s) return s.error();
+    for (const auto* program : {&pass.cones, &pass.hits})
+      if (*program)
+        if (auto s = volumes.giveTo(**program, shader.volumes); !s) return s.error();
     if (started) pass.firstCell = std::exchange(made.cells_, made.cells_ + pass.draws());
     made.passes_.push_back(std::move(pass));
   }

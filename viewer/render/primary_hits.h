@@ -8,6 +8,7 @@
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
 #include "viewer/render/frame.h"
+#include "viewer/render/volumes.h"
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::viewer {
@@ -18,8 +19,8 @@ inline constexpr int kRowsUnit = 6;
 /// PrimaryHits draw the passes that come before the picture.
 class PrimaryHits {
  public:
-  /// Compiles the passes. Errors: Graphics with the driver's log.
-  static Result<PrimaryHits> make(const SceneShaders& shaders);
+  /// Compiles the passes. Errors: Graphics with the driver's log; those of Volumes::giveTo.
+  static Result<PrimaryHits> make(const SceneShaders& shaders, Volumes& volumes);
 
   /// Computes the passes' uniforms of a frame. It calls no OpenGL.
   void prepare(const Frame& frame);

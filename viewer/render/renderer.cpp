@@ -74,10 +74,11 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
 Status Renderer::compile() {
   const Plan& plan = shaders_.plan;
   if (!shaders_.hits.empty())
-    if (auto s = keep(PrimaryHits::make(shaders_), hits_); !s) return s;
+    if (auto s = keep(PrimaryHits::make(shaders_, volumes_), hits_); !s) return s;
   const std::string& text = shaders_.picture.text;
   if (auto s = keep(plan.tiled ? Program::overTiles(text) : Program::overScreen(text), picture_); !s)
     return s;
+  if (auto s = volumes_.giveTo(*picture_, shaders_.picture.volumes); !s) return s;
   if (!plan.tiled) return okStatus();
   backgroundValues_ = UniformValues(shaders_.background->uniforms);
   return keep(Program::overScreen(shaders_.background->text), background_);
@@ -192,6 +193,7 @@ Status Renderer::begin(const Frame& frame, const Shot& shot, const Target& targe
   prepare(frame);
   samples_ = shot.samples();
   giveRows();
+  volumes_.bind();
   grain_ = target.step();
   return hits_ ? hits_->begin(shot, rowValues_.vectors()) : okStatus();
 }

@@ -7,6 +7,7 @@
 #include "viewer/gpu/texels.h"
 #include "viewer/render/frame.h"
 #include "viewer/render/primary_hits.h"
+#include "viewer/render/volumes.h"
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::viewer {
@@ -63,6 +64,7 @@ class Renderer {
   Status resolve(const Shot& shot, const Target& target, double drawn);
 
   SceneShaders shaders_;
+  Volumes volumes_;
   std::optional<PrimaryHits> hits_;
   std::optional<Program> picture_, background_;  // the latter of tiles that show nothing else
   std::optional<Program> resolve_;

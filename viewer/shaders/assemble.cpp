@@ -188,7 +188,7 @@ Shader picture(const Scene& scene, const Plan& plan, const RowWriter& rows, Glsl
   if (!taken.empty()) globals += rows.taking(taken, writer);
   Composer composer(plan.options.es, macros, functions, std::move(writer), globals);
   std::string text = composer.compose(pictureBody(scene, plan, rows));
-  return {std::move(text), composer.uniforms(), !taken.empty()};
+  return {std::move(text), composer.uniforms(), !taken.empty(), composer.volumes()};
 }
 
 Shader background(const Scene& scene, const Plan& plan) {

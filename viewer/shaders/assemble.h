@@ -6,6 +6,7 @@
 
 #include "sdf/eval/function.h"
 #include "viewer/shaders/plan.h"
+#include "viewer/shaders/volume.h"
 
 namespace sdf::viewer {
 
@@ -14,6 +15,7 @@ struct Shader {
   std::string text;
   Function uniforms;
   bool takesRows = false;  ///< it has the uniform sdfRows
+  std::vector<ShaderVolume> volumes{};
 };
 
 /// The side of the texture sdfRows, in texels: what every driver has room for.
@@ -33,6 +35,7 @@ struct HitShaders {
   bool takesRows = false;                  ///< they have the uniform sdfRows
   RowRange rows{};  ///< the pass is drawn once with each in the uniform sdfRow; none: once, without that
   std::vector<Box> boxes{};  ///< where rays start, each time that the pass is drawn, instead of cones
+  std::vector<ShaderVolume> volumes{};  ///< of both
 };
 
 /// SceneShaders are the fragment shaders that draw a scene, one pass after the other; see ray_parts.h for

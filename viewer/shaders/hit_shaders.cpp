@@ -152,6 +152,7 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
     pass.hits = composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kStarts : "") +
                                  (counted ? parts::kHitCounts : "") + parts::kHits);
   pass.uniforms = composer.uniforms();
+  pass.volumes = composer.volumes();
   pass.takesRows = !wanted.sharing.empty();
   pass.rows = wanted.row;
   pass.boxes = wanted.boxes;

@@ -55,7 +55,8 @@ std::set<std::string> constantsOf(const std::string& text) {
 
 /// The line with the version, and the precision where it must be stated.
 std::string header(bool es) {
-  return es ? "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+  return es ? "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp "
+              "sampler2D;\nprecision highp sampler3D;\n"
             : "#version 330 core\n";
 }
 

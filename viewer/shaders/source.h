@@ -11,6 +11,7 @@
 
 #include "sdf/eval/glsl.h"
 #include "sdf/expr/vec.h"
+#include "viewer/shaders/volume.h"
 
 namespace sdf::viewer {
 
@@ -48,6 +49,8 @@ class Composer {
 
   /// Returns what the uniform sdfValues holds, of all shaders so far.
   Function uniforms() const { return writer_.uniforms(); }
+  /// Returns the volumes that shaders so far read.
+  std::vector<ShaderVolume> volumes() const { return volumesOf(writer_); }
 
  private:
   std::string start_;  // header and globals

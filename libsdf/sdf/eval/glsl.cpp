@@ -213,6 +213,12 @@ std::string GlslWriter::nameOf(const std::shared_ptr<const Payload>& payload) {
   return kPayload + std::to_string(place);
 }
 
+std::vector<std::pair<std::string, std::shared_ptr<const Payload>>> GlslWriter::payloads() const {
+  std::vector<std::pair<std::string, std::shared_ptr<const Payload>>> all;
+  for (const auto& payload : payloads_) all.emplace_back(kPayload + std::to_string(all.size()), payload);
+  return all;
+}
+
 // Some drivers read a uniform anew in each turn of a loop, and check its index each time.
 std::string GlslWriter::source() const {
   std::string text, takes;
@@ -226,8 +232,7 @@ std::string GlslWriter::source() const {
   text += (uniforms_.empty() ? "" : ";\n") + ("void sdfTakeValues() {\n" + takes + "}\n\n");
   for (const auto& [name, code] : kHelpers)
     if (functions_.find(name + "(") != std::string::npos) text += code + "\n";
-  for (std::size_t i = 0; i < payloads_.size(); ++i)
-    text += payloads_[i]->glsl(kPayload + std::to_string(i)) + "\n";
+  for (const auto& [name, payload] : payloads()) text += payload->glsl(name) + "\n";
   return text + functions_;
 }
 

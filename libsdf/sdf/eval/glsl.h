@@ -1,10 +1,12 @@
 // The GLSL reading: expressions as source of functions, for GLSL 3.30 core and GLSL ES 3.00.
 #pragma once
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "sdf/eval/function.h"
@@ -39,6 +41,8 @@ class GlslWriter {
   /// The function whose outputs the uniform `vec4 sdfValues[]` holds, in order; it has none where the source
   /// has no such uniform. Readings of many frames keep it.
   Function uniforms() const { return Function(uniforms_); }
+  /// The payloads that the source reads, each with the name of its function.
+  std::vector<std::pair<std::string, std::shared_ptr<const Payload>>> payloads() const;
 
  private:
   class Body;

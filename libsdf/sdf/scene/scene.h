@@ -83,6 +83,7 @@ struct Scene {
   bool glossyReflections = false;       ///< mirrored rays are spread over the lobe of Phong's highlight
   std::optional<double> maxDistance{};  ///< how far the camera sees; none: see viewLengths
   std::optional<double> gamma;          ///< none: sRGB output; 1: raw values
+  std::vector<std::string> notes;       ///< what its author should know of it, a line each
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);

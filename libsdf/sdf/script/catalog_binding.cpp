@@ -5,8 +5,10 @@
 
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
+#include "sdf/script/meshes.h"
 #include "sdf/shape/deform.h"
 #include "sdf/shape/solids.h"
+#include "sdf/shape/triangle_solid.h"
 
 namespace sdf {
 
@@ -286,6 +288,24 @@ int freeForm(lua_State* L) {
                                    valueOr(known, "lipschitz", kInfinity)));
 }
 
+int importedMesh(lua_State* L) {
+  expectArguments(L, 1, 2);
+  const FunctionInfo& f = runningFunction(L);
+  ScriptContext& c = contextOf(L);
+  const std::string name = readText(L, 1, f.name + ": the file");
+  const FieldValues given = readFields(L, 2, f);
+  if (!c.options.readMesh) raise(L, "mesh: this program reads no mesh files");
+  const auto file = permitted(name, c.file, c.options);
+  if (!file) raise(L, file.error().message);
+  const auto field = meshField(*file, valueOr(given, "voxels", 128), c.options.readMesh);
+  if (!field) raise(L, field.error().message);
+  if (const std::string note = noteOf(**field); !note.empty()) {
+    const std::string line = name + ": " + note;
+    if (std::ranges::find(c.scene.notes, line) == c.scene.notes.end()) c.scene.notes.push_back(line);
+  }
+  return pushGood(L, triangleSolid(*field));
+}
+
 int notArithmetic(lua_State* L) {
   raise(L,
         "shapes are combined with | (union), & (intersection), - (difference) and ~ (xor); moved with "
@@ -331,6 +351,11 @@ const std::vector<FunctionInfo>& shapeLibrary() {
        {{"bounds", SettingKind::Box, "a box that holds the solid; trusted", Rule::Any, {}, "none"},
         {"lipschitz", PlainNumber, "a bound on the formula's slope; trusted. Without one, sdfview derives it within the bounds, and refuses the field where it cannot; sdf2gltf meshes any field, but slowly where no slope is known", Rule::Positive, {}, "derived"}},
        freeForm},
+      {"mesh",
+       "mesh(\"bunny.glb\", {voxels = 128})",
+       "the solid that the triangles of a file enclose: .glb, .gltf, .obj, .stl or .ply, in the scene's folder or below it, or in one that `--allow-dir` names. Holes are closed. Its distance is exact; `sdfview` reads it from samples",
+       {{"voxels", Integer, "how fine the samples of `sdfview` are: so many along the longest side, from 16 to 1024", Rule::Positive, {}, "128"}},
+       importedMesh},
   };
   return library;
 }

@@ -12,8 +12,4 @@ namespace sdf {
 /// meshed and computed on the CPU; shaders read the field's samples.
 Shape triangleSolid(const std::shared_ptr<const MeshField>& field);
 
-/// The same of a mesh whose holes are closed. Fails if it has no triangle with an area, or its triangles wind
-/// around nothing. `voxels` (16 to 1024): of a shader's samples along the longest side. Cost: n log n.
-Shape triangleSolid(const TriangleMesh& mesh, int voxels = 128);
-
 }  // namespace sdf

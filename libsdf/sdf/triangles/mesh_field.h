@@ -5,7 +5,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "sdf/base/result.h"
 #include "sdf/expr/payload.h"
 #include "sdf/triangles/bricks.h"
 #include "sdf/triangles/distance.h"
@@ -16,8 +18,9 @@ namespace sdf {
 /// middle, more or less half the diagonal; in a shader it is interpolated between samples.
 class MeshField : public Payload {
  public:
-  /// Triangles, at least one, and how many voxels a shader's samples have along the longest side.
-  MeshField(ClosedTriangles triangles, int voxels) : distance_(std::move(triangles)), voxels_(voxels) {}
+  /// The distance to a mesh, after `closed`. `voxels` (16 to 1024): how many of them a shader's samples have
+  /// along the longest side. Errors (Scene): other voxels, a mesh that encloses nothing. Cost: n log n.
+  static Result<std::shared_ptr<const MeshField>> make(const TriangleMesh& mesh, int voxels = 128);
 
   const TriangleDistance& distance() const { return distance_; }
   /// The samples, which are taken when they are first asked for.
@@ -34,6 +37,7 @@ class MeshField : public Payload {
   std::span<const PayloadVolume> volumes() const override { return bricks().volumes; }
 
  private:
+  MeshField(ClosedTriangles triangles, int voxels) : distance_(std::move(triangles)), voxels_(voxels) {}
   TriangleDistance distance_;
   int voxels_;
   mutable std::once_flag sampled_;

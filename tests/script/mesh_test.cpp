@@ -1,0 +1,128 @@
+// Triangle meshes that scenes name.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "script/run.h"
+#include "support/folder.h"
+#include "support/triangle_meshes.h"
+
+namespace sdf::test {
+namespace {
+
+// Files are empty; which mesh they hold follows from their names.
+Result<TriangleMesh> readNothing(const std::filesystem::path& file) {
+  const TriangleMesh box = boxOf(glm::vec3(-1.0f), glm::vec3(1.0f));
+  if (file.stem() == "box") return box;
+  if (file.stem() == "open") return without(box, [](std::size_t i) { return i < 2; });
+  if (file.stem() == "film") return without(box, [](std::size_t i) { return i >= 2; });
+  if (file.stem() == "flat") return without(box, [](std::size_t) { return true; });
+  if (file.stem() == "twice") return together(box, boxOf(glm::vec3(0.0f), glm::vec3(2.0f)));
+  return Error{ErrorKind::Files, file.string() + ": cannot be read"};
+}
+
+class Meshes : public testing::Test {
+ protected:
+  Meshes() {
+    for (const char* folder : {"scenes", "elsewhere"}) std::filesystem::create_directory(folder_ / folder);
+    for (const char* name : {"box", "open", "film", "flat", "twice", "bad"}) touch(scenes() / name);
+  }
+  static void touch(const std::filesystem::path& stem) { std::ofstream(stem.string() + ".glb").put('x'); }
+  Result<Scene> run(const std::string& text) const {
+    return runScene(text, (scenes() / "scene.lua").string(), options_);
+  }
+  Scene sceneOf(const std::string& text) const {
+    Result<Scene> scene = run(text);
+    if (scene) return std::move(*scene);
+    ADD_FAILURE() << scene.error().message;
+    return {};
+  }
+  std::string errorOf(const std::string& text) const {
+    const Result<Scene> scene = run(text);
+    return scene ? "none" : scene.error().message;
+  }
+  std::string here(const std::string& message) const { return (scenes() / "scene.lua").string() + message; }
+
+  std::filesystem::path scenes() const { return folder_ / "scenes"; }
+
+  Folder folder_;
+  ScriptOptions options_{.readMesh = readNothing};
+};
+
+TEST_F(Meshes, AreShapesLikeAnyOther) {
+  const Scene scene = sceneOf(R"(return mesh("box.glb"):translate(1, 0, 0):round(0.25) - sphere(0.5))");
+  const Shape whole = scene.whole();
+  EXPECT_DOUBLE_EQ(at(whole.distance, 3.0, 0.0, 0.0), 0.75);
+  EXPECT_DOUBLE_EQ(at(whole.distance, 0.0, 0.0, 0.0), 0.5);
+  EXPECT_TRUE(scene.notes.empty());
+}
+
+TEST_F(Meshes, AreReadOnceWhileTheyLive) {
+  int count = 0;
+  options_.readMesh = [&](const std::filesystem::path& file) { return ++count, readNothing(file); };
+  const std::string text = R"(return mesh("box.glb"))";
+  {
+    const Scene first = sceneOf(text), second = sceneOf(text);
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(first.parts[0].shape.distance, second.parts[0].shape.distance);
+    const Scene finer = sceneOf(R"(return mesh("box.glb", {voxels = 64}))");
+    EXPECT_EQ(count, 2);
+    std::filesystem::last_write_time(scenes() / "box.glb",
+                                     std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+    const Scene third = sceneOf(text);
+    EXPECT_EQ(count, 3);
+  }
+  const Scene again = sceneOf(text);
+  EXPECT_EQ(count, 4);
+}
+
+TEST_F(Meshes, WhatWasMendedIsNoted) {
+  EXPECT_EQ(sceneOf(R"(return mesh("open.glb"))").notes,
+            std::vector<std::string>{"open.glb: 1 hole was closed"});
+  const auto notes = sceneOf(R"(return mesh("twice.glb") | mesh("twice.glb"):translate(5, 0, 0))").notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0],
+            "twice.glb: its surface crosses or touches itself, or is turned inside out: inside is what it "
+            "winds around");
+}
+
+TEST_F(Meshes, WithoutAnInsideAreRefused) {
+  const std::string film = (std::filesystem::canonical(scenes()) / "film.glb").string();
+  EXPECT_EQ(errorOf(R"(return mesh("film.glb"))"),
+            here(":1: " + film + ": the triangles of this mesh enclose nothing: it is no solid"));
+  EXPECT_NE(errorOf(R"(return mesh("flat.glb"))").find("no triangle of this mesh has an area"),
+            std::string::npos);
+}
+
+TEST_F(Meshes, TheReadersErrorIsShown) {
+  EXPECT_NE(errorOf(R"(return mesh("bad.glb"))").find("bad.glb: cannot be read"), std::string::npos);
+}
+
+TEST_F(Meshes, FilesElsewhereAreRefused) {
+  const std::filesystem::path other = std::filesystem::canonical(folder_ / "elsewhere");
+  touch(other / "box");
+  const std::string outside = (other / "box.glb").string();
+  const std::string text = "return mesh(\"" + outside + "\")";
+  EXPECT_EQ(errorOf(text), here(":1: mesh: '" + outside +
+                                "' lies outside of the scene's folder; move it there, or allow its "
+                                "folder with --allow-dir " +
+                                other.string()));
+  EXPECT_NE(errorOf(R"(return mesh("../box.glb"))").find("lies outside"), std::string::npos);
+  std::filesystem::create_symlink(outside, scenes() / "link.glb");
+  EXPECT_NE(errorOf(R"(return mesh("link.glb"))").find("lies outside"), std::string::npos);
+  options_.folders = {other};
+  EXPECT_TRUE(run(text).ok());
+}
+
+TEST_F(Meshes, BadArgumentsAreNamed) {
+  EXPECT_NE(errorOf("return mesh(1)").find("mesh: the file must be a text"), std::string::npos);
+  EXPECT_NE(errorOf(R"(return mesh("box.glb", {voxels = 8}))").find("voxels must be from 16 to 1024, got 8"),
+            std::string::npos);
+  EXPECT_NE(errorOf(R"(return mesh("box.glb", {fine = 8}))").find("unknown field 'fine'"), std::string::npos);
+  options_.readMesh = {};
+  EXPECT_EQ(errorOf(R"(return mesh("box.glb"))"), here(":1: mesh: this program reads no mesh files"));
+}
+
+}  // namespace
+}  // namespace sdf::test
