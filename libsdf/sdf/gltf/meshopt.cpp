@@ -9,7 +9,7 @@
 namespace sdf {
 namespace {
 
-constexpr std::string_view kAttributes = "ATTRIBUTES", kTriangles = "TRIANGLES";
+constexpr std::string_view kAttributes = "ATTRIBUTES", kTriangles = "TRIANGLES", kIndices = "INDICES";
 
 Encoded encodeVertices(const void* elements, std::size_t count, std::size_t stride, std::string_view filter) {
   meshopt_encodeVertexVersion(0);  // the extension's
@@ -69,6 +69,32 @@ Encoded encodePoints(std::span<const glm::vec3> points, int exponent) {
   };
   for (const glm::vec3& p : points) stored.emplace_back(coordinate(p.x), coordinate(p.y), coordinate(p.z));
   return encodeVertices(stored.data(), stored.size(), sizeof(Stored), "EXPONENTIAL");
+}
+
+std::optional<std::vector<unsigned char>> decode(const Encoded& encoded) {
+  const std::size_t count = encoded.count, stride = encoded.stride;
+  const bool isIndex = stride == 2 || stride == 4;
+  std::vector<unsigned char> out(count * stride);
+  int failed = -1;
+  const auto from = encoded.bytes.data();
+  if (encoded.mode == kAttributes && stride > 0 && stride <= 256 && stride % 4 == 0)
+    failed = meshopt_decodeVertexBuffer(out.data(), count, stride, from, encoded.bytes.size());
+  if (encoded.mode == kTriangles && isIndex && count % 3 == 0)
+    failed = meshopt_decodeIndexBuffer(out.data(), count, stride, from, encoded.bytes.size());
+  if (encoded.mode == kIndices && isIndex)
+    failed = meshopt_decodeIndexSequence(out.data(), count, stride, from, encoded.bytes.size());
+  if (failed != 0) return std::nullopt;
+  if (encoded.filter.empty() || encoded.filter == "NONE") return out;
+  if (encoded.mode != kAttributes) return std::nullopt;
+  if (encoded.filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
+    meshopt_decodeFilterOct(out.data(), count, stride);
+  else if (encoded.filter == "QUATERNION" && stride == 8)
+    meshopt_decodeFilterQuat(out.data(), count, stride);
+  else if (encoded.filter == "EXPONENTIAL")
+    meshopt_decodeFilterExp(out.data(), count, stride);
+  else
+    return std::nullopt;
+  return out;
 }
 
 }  // namespace sdf

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -42,5 +43,9 @@ Encoded encodeUnitVectors(std::span<const glm::vec3> vectors);
 /// Points, exactly, as three floats. Each coordinate is a whole number of steps of 2^exponent, up to
 /// kMostSteps; -126 <= exponent <= 127.
 Encoded encodePoints(std::span<const glm::vec3> points, int exponent);
+
+/// The elements again, or none where the bytes are broken or the mode or filter is unknown. Filters of the
+/// extension are applied. Precondition: count * stride bytes fit into memory.
+std::optional<std::vector<unsigned char>> decode(const Encoded& encoded);
 
 }  // namespace sdf

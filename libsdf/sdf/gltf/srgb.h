@@ -13,10 +13,12 @@ inline std::uint8_t srgb(float linear) {
   return static_cast<std::uint8_t>(std::lround(shown * 255.0f));
 }
 
-/// The linear light of an sRGB byte.
-inline float linearOf(std::uint8_t srgb) {
-  const float v = static_cast<float>(srgb) / 255.0f;
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+/// The linear light of sRGB, where 1 is white.
+inline float linearOf(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }
+
+/// The linear light of an sRGB byte.
+inline float linearOf(std::uint8_t srgb) { return linearOf(static_cast<float>(srgb) / 255.0f); }
 
 }  // namespace sdf
