@@ -22,8 +22,10 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+SceneFile sceneFileOf(const Options& options) { return {options.scene, options.folders}; }
+
 Result<Scene> loadAt(double time, const Options& options) {
-  return loadScene(options.scene, {.values = options.parameters, .time = time});
+  return sceneFileOf(options).load({.values = options.parameters, .time = time});
 }
 
 class Headless {
@@ -174,10 +176,11 @@ class Headless {
 Status runHeadless(const Options& options, std::ostream& out) {
   auto scene = loadAt(options.time, options);
   if (!scene) return scene.error();
-  LookFunction look = lookOf(*scene, options.scene, options.parameters);
+  for (const std::string& note : scene->notes) std::cerr << "sdfview: warning: " << note << '\n';
+  LookFunction look = lookOf(*scene, sceneFileOf(options), options.parameters);
   std::optional<Box> fitTo;
   if (options.fit)
-    if (auto s = keep(boxInView(*scene, options.scene, options.parameters, options.time), fitTo); !s)
+    if (auto s = keep(boxInView(*scene, sceneFileOf(options), options.parameters, options.time), fitTo); !s)
       return s;
   Headless headless(options, std::move(*scene), std::move(look), fitTo);
   if (options.glsl)

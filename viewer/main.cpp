@@ -22,7 +22,7 @@ sdf::Status run(const sdf::viewer::Options& o) {
   controls.method = o.shader.method;
   controls.samples = o.samples;
   controls.maxSteps = o.maxSteps;
-  return sdf::viewer::runWindow({o.scene, controls, o.width, o.height, o.fit});
+  return sdf::viewer::runWindow({{o.scene, o.folders}, controls, o.width, o.height, o.fit});
 }
 
 }  // namespace

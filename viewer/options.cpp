@@ -112,6 +112,10 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
   app.add_option("-D", parameterWords, "set a parameter of the scene; may be repeated")
       ->type_name("name=value")
       ->allow_extra_args(false);
+  app.add_option("--allow-dir", options.folders,
+                 "a folder, beside the scene's own, from which it may read meshes")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
   add("--camera", "x,y,z,x,y,z[,fov]", "where the camera stands and looks, and its field of view",
       [&](const std::string& word) { return camera(word, options.eye); });
   app.add_flag("--fit", options.fit,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "command_line/values.h"
 #include "viewer/render/look.h"
@@ -14,6 +15,7 @@ namespace sdf::viewer {
 /// Options are what the command line says, with defaults for what it does not.
 struct Options {
   std::filesystem::path scene;
+  std::vector<std::filesystem::path> folders;  ///< beside the scene's own, from which it may read
   std::optional<std::filesystem::path> picture, glsl;
   std::optional<int> bench;  ///< frames
   int width = 1280, height = 720;

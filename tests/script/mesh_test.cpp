@@ -12,13 +12,14 @@ namespace sdf::test {
 namespace {
 
 // Files are empty; which mesh they hold follows from their names.
-Result<TriangleMesh> readNothing(const std::filesystem::path& file) {
+Result<ReadMesh> readNothing(const std::filesystem::path& file) {
   const TriangleMesh box = boxOf(glm::vec3(-1.0f), glm::vec3(1.0f));
-  if (file.stem() == "box") return box;
-  if (file.stem() == "open") return without(box, [](std::size_t i) { return i < 2; });
-  if (file.stem() == "film") return without(box, [](std::size_t i) { return i >= 2; });
-  if (file.stem() == "flat") return without(box, [](std::size_t) { return true; });
-  if (file.stem() == "twice") return together(box, boxOf(glm::vec3(0.0f), glm::vec3(2.0f)));
+  if (file.stem() == "box") return ReadMesh{box, {}};
+  if (file.stem() == "open")
+    return ReadMesh{without(box, [](std::size_t i) { return i < 2; }), {"a picture is missing"}};
+  if (file.stem() == "film") return ReadMesh{without(box, [](std::size_t i) { return i >= 2; }), {}};
+  if (file.stem() == "flat") return ReadMesh{without(box, [](std::size_t) { return true; }), {}};
+  if (file.stem() == "twice") return ReadMesh{together(box, boxOf(glm::vec3(0.0f), glm::vec3(2.0f))), {}};
   return Error{ErrorKind::Files, file.string() + ": cannot be read"};
 }
 
@@ -79,7 +80,7 @@ TEST_F(Meshes, AreReadOnceWhileTheyLive) {
 
 TEST_F(Meshes, WhatWasMendedIsNoted) {
   EXPECT_EQ(sceneOf(R"(return mesh("open.glb"))").notes,
-            std::vector<std::string>{"open.glb: 1 hole was closed"});
+            std::vector<std::string>{"open.glb: a picture is missing; 1 hole was closed"});
   const auto notes = sceneOf(R"(return mesh("twice.glb") | mesh("twice.glb"):translate(5, 0, 0))").notes;
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0],

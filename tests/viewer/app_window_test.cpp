@@ -348,7 +348,7 @@ TEST_F(BareWindowTest, RefinesAStillPictureAndRestsUntilItMoves) {
 
 TEST_F(BareWindowTest, MovesAtTwentyFramesASecond) {
   window.reset();
-  options.scene = SDF_SOURCE_DIR "/samples/lighting_stack.lua";
+  options.scene.path = SDF_SOURCE_DIR "/samples/lighting_stack.lua";
   options.controls.samples = 3;
   options.width = 1024;
   options.height = 768;

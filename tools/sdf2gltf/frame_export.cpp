@@ -10,6 +10,7 @@
 #include "memory.h"
 #include "sdf/gltf/bake.h"
 #include "sdf/gltf/compress.h"
+#include "sdf/gltf/read_mesh.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/script/script.h"
 #include "timed.h"
@@ -59,7 +60,11 @@ Status FrameExport::load(double time, std::optional<double>& voxelSize) {
 Status FrameExport::loadParts(double time) {
   progress_.setSubject(subject_);
   progress_.beginStage("script");
-  const ScriptOptions script{.values = options_.parameters, .time = time, .fixed = true};
+  const ScriptOptions script{.values = options_.parameters,
+                             .time = time,
+                             .fixed = true,
+                             .readMesh = readMesh,
+                             .folders = options_.folders};
   Result<Scene> loaded = stage(report.total, "script", [&] { return loadScene(options_.scene, script); });
   if (!loaded) return loaded.error();
   Result<Scene> chosen = selected(std::move(*loaded), options_);
@@ -92,7 +97,7 @@ Status FrameExport::chooseVoxelSize(std::optional<double>& voxelSize) {
 
 Status FrameExport::mesh(const std::vector<Part>& bodies, double voxelSize, double tolerance) {
   report.total = loaded_;
-  report.warnings.clear();
+  report.warnings = scene.notes;
   if (Status s =
           options_.triangles
               ? meshWithin(static_cast<std::size_t>(*options_.triangles), bodies, voxelSize)

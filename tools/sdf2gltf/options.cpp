@@ -19,6 +19,7 @@ namespace {
 
 /// The command line's words, before they are looked at closer. All are text, so that messages are our own.
 struct Words {
+  std::vector<std::filesystem::path> folders;
   std::string scene, output;
   std::optional<std::string> voxelSize, tolerance, triangles, levels, bounds, time, frames, fps, only, report,
       threads, maxMemory;
@@ -122,6 +123,8 @@ void declare(CLI::App& app, Words& words) {
       ->allow_extra_args(false);
   add("-t,--time", words.time, "T", "the scene's time in seconds [0]");
   add("--frames", words.frames, "N", "write N files, OUT_0001.glb and so on, or wherever OUT has %04d");
+  add("--allow-dir", words.folders, "DIR", "a folder, beside the scene's own, from which it may read meshes")
+      ->allow_extra_args(false);
   app.add_flag("--animate", words.animate, "write the frames as one .glb or .gltf that moves");
   add("--fps", words.fps, "F", "frames a second [24]");
   add("--only", words.only, "PART", "export this part alone");
@@ -143,6 +146,7 @@ void declare(CLI::App& app, Words& words) {
 
 Result<Options> interpreted(const Words& words) {
   Options options;
+  options.folders = words.folders;
   options.scene = words.scene;
   options.output = words.output;
   options.animate = words.animate;

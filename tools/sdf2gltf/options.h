@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line/values.h"
 #include "sdf/base/box.h"
@@ -14,6 +15,7 @@ namespace sdf::exporter {
 
 struct Options {
   std::filesystem::path scene;
+  std::vector<std::filesystem::path> folders;  ///< beside the scene's own, from which it may read
   std::filesystem::path output;
   std::optional<double> voxelSize;
   double tolerance = 0.0;            ///< scene units; 0: triangles as large as voxels

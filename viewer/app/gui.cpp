@@ -190,6 +190,7 @@ void Gui::picture(Requests& requests) {
 }
 
 void Gui::statistics(const Session& session, const Canvas& canvas, Requests& requests) {
+  for (const std::string& note : session.scene().notes) ImGui::TextWrapped("%s", note.c_str());
   const FrameStatistics& frame = canvas.statistics();
   ImGui::Text("%.1f ms a frame, %d x %d, %d samples", 1e3 * frame.seconds, frame.width, frame.height,
               frame.samples * frame.samples);

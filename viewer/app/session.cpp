@@ -36,8 +36,8 @@ std::optional<Watch::Stamp> Watch::stamp() const {
   return noTime || noSize ? std::nullopt : std::optional(now);
 }
 
-Result<Session> Session::open(const std::filesystem::path& file, Controls controls) {
-  auto scene = loadScene(file, {.values = controls.parameters, .time = controls.time});
+Result<Session> Session::open(const SceneFile& file, Controls controls) {
+  auto scene = file.load({.values = controls.parameters, .time = controls.time});
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file, controls.parameters);
   auto renderer = build(*scene, {controls.view, controls.method, {}});
@@ -45,11 +45,10 @@ Result<Session> Session::open(const std::filesystem::path& file, Controls contro
   return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer));
 }
 
-Session::Session(std::filesystem::path file, Controls start, Scene scene, LookFunction look,
-                 Renderer renderer)
+Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer)
     : controls(std::move(start)),
       file_(std::move(file)),
-      watch_(file_),
+      watch_(file_.path),
       scene_(std::move(scene)),
       look_(std::move(look)),
       renderer_(std::move(renderer)),
@@ -86,7 +85,7 @@ void Session::settle() {
 }
 
 Status Session::load(const Built& wanted) {
-  auto scene = loadScene(file_, {.values = controls.parameters, .tolerant = true, .time = controls.time});
+  auto scene = file_.load({.values = controls.parameters, .tolerant = true, .time = controls.time});
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file_, controls.parameters);
   auto made = build(*scene, wanted);

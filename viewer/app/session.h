@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "viewer/render/renderer.h"
+#include "viewer/render/scene_file.h"
 
 namespace sdf::viewer {
 
-/// A Watch looks at one file by its time of writing and its size. Scenes load no other files.
+/// A Watch looks at one file by its time of writing and its size. Meshes that a scene names are not watched:
+/// they are read anew when the scene is, if they have changed.
 class Watch {
  public:
   explicit Watch(std::filesystem::path file);
@@ -65,7 +67,7 @@ struct Requests {
 class Session {
  public:
   /// Loads the scene and compiles its shaders. Errors: those of loadScene and of Renderer::make.
-  static Result<Session> open(const std::filesystem::path& file, Controls controls = {});
+  static Result<Session> open(const SceneFile& file, Controls controls = {});
 
   /// The controls are for everyone to change; settle() then makes the picture fit them.
   Controls controls;
@@ -122,7 +124,7 @@ class Session {
     std::set<std::string> materials;
     bool operator==(const Built&) const = default;
   };
-  Session(std::filesystem::path file, Controls start, Scene scene, LookFunction look, Renderer renderer);
+  Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer);
   static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
   /// Replaces scene and renderer by what the file says for the controls' values. On an error both stay.
   Status load(const Built& wanted);
@@ -133,7 +135,7 @@ class Session {
   /// The present values of what the script has read.
   Values read() const;
 
-  std::filesystem::path file_;
+  SceneFile file_;
   Watch watch_;
   Scene scene_;
   LookFunction look_;

@@ -56,7 +56,7 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
-  const std::string title = options.scene.filename().string() + " - sdfview";
+  const std::string title = options.scene.path.filename().string() + " - sdfview";
   Handle window(glfwCreateWindow(options.width, options.height, title.c_str(), nullptr, nullptr),
                 glfwDestroyWindow);
   if (!window) return cannotOpen();
@@ -68,7 +68,7 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   if (options.fit)
     if (const Status s = session->fit(); !s) return s.error();
   return std::unique_ptr<Window>(
-      new Window(std::move(window), std::move(*session), options.scene.stem().string() + ".png"));
+      new Window(std::move(window), std::move(*session), options.scene.path.stem().string() + ".png"));
 }
 
 Window::Window(Handle window, Session session, std::string pictureName)

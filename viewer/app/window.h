@@ -12,7 +12,7 @@ namespace sdf::viewer {
 
 /// WindowOptions are what a window begins with.
 struct WindowOptions {
-  std::filesystem::path scene;
+  SceneFile scene;
   Controls controls;
   int width = 1280, height = 720;
   bool fit = false;  ///< begins with all of the scene in view

@@ -216,6 +216,13 @@ void Program::draw() const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void Program::draw(const MeshBuffer& buffer, int first, int count) const {
+  refuseFaults();
+  buffer.bind();
+  const std::size_t start = sizeof(glm::uvec3) * static_cast<std::size_t>(first);
+  glDrawElements(GL_TRIANGLES, 3 * count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(start));
+}
+
 void Program::drawTiles(int columns, int rows, int side) const {
   set("tileGrid", glm::vec2(columns, rows));
   set("tileSide", static_cast<double>(side));

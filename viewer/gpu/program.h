@@ -13,6 +13,7 @@
 
 #include "sdf/base/result.h"
 #include "viewer/gpu/handle.h"
+#include "viewer/gpu/mesh_buffer.h"
 
 namespace sdf::viewer {
 
@@ -59,6 +60,9 @@ class Program {
   /// Covers the viewport with one triangle: three vertices without attributes, made from gl_VertexID by the
   /// vertex shader of overScreen.
   void draw() const;
+
+  /// Draws some of a buffer's triangles.
+  void draw(const MeshBuffer& buffer, int first, int count) const;
 
   /// Draws the tiles of this side in pixels, of a program that overTiles made; they cover the viewport or
   /// more. The side may be as large as a point, GL_POINT_SIZE_RANGE: 255 and more on today's drivers.

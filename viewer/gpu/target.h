@@ -88,6 +88,8 @@ class [[nodiscard]] DrawingMode {
 DrawingMode nearestWins();
 /// Adds up the values of all fragments.
 DrawingMode sumOfAll();
+/// Lets fragments into the first layers only; the others stay as they are.
+DrawingMode firstLayers(int count);
 /// Lets fragments into one layer only; the others stay as they are.
 DrawingMode oneLayer(int layer);
 

@@ -81,6 +81,11 @@ glm::vec2 Shot::lobe() const {
   return {place.x - std::floor(place.x), place.y - std::floor(place.y)};
 }
 
+glm::vec2 Shot::within() const {
+  const int side = frame_.samples;
+  return glm::vec2(sample_ % side + 0.5, sample_ / side + 0.5) / static_cast<float>(side);
+}
+
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
   const Eye& eye = frame_.look.eye;
   program.set("size", glm::vec2(width_, height_));
@@ -95,8 +100,7 @@ void Shot::set(const Program& program, const std::vector<glm::vec4>& values) con
   program.set("epsilon", frame_.epsilon * lengths_.unit);
   program.set("threshold", extent_.loose ? 0.5 * frame_.threshold : frame_.threshold);
   program.set("maxSteps", frame_.maxSteps);
-  const int side = frame_.samples;
-  program.set("within", glm::vec2(sample_ % side + 0.5, sample_ / side + 0.5) / static_cast<float>(side));
+  program.set("within", within());
   program.set("weight", weight());
   if (!values.empty()) program.set("sdfValues", values);
 }

@@ -1,6 +1,7 @@
 // One frame to be drawn, and what of it every shader is told.
 #pragma once
 #include <optional>
+#include <utility>
 
 #include "sdf/eval/function.h"
 #include "viewer/gpu/program.h"
@@ -77,6 +78,10 @@ class Shot {
   double footprint() const;
   /// Returns the sample's place in the unit square, of places that fill it evenly.
   glm::vec2 lobe() const;
+  /// Returns the picture's axes, forward as long as its plane is far away in picture heights, and the eye.
+  std::pair<Axes, glm::dvec3> view() const { return {axes_, frame_.look.eye.from}; }
+  /// Returns where in its pixel the sample is.
+  glm::vec2 within() const;
   /// Draws the rays of the i-th sample from now on.
   void chooseSample(int i) { sample_ = i; }
 

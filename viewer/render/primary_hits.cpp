@@ -29,6 +29,9 @@ constexpr Layer kLayers[] = {
 };
 constexpr int kCounts = std::size(kLayers);  // the number of the layer of readings
 
+// How drawn triangles look, in layers after these.
+constexpr const char* kLooks[] = {"hitLook", "hitGlow"};
+
 }  // namespace
 
 Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders, Volumes& volumes) {
@@ -50,6 +53,10 @@ Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders, Volumes& volu
     if (started) pass.firstCell = std::exchange(made.cells_, made.cells_ + pass.draws());
     made.passes_.push_back(std::move(pass));
   }
+  if (!shaders.plan.drawn.empty())
+    if (auto s = keep(DrawnMeshes::make(shaders), made.meshes_); !s) return s.error();
+  made.looks_ = shaders.plan.looks;
+  made.grouped_ = shaders.plan.grouped;
   made.columns_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(made.cells_))));
   return made;
 }
@@ -58,6 +65,8 @@ glm::ivec2 PrimaryHits::cornerOf(int cell, const Shot& shot) const {
   return glm::ivec2(cell % columns_ * tiles(shot.width(), kTile),
                     cell / columns_ * tiles(shot.height(), kTile));
 }
+
+int PrimaryHits::firstLook() const { return kCounts + (counted_ ? 1 : 0); }
 
 Status PrimaryHits::makeTargets(const Shot& shot) {
   const auto starts = [&](std::optional<Target>& target, int columns, int rows, int side) {
@@ -72,6 +81,7 @@ Status PrimaryHits::makeTargets(const Shot& shot) {
   std::vector<PixelFormat> formats;
   for (const Layer& layer : kLayers) formats.push_back(layer.format);
   if (counted_) formats.push_back(PixelFormat::Rgba32f);
+  if (meshes_) formats.resize(formats.size() + std::size(kLooks), PixelFormat::Rgba32f);
   return ensure(hits_, shot.width(), shot.height(), formats, true);
 }
 
@@ -129,6 +139,12 @@ void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
     hits_->bindTexture(i, i);
     picture.set(kLayers[i].name, i);
   }
+  if (!looks_) return;
+  for (int i = 0; i < static_cast<int>(std::size(kLooks)); ++i) {
+    const int unit = kCounts + i;
+    hits_->bindTexture(unit, firstLook() + i);
+    picture.set(kLooks[i], unit);
+  }
 }
 
 void PrimaryHits::drawTiles(const Program& program, const Shot& shot, std::optional<int> cell) const {
@@ -158,6 +174,7 @@ void PrimaryHits::drawHits(const Shot& shot) const {
 
 void PrimaryHits::prepare(const Frame& frame) {
   for (Pass& pass : passes_) pass.values.move(frame.parameters);
+  if (meshes_) meshes_->prepare(frame);
 }
 
 Status PrimaryHits::begin(const Shot& shot, std::span<const glm::vec4> rows) {
@@ -174,6 +191,8 @@ Status PrimaryHits::drawSample(const Shot& shot) {
   hits_->clearDepth();
   {
     const DrawingMode nearest = nearestWins();
+    if (meshes_) meshes_->draw(shot);
+    const DrawingMode hits = firstLayers(kCounts);
     drawHits(shot);
   }
   if (counted_) {

@@ -7,6 +7,7 @@
 
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
+#include "viewer/render/drawn_meshes.h"
 #include "viewer/render/frame.h"
 #include "viewer/render/volumes.h"
 #include "viewer/shaders/assemble.h"
@@ -58,14 +59,18 @@ class PrimaryHits {
   /// The corner of a cell.
   glm::ivec2 cornerOf(int cell, const Shot& shot) const;
   /// A cell that is alone has smaller tiles, too.
-  bool isFine() const { return cells_ == 1; }
-  bool hasHits() const { return passes_.front().hits.has_value(); }
+  bool isFine() const { return cells_ == 1 && passes_.front().cones; }
+  bool hasHits() const { return grouped_; }
+  int firstLook() const;
   /// Chooses what a pass is drawn with, the i-th time.
   void chooseRow(const Pass& pass, const Program& program, int i) const;
   /// Lets a program read where the rays of a cell start.
   void giveStarts(const Program& program, int cell, const Shot& shot) const;
 
   std::vector<Pass> passes_;
+  std::optional<DrawnMeshes> meshes_;
+  bool looks_ = false;    // the picture shows how their triangles look
+  bool grouped_ = false;  // the passes draw hits
   std::optional<Program> boxCones_;
   int cells_ = 0, columns_ = 0;  // of the starts
   bool counted_ = false;

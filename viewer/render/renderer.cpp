@@ -73,7 +73,7 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
 
 Status Renderer::compile() {
   const Plan& plan = shaders_.plan;
-  if (!shaders_.hits.empty())
+  if (!shaders_.hits.empty() || plan.grouped)
     if (auto s = keep(PrimaryHits::make(shaders_, volumes_), hits_); !s) return s;
   const std::string& text = shaders_.picture.text;
   if (auto s = keep(plan.tiled ? Program::overTiles(text) : Program::overScreen(text), picture_); !s)

@@ -7,6 +7,7 @@
 #include "viewer/shaders/light_parts.h"
 #include "viewer/shaders/ray_parts.h"
 #include "viewer/shaders/source.h"
+#include "viewer/shaders/triangle_parts.h"
 #include "viewer/shaders/view_parts.h"
 
 namespace sdf::viewer {
@@ -82,6 +83,9 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
                        : plan.bounces == 0 ? "hit = primaryHit();"
                                            : "if (bounce == 0) hit = primaryHit(); else hit = meet(ray);";
   macros["TAKE_OPERAND"] = plan.operands.empty() ? "" : "operand = hit.operand;" + takeSurface;
+  macros["TAKE_LOOK"] = !plan.looks        ? ""
+                        : plan.bounces > 0 ? "if (bounce == 0) takeLook(hit, s);"
+                                           : "takeLook(hit, s);";
   macros["FOOTPRINT"] = plan.filters ? "setFootprint(n, d, ray.before + t);" : "";
   macros["LEAVE_BACKGROUND"] = leavesBackground(plan) ? "discard;" : "";
   macros["LIGHTS"] = std::to_string(scene.lights.size());
@@ -137,6 +141,7 @@ std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& r
   if (plan.options.countReadings) text += parts::kPictureCounts;
   if (startsHere(plan)) text += parts::kStarts;
   if (plan.grouped) text += parts::kHitFromLayers;
+  if (plan.looks) text += parts::kTakeLook;
   if (plan.kinds && (meets || readsRest(plan) || readsField || plan.options.view == View::Slice))
     text += sharing(plan, rows);
   if (meets)
@@ -222,18 +227,19 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
     return assemble(scene, apart);
   }
   std::vector<HitShaders> hits;
-  std::string boxes;
+  std::string boxes, triangles;
   if (plan->grouped) hits = groupShaders(*plan, rows);
   if (std::ranges::any_of(hits, [](const HitShaders& pass) { return !pass.boxes.empty(); }))
     boxes = boxCones(*plan);
+  if (!plan->drawn.empty()) triangles = triangleShader(*plan);
   if (startsHere(*plan)) hits = {startShaders(*plan, rows)};
   Shader shown = picture(scene, *plan, rows, labelled(scene));
   std::optional<Shader> tiles;
   if (plan->tiled) tiles = background(scene, *plan);
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
   std::string resolved = resolve.compose(encoder(scene, *plan) + parts::kResolve);
-  return SceneShaders{std::move(*plan), std::move(hits),  std::move(boxes),   rows.numbers(),
-                      std::move(shown), std::move(tiles), std::move(resolved)};
+  return SceneShaders{std::move(*plan), std::move(hits),  std::move(boxes), std::move(triangles),
+                      rows.numbers(),   std::move(shown), std::move(tiles), std::move(resolved)};
 }
 
 }  // namespace sdf::viewer

@@ -45,8 +45,9 @@ struct SceneShaders {
   /// One for each kind of operands, for the others and for the half spaces, or one that has cones only, or
   /// none.
   std::vector<HitShaders> hits;
-  std::string boxCones;  ///< the starts at boxes, if a pass has some
-  Function rows;         ///< what the texture sdfRows holds: four numbers a texel, kRowTexels of these a row
+  std::string boxCones;   ///< the starts at boxes, if a pass has some
+  std::string triangles;  ///< draws the plan's meshes, if there are some
+  Function rows;          ///< what the texture sdfRows holds: four numbers a texel, kRowTexels of these a row
   Shader picture;
   std::optional<Shader> background;  ///< what tiles show where there are no hits, if the plan is tiled
   std::string resolve;               ///< from the sums of several samples to the picture

@@ -9,6 +9,7 @@
 #include "sdf/expr/hoist.h"
 #include "sdf/model/model.h"
 #include "viewer/shaders/ray_parts.h"
+#include "viewer/shaders/triangle_parts.h"
 
 namespace sdf::viewer {
 namespace {
@@ -69,9 +70,17 @@ Box boundsOf(const std::vector<NumberedOperand>& operands) {
   return box;
 }
 
-// What the loops over the kinds start from, where the half spaces are to be read, too.
-std::vector<NumberedOperand> othersAndPlanes(const Plan& plan) {
+// What the loops over the kinds start from.
+std::vector<NumberedOperand> othersAndDrawn(const Plan& plan) {
   std::vector<NumberedOperand> operands = plan.kinds->others;
+  for (const DrawnMesh& mesh : plan.drawn) operands.push_back(mesh.operand);
+  std::ranges::sort(operands, {}, &NumberedOperand::number);
+  return operands;
+}
+
+// And where the half spaces are to be read, too.
+std::vector<NumberedOperand> othersAndPlanes(const Plan& plan) {
+  std::vector<NumberedOperand> operands = othersAndDrawn(plan);
   const std::vector<NumberedOperand> planes = operandsOf(plan.planes);
   operands.insert(operands.end(), planes.begin(), planes.end());
   std::ranges::sort(operands, {}, &NumberedOperand::number);
@@ -129,9 +138,13 @@ struct Parts {
   std::vector<Box> boxes{};  ///< where its rays start, if there are no cones of its own
 };
 
+std::string operandCount(const Plan& plan) {
+  return number(static_cast<double>(std::max<std::size_t>(plan.operands.size(), 1)));
+}
+
 HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& plan) {
   Macros macros = meetingMacros(obstacles, plan);
-  macros["OPERANDS"] = number(static_cast<double>(std::max<std::size_t>(plan.operands.size(), 1)));
+  macros["OPERANDS"] = operandCount(plan);
   macros["SHARE"] = number(wanted.share);
   macros["LEAVE_NOTHING"] = leaveNothing(plan);
   const bool started = wanted.cones || !wanted.boxes.empty();
@@ -150,7 +163,7 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
                                   parts::kCones);
   if (wanted.hits)
     pass.hits = composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kStarts : "") +
-                                 (counted ? parts::kHitCounts : "") + parts::kHits);
+                                 (counted ? parts::kHitCounts : "") + parts::kFavoured + parts::kHits);
   pass.uniforms = composer.uniforms();
   pass.volumes = composer.volumes();
   pass.takesRows = !wanted.sharing.empty();
@@ -225,6 +238,14 @@ std::string boxCones(const Plan& plan) {
                           parts::kCones);
 }
 
+std::string triangleShader(const Plan& plan) {
+  const int first = plan.options.countReadings ? 3 : 2;
+  const Macros macros{
+      {"OPERANDS", operandCount(plan)}, {"LOOK", std::to_string(first)}, {"GLOW", std::to_string(first + 1)}};
+  Composer composer(plan.options.es, macros, {}, {});
+  return composer.compose(std::string(parts::kCamera) + parts::kHit + parts::kFavoured + parts::kTriangles);
+}
+
 std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
   const auto operations = [](const Expr& e) { return static_cast<double>(operationsOf({&e, 1})); };
   const auto& [many, others] = *plan.kinds;
@@ -249,7 +270,7 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
     } else if (const Box box = boundsOf(others); box.finite() && operations(rest) > kLongCones) {
       both.boxes = {box};
     }
-    both.cones = both.boxes.empty();
+    both.cones = plan.cones && both.boxes.empty();
     result.push_back(passOf(obstacles[i], both, plan));
   }
   if (!plan.planes.empty())
@@ -261,7 +282,8 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
 // of its own: pixels that are drawn together then read together, each a group of its own. What is least is a
 // float where the distance of all is their step, else a vec2 of the step and the distance.
 std::string sharing(const Plan& plan, const RowWriter& rows) {
-  const auto& [many, others] = *plan.kinds;
+  const std::vector<OperandKind>& many = plan.kinds->many;
+  const std::vector<NumberedOperand> others = othersAndDrawn(plan);
   const bool hasPlanes = !plan.planes.empty(), hasBeside = hasPlanes || !others.empty();
   const bool apart = areApart(plan);
   const std::string type = apart ? "vec2" : "float", distance = apart ? "least.y" : "least";
@@ -310,7 +332,7 @@ std::string sharing(const Plan& plan, const RowWriter& rows) {
 Functions sharedFunctions(const Plan& plan) {
   const auto outputs = [](const Marched& m) { return isApart(m) ? partsOf(m) : std::vector{m.distance}; };
   Functions functions{
-      {"sdfOthers", [&, outputs] { return outputs(leastOf(plan.kinds->others)); }},
+      {"sdfOthers", [&, outputs] { return outputs(leastOf(othersAndDrawn(plan))); }},
       {"sdfBeside", [&, outputs] { return outputs(besideOf(plan)); }},
       {"sdfNearestBeside", [&] { return std::vector{numberOfNearest(othersAndPlanes(plan))}; }}};
   for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {

@@ -241,6 +241,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     FOOTPRINT
     TAKE_OPERAND
     sdfSurface(p, n, s);
+    TAKE_LOOK
     vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;

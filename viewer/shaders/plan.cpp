@@ -15,6 +15,7 @@ namespace {
 /// A scene's half spaces, and its other parts with their operands.
 struct Split {
   std::vector<HalfSpace> planes;
+  std::vector<DrawnMesh> drawn;
   std::vector<Shape> others;
   std::vector<NumberedOperand> operands;
 };
@@ -29,7 +30,19 @@ std::optional<HalfSpace> halfSpaceOf(const Part& part, double number) {
   return HalfSpace{operandsOf(part.shape, number).front(), distance * once, dot(g, normal()) * once};
 }
 
-Split split(const Scene& scene, bool withPlanes) {
+// The operand as triangles, if it is a mesh that is drawn.
+std::optional<DrawnMesh> drawnMeshOf(const Shape& shape, const NumberedOperand& operand) {
+  auto placed = placedMesh(shape);
+  if (!placed) return {};
+  const bool own = hasOwnMaterial(shape, *placed->field);
+  return DrawnMesh{operand, std::move(*placed), own};
+}
+
+std::vector<Shape> operandShapesOf(const Shape& shape) {
+  return isHardUnion(shape) ? shape.outer->operands : std::vector{shape};
+}
+
+Split split(const Scene& scene, bool withPlanes, bool withDrawn) {
   Split result;
   double number = 0.0;
   for (const Part& part : scene.parts) {
@@ -38,7 +51,12 @@ Split split(const Scene& scene, bool withPlanes) {
       result.planes.push_back(std::move(*plane));
     } else {
       result.others.push_back(part.shape);
-      result.operands.insert(result.operands.end(), operands.begin(), operands.end());
+      const std::vector<Shape> shapes = operandShapesOf(part.shape);
+      for (std::size_t i = 0; i < operands.size(); ++i)
+        if (auto mesh = withDrawn ? drawnMeshOf(shapes[i], operands[i]) : std::nullopt)
+          result.drawn.push_back(std::move(*mesh));
+        else
+          result.operands.push_back(operands[i]);
     }
     number += static_cast<double>(operands.size());
   }
@@ -93,8 +111,14 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   const View view = options.view;
   const bool isPicture = view == View::Picture;
   const bool mirrors = !whole.surface[static_cast<int>(Attribute::Reflectivity)].isConstant(0.0);
-  Split parts = split(scene, !stepsCount);
+  // Counts of steps, gradients and slices are the whole's.
+  const bool showsHits = isPicture || view == View::Normals || view == View::Material ||
+                         view == View::Occlusion || view == View::Shadow;
+  // A group is read without what marchable() adds where a slope is known near the bounds only.
+  const bool mayGroup = options.sharing && slopeOf(whole) < kInfinity;
+  Split parts = split(scene, !stepsCount, options.drawing && mayGroup && showsHits && !stepsCount);
   plan.planes = std::move(parts.planes);
+  plan.drawn = std::move(parts.drawn);
   const Shape rest = plan.planes.empty() || parts.others.empty() ? whole : unite(parts.others);
   if (plan.planes.empty()) {
     plan.rest = plan.whole;
@@ -102,7 +126,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
     if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
   }
   plan.cones = options.method == Method::AutoRelaxed && !stepsCount;
-  plan.tiled = plan.cones && isPicture && plan.planes.empty();
+  plan.tiled = plan.cones && isPicture && plan.planes.empty() && plan.drawn.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
   if (plan.lights) plan.shadow = scene.shadow.kind;
@@ -110,13 +134,11 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;
   if (isPicture || view == View::Material) planSurface(whole, plan);
-  // A group is read without what marchable() adds where a slope is known near the bounds only.
-  if (options.sharing && slopeOf(whole) < kInfinity)
-    if (Kinds kinds = kindsOf(parts.operands); !kinds.many.empty()) plan.kinds = std::move(kinds);
-  // Counts of steps, gradients and slices are the whole's.
-  const bool showsHits = isPicture || view == View::Normals || view == View::Material ||
-                         view == View::Occlusion || view == View::Shadow;
-  plan.grouped = plan.kinds && plan.cones && showsHits;
+  if (mayGroup)
+    if (Kinds kinds = kindsOf(parts.operands); !kinds.many.empty() || !plan.drawn.empty())
+      plan.kinds = std::move(kinds);
+  plan.looks = !plan.drawn.empty() && (isPicture || view == View::Material);
+  plan.grouped = plan.kinds && showsHits && (plan.cones || !plan.drawn.empty());
   return plan;
 }
 

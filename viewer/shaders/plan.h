@@ -6,6 +6,7 @@
 
 #include "sdf/model/groups.h"
 #include "sdf/scene/scene.h"
+#include "sdf/shape/triangle_solid.h"
 
 namespace sdf::viewer {
 
@@ -33,6 +34,7 @@ struct ShaderOptions {
   bool countReadings = false;  ///< a second output: readings by primary rays, shadows, occlusion, reflections
   bool es = false;             ///< GLSL ES 3.00 instead of 3.30 core
   bool sharing = true;         ///< like operands may share their code; else all of it is written out
+  bool drawing = true;         ///< meshes from files may be drawn as triangles; else they are marched
 };
 
 /// A Marched distance is one that rays can be marched through; see Marchable.
@@ -49,6 +51,13 @@ struct HalfSpace {
   Expr climb;   ///< how the height changes along the direction in normal()
 };
 
+/// A DrawnMesh is an operand that is drawn as the triangles that it was made from.
+struct DrawnMesh {
+  NumberedOperand operand;
+  PlacedMesh placed;
+  bool own = true;  ///< it looks as its file says; else as it is painted
+};
+
 /// A Plan is all that decides which shaders are written, and which uniforms they take.
 struct Plan {
   ShaderOptions options;
@@ -56,13 +65,15 @@ struct Plan {
   /// What is marched: the whole without its half spaces, if there is more than these.
   std::optional<Marched> rest;
   std::vector<HalfSpace> planes;
+  std::vector<DrawnMesh> drawn;
   /// The operands of the whole, if a hit's surface follows from the number of its operand.
   std::vector<NumberedOperand> operands;
-  /// The operands of the rest, if some are of a kind whose formula they share: then the whole's distance is
-  /// read by loops over the kinds' groups.
+  /// The operands of the rest but those that are drawn as triangles, if there are such, or some are of a kind
+  /// whose formula they share: then the whole's distance is read by loops over the kinds' groups.
   std::optional<Kinds> kinds;
   std::vector<Expr> surface;  ///< the attributes of a hit, if they are shown
   Rows surfaceRows;           ///< the numbers in them, by operand; without parameters if there are none
+  bool looks = false;         ///< what is shown may look as the triangles of a drawn mesh do
   bool grouped = false;       ///< each group of the kinds is drawn by itself
   bool plain = false;         ///< rays take plain steps
   bool cones = false;         ///< rays start where the cone pass says

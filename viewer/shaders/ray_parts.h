@@ -30,6 +30,7 @@ struct Ray {
 };
 
 const int MISS = 0, HIT = 1, BUDGET = 2;  // what becomes of a ray
+const int DRAWN = 3;                      // or a hit that looks as hitLook and hitGlow say
 
 Ray rayThrough(vec2 pixel) {
   vec2 uv = (pixel - 0.5 * size) / size.y;
@@ -259,14 +260,17 @@ void main() {
 }
 )";
 
+/// Defines favoured(ray, hit), the t by which hits are sorted.
+inline constexpr const char* kFavoured = R"(
+// Of two operands that are hit at once the later shows: t less a hair that grows with the operand's number, up to how
+// far off a ray may be when it hits.
+float favoured(Ray ray, Hit hit) { return hit.t - hitDistance(ray, hit.t) * (hit.operand + 1.0) / OPERANDS; }
+)";
+
 /// Declares the layers that keep hits, and defines main() of a hit pass, which fills them.
 inline constexpr const char* kHits = R"(
 layout(location = 0) out vec4 hitSurface;   // the normal, and t
 layout(location = 1) out vec2 hitIdentity;  // the operand, and the status
-
-// Of two operands that are hit at once the later shows: t less a hair that grows with the operand's number, up to how
-// far off a ray may be when it hits.
-float favoured(Ray ray, Hit hit) { return hit.t - hitDistance(ray, hit.t) * (hit.operand + 1.0) / OPERANDS; }
 
 void main() {
   sdfTakeValues();

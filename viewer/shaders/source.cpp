@@ -8,6 +8,7 @@
 
 #include "viewer/shaders/light_parts.h"
 #include "viewer/shaders/ray_parts.h"
+#include "viewer/shaders/triangle_parts.h"
 #include "viewer/shaders/view_parts.h"
 
 namespace sdf::viewer {
@@ -86,7 +87,7 @@ std::vector<std::string> deadMacros(const Macros& macros) {
   // clang-format off
   static constexpr const char* kParts[] = {
       kCamera, kHit, kField, kRest, kRestByBox, kPlanes, kNoPlanes, kMarch, kGradient, kGradientByTaps, kNormal, kMeet,
-      kStarts, kHitCounts, kPictureCounts, kCones, kHits, kHitFromLayers, kFootprint, kShadowSpan,
+      kStarts, kHitCounts, kPictureCounts, kCones, kFavoured, kHits, kTriangles, kTakeLook, kHitFromLayers, kFootprint, kShadowSpan,
       kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kHardShadow, kSoftShadow,
       kImprovedShadow, kSignedShadow, kOcclusionTaps, kOcclusionSteps, kLightSettings, kLights, kGlossy, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,

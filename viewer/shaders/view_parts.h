@@ -74,6 +74,7 @@ vec3 shown(Ray ray, Hit hit) {
   FOOTPRINT
   TAKE_OPERAND
   sdfSurface(p, n, s);
+  TAKE_LOOK
   return vec3(s[RED], s[GREEN], s[BLUE]);
 }
 )";

@@ -10,12 +10,6 @@
 
 namespace sdf {
 
-/// A mesh and what of its file was left out or taken otherwise than meant, a sentence each.
-struct ReadMesh {
-  TriangleMesh mesh;
-  std::vector<std::string> warnings;
-};
-
 /// More triangles than these are refused: they would take gigabytes.
 inline constexpr std::size_t kMostReadTriangles = 50'000'000;
 /// Vertices farther than this from the origin along an axis are refused: products of three such lengths

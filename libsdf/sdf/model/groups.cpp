@@ -199,8 +199,6 @@ Attributes chosen(std::span<const Attributes> all, const Expr& number) {
   return result;
 }
 
-bool isHardUnion(const Shape& shape) { return shape.outer && shape.outer->blend.kind == Blend::Kind::Hard; }
-
 NumberedOperand numbered(const Shape& shape, double number) {
   return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, growthOf(shape.claim), number,
           slopeOf(shape)};
@@ -213,6 +211,8 @@ Attributes attributesFrom(const std::vector<Expr>& list) {
 }
 
 }  // namespace
+
+bool isHardUnion(const Shape& shape) { return shape.outer && shape.outer->blend.kind == Blend::Kind::Hard; }
 
 std::vector<NumberedOperand> operandsOf(const Shape& shape, double first) {
   if (!isHardUnion(shape)) return {numbered(shape, first)};

@@ -18,6 +18,9 @@ struct NumberedOperand {
   double slope = 1.0;  ///< of the distance; infinite where it is not known
 };
 
+/// Is it the least of several operands, not blended?
+bool isHardUnion(const Shape& shape);
+
 /// The operands of a hard union, numbered from `first` on; any other shape is its own only one.
 std::vector<NumberedOperand> operandsOf(const Shape& shape, double first = 0.0);
 

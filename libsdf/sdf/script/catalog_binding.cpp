@@ -297,13 +297,12 @@ int importedMesh(lua_State* L) {
   if (!c.options.readMesh) raise(L, "mesh: this program reads no mesh files");
   const auto file = permitted(name, c.file, c.options);
   if (!file) raise(L, file.error().message);
-  const auto field = meshField(*file, valueOr(given, "voxels", 128), c.options.readMesh);
-  if (!field) raise(L, field.error().message);
-  if (const std::string note = noteOf(**field); !note.empty()) {
-    const std::string line = name + ": " + note;
-    if (std::ranges::find(c.scene.notes, line) == c.scene.notes.end()) c.scene.notes.push_back(line);
-  }
-  return pushGood(L, triangleSolid(*field));
+  const auto read = meshField(*file, valueOr(given, "voxels", 128), c.options.readMesh);
+  if (!read) raise(L, read.error().message);
+  const std::string note = name + ": " + read->note;
+  if (!read->note.empty() && std::ranges::find(c.scene.notes, note) == c.scene.notes.end())
+    c.scene.notes.push_back(note);
+  return pushGood(L, triangleSolid(read->field));
 }
 
 int notArithmetic(lua_State* L) {

@@ -30,6 +30,20 @@ std::string counted(std::size_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+// What was mended, beside what the reader says.
+std::string noteOf(const MeshField& field, const std::vector<std::string>& warnings) {
+  const ClosedTriangles& all = field.distance().triangles();
+  std::string note;
+  const auto say = [&](const std::string& what) { note += (note.empty() ? "" : "; ") + what; };
+  for (const std::string& warning : warnings) say(warning);
+  if (all.holes > 0) say(counted(all.holes, "hole was", "holes were") + " closed");
+  if (all.turned > 0)
+    say(counted(all.turned, "triangle was", "triangles were") + " turned to agree with its neighbours");
+  if (field.distance().signBy() == SignBy::Winding)
+    say("its surface crosses or touches itself, or is turned inside out: inside is what it winds around");
+  return note;
+}
+
 }  // namespace
 
 Result<fs::path> permitted(const std::string& name, const fs::path& scene, const ScriptOptions& options) {
@@ -45,35 +59,28 @@ Result<fs::path> permitted(const std::string& name, const fs::path& scene, const
                                      "its folder with --allow-dir " + file.parent_path().string()};
 }
 
-Result<std::shared_ptr<const MeshField>> meshField(const fs::path& file, int voxels, const MeshReader& read) {
+Result<NotedField> meshField(const fs::path& file, int voxels, const MeshReader& read) {
+  struct Kept {
+    std::weak_ptr<const MeshField> field;
+    std::string note;
+  };
   static std::mutex mutex;
-  static std::map<State, std::weak_ptr<const MeshField>> kept;
+  static std::map<State, Kept> kept;
   const State state = stateOf(file, voxels);
   {
     const std::lock_guard lock(mutex);
-    std::erase_if(kept, [](const auto& entry) { return entry.second.expired(); });
+    std::erase_if(kept, [](const auto& entry) { return entry.second.field.expired(); });
     if (const auto found = kept.find(state); found != kept.end())
-      if (auto field = found->second.lock()) return field;
+      if (auto field = found->second.field.lock()) return NotedField{std::move(field), found->second.note};
   }
-  const Result<TriangleMesh> mesh = read(file);
+  Result<ReadMesh> mesh = read(file);
   if (!mesh) return mesh.error();
-  auto field = MeshField::make(*mesh, voxels);
+  auto field = MeshField::make(std::move(mesh->mesh), voxels);
   if (!field) return Error{field.error().kind, file.string() + ": " + field.error().message};
+  NotedField made{*field, noteOf(**field, mesh->warnings)};
   const std::lock_guard lock(mutex);
-  kept[state] = *field;
-  return field;
-}
-
-std::string noteOf(const MeshField& field) {
-  const ClosedTriangles& all = field.distance().triangles();
-  std::string note;
-  const auto say = [&](const std::string& what) { note += (note.empty() ? "" : "; ") + what; };
-  if (all.holes > 0) say(counted(all.holes, "hole was", "holes were") + " closed");
-  if (all.turned > 0)
-    say(counted(all.turned, "triangle was", "triangles were") + " turned to agree with its neighbours");
-  if (field.distance().signBy() == SignBy::Winding)
-    say("its surface crosses or touches itself, or is turned inside out: inside is what it winds around");
-  return note;
+  kept[state] = {made.field, made.note};
+  return made;
 }
 
 }  // namespace sdf

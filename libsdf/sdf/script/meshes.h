@@ -15,12 +15,15 @@ namespace sdf {
 Result<std::filesystem::path> permitted(const std::string& name, const std::filesystem::path& scene,
                                         const ScriptOptions& options);
 
-/// The mesh as a field. While one lives, the same one is given for the same file, if that has not changed.
-/// Errors: those of the reader; Scene where the mesh has no inside.
-Result<std::shared_ptr<const MeshField>> meshField(const std::filesystem::path& file, int voxels,
-                                                   const MeshReader& read);
+/// A mesh as a field, and what a scene's author should know of it: what the reader warned of, holes that were
+/// closed, surfaces that cross; or "".
+struct NotedField {
+  std::shared_ptr<const MeshField> field;
+  std::string note;
+};
 
-/// What a scene's author should know of the mesh: holes that were closed, surfaces that cross; or "".
-std::string noteOf(const MeshField& field);
+/// Reads a mesh. While its field lives, the same one is given for the same file, if that has not changed.
+/// Errors: those of the reader; Scene where the mesh has no inside.
+Result<NotedField> meshField(const std::filesystem::path& file, int voxels, const MeshReader& read);
 
 }  // namespace sdf

@@ -14,7 +14,7 @@
 namespace sdf {
 
 /// Reads a triangle mesh from a file. Errors name the file.
-using MeshReader = std::function<Result<TriangleMesh>(const std::filesystem::path& file)>;
+using MeshReader = std::function<Result<ReadMesh>(const std::filesystem::path& file)>;
 
 struct ScriptOptions {
   /// Overrides of param(name, …); a name that the scene lacks is an error.

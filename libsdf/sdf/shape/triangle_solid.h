@@ -1,13 +1,31 @@
 // Triangle meshes as shapes.
 #pragma once
+#include <array>
 #include <memory>
+#include <optional>
 
 #include "sdf/shape/shape.h"
 #include "sdf/triangles/mesh_field.h"
 
 namespace sdf {
 
-/// The solid that the field's triangles wind around, in the default material. Exact, with L = 1, where
+/// The mesh's colour, the mean over its area, with colours of vertices and textures; and the like of its
+/// other numbers. Highlights are those of glTF's rough surfaces in Phong's terms: exponent (1 / roughness^4 -
+/// 1) / 2, as bright as energy allows.
+Material meanMaterial(const TriangleMesh& mesh);
+
+/// A mesh that is only moved, turned and scaled.
+struct PlacedMesh {
+  std::shared_ptr<const MeshField> field;
+  std::array<Expr, 3> at;  ///< its own coordinates of the scene's position, linear functions of that
+};
+
+/// The shape as a mesh that was only moved, turned and scaled, if it is one.
+std::optional<PlacedMesh> placedMesh(const Shape& shape);
+/// Has the shape the material that triangleSolid gave it?
+bool hasOwnMaterial(const Shape& shape, const MeshField& field);
+
+/// The solid that the field's triangles wind around, in its meanMaterial. Exact, with L = 1, where
 /// normals tell its sides; else a bound, for triangles may lie within it. The exact distance is what is
 /// meshed and computed on the CPU; shaders read the field's samples.
 Shape triangleSolid(const std::shared_ptr<const MeshField>& field);

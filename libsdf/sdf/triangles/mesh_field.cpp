@@ -12,14 +12,14 @@ double ulpUp(double v) { return std::nextafter(v, HUGE_VAL); }
 
 }  // namespace
 
-Result<std::shared_ptr<const MeshField>> MeshField::make(const TriangleMesh& mesh, int voxels) {
+Result<std::shared_ptr<const MeshField>> MeshField::make(TriangleMesh mesh, int voxels) {
   constexpr int kLeast = 16, kMost = 1024;
   const auto error = [](const std::string& what) { return Error{ErrorKind::Scene, what}; };
   if (voxels < kLeast || voxels > kMost)
     return error("voxels must be from 16 to 1024, got " + std::to_string(voxels));
   ClosedTriangles triangles = closed(mesh);
   if (triangles.triangles.empty()) return error("no triangle of this mesh has an area");
-  std::shared_ptr<const MeshField> field(new MeshField(std::move(triangles), voxels));
+  std::shared_ptr<const MeshField> field(new MeshField(std::move(mesh), std::move(triangles), voxels));
   if (!field->distance().hasInside())
     return error("the triangles of this mesh enclose nothing: it is no solid");
   return field;

@@ -20,8 +20,9 @@ class MeshField : public Payload {
  public:
   /// The distance to a mesh, after `closed`. `voxels` (16 to 1024): how many of them a shader's samples have
   /// along the longest side. Errors (Scene): other voxels, a mesh that encloses nothing. Cost: n log n.
-  static Result<std::shared_ptr<const MeshField>> make(const TriangleMesh& mesh, int voxels = 128);
+  static Result<std::shared_ptr<const MeshField>> make(TriangleMesh mesh, int voxels = 128);
 
+  const TriangleMesh& mesh() const { return mesh_; }
   const TriangleDistance& distance() const { return distance_; }
   /// The samples, which are taken when they are first asked for.
   const Bricks& bricks() const;
@@ -37,7 +38,9 @@ class MeshField : public Payload {
   std::span<const PayloadVolume> volumes() const override { return bricks().volumes; }
 
  private:
-  MeshField(ClosedTriangles triangles, int voxels) : distance_(std::move(triangles)), voxels_(voxels) {}
+  MeshField(TriangleMesh mesh, ClosedTriangles triangles, int voxels)
+      : mesh_(std::move(mesh)), distance_(std::move(triangles)), voxels_(voxels) {}
+  TriangleMesh mesh_;
   TriangleDistance distance_;
   int voxels_;
   mutable std::once_flag sampled_;

@@ -37,4 +37,10 @@ struct TriangleMesh {
   std::vector<TextureImage> images;
 };
 
+/// A mesh and what of its file was left out or taken otherwise than meant, a sentence each.
+struct ReadMesh {
+  TriangleMesh mesh;
+  std::vector<std::string> warnings;
+};
+
 }  // namespace sdf

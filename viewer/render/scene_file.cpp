@@ -1,0 +1,15 @@
+#include "viewer/render/scene_file.h"
+
+#include <utility>
+
+#include "sdf/gltf/read_mesh.h"
+
+namespace sdf::viewer {
+
+Result<Scene> SceneFile::load(ScriptOptions options) const {
+  options.readMesh = readMesh;
+  options.folders = folders;
+  return loadScene(path, options);
+}
+
+}  // namespace sdf::viewer

@@ -1,0 +1,23 @@
+// Where scenes come from.
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "sdf/script/script.h"
+
+namespace sdf::viewer {
+
+/// A SceneFile is a scene's file, and the folders beside its own from which it may read meshes.
+struct SceneFile {
+  std::filesystem::path path;
+  std::vector<std::filesystem::path> folders{};
+
+  SceneFile() = default;
+  SceneFile(std::filesystem::path file, std::vector<std::filesystem::path> more = {})  // NOLINT: implicit
+      : path(std::move(file)), folders(std::move(more)) {}
+
+  /// Runs the file with these options, and a reader of meshes. Errors: those of loadScene and readMesh.
+  Result<Scene> load(ScriptOptions options) const;
+};
+
+}  // namespace sdf::viewer

@@ -1,0 +1,85 @@
+// The shaders' parts that draw triangles into the layers of hits; see ray_parts.h.
+#pragma once
+
+namespace sdf::viewer::parts {
+
+/// The vertex shader. Its uniforms place the triangles before the eye, in double on the CPU, so that they are
+/// as sharp far from the origin.
+inline constexpr const char* kTrianglesVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 color;
+layout(location = 3) in vec2 coordinates;
+uniform vec4 toEye[3];    // rows: along the picture's right and up, and forward
+uniform vec4 toNormal[3]; // rows: of a normal in the scene
+uniform vec4 lens;        // pictures' heights by their distance, along x also by their width; the sample's shift
+uniform float nearest;    // distance along `forward` from which on triangles are seen
+out vec3 seen, facing, tint;
+out vec2 textureAt;
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  seen = vec3(dot(toEye[0], p), dot(toEye[1], p), dot(toEye[2], p));
+  facing = vec3(dot(toNormal[0].xyz, normal), dot(toNormal[1].xyz, normal), dot(toNormal[2].xyz, normal));
+  tint = color;
+  textureAt = coordinates;
+  gl_Position = vec4(lens.xy * seen.xy + lens.zw * seen.z, seen.z - 2.0 * nearest, seen.z);
+}
+)";
+
+/// Declares the layers of hits and of how drawn triangles look, and defines main() of the pass that fills
+/// them. It uses favoured() of kHits' part.
+inline constexpr const char* kTriangles = R"(
+layout(location = 0) out vec4 hitSurface;
+layout(location = 1) out vec2 hitIdentity;
+layout(location = LOOK) out vec4 hitLook;      // linear base colour, and roughness
+layout(location = GLOW) out vec4 hitGlow;      // emission, and how much of a metal it is
+in vec3 seen, facing, tint;
+in vec2 textureAt;
+uniform sampler2D colorTexture, emissionTexture;
+uniform vec4 look, glow;
+uniform vec2 identity;  // operand and status
+
+void main() {
+  Ray ray = rayThrough(floor(gl_FragCoord.xy) + within);
+  vec3 flat_ = cross(dFdx(seen), dFdy(seen));
+  vec3 n = facing;
+  if (n == vec3(0.0)) {
+    n = flat_.x * right + flat_.y * up + flat_.z * normalize(forward);
+    n *= -sign(dot(n, ray.direction));
+  } else if (!gl_FrontFacing) {
+    n = -n;
+  }
+  Hit hit = Hit(int(identity.y), length(seen) - ray.before, normalize(n), identity.x, 0);
+  hitSurface = vec4(hit.normal, hit.t);
+  hitIdentity = identity;
+  hitLook = vec4(look.rgb * tint * texture(colorTexture, textureAt).rgb, look.a);
+  hitGlow = vec4(glow.rgb * texture(emissionTexture, textureAt).rgb, glow.a);
+  gl_FragDepth = favoured(ray, hit) / maxDistance;
+}
+)";
+
+/// Defines takeLook(hit, s), which gives a surface's attributes the look of triangles that were drawn: as
+/// meanMaterial() does (shape/triangle_solid.h).
+inline constexpr const char* kTakeLook = R"(
+uniform sampler2D hitLook, hitGlow;
+
+void takeLook(Hit hit, inout float s[ATTRIBUTES]) {
+  if (hit.status != DRAWN) return;
+  vec4 look = texelFetch(hitLook, ivec2(gl_FragCoord.xy), 0), glow = texelFetch(hitGlow, ivec2(gl_FragCoord.xy), 0);
+  float rough = max(look.a, 0.05), shininess = 0.5 * (1.0 / (rough * rough * rough * rough) - 1.0);
+  float mirror = glow.a * (1.0 - look.a);
+  vec3 color = (1.0 - mirror) * look.rgb, straight = mix(vec3(0.04), look.rgb, glow.a);
+  vec3 specular = min(straight * (4.0 * shininess + 2.0) / 8.0, 1.0);
+  s[RED] = color.r, s[GREEN] = color.g, s[BLUE] = color.b;
+  s[AMBIENT_RED] = color.r, s[AMBIENT_GREEN] = color.g, s[AMBIENT_BLUE] = color.b;
+  s[SPECULAR_RED] = specular.r, s[SPECULAR_GREEN] = specular.g, s[SPECULAR_BLUE] = specular.b;
+  s[SHININESS] = shininess;
+  s[REFLECTIVITY] = mirror * (1.0 - look.a);
+  s[FRESNEL_POWER] = 5.0;
+  s[FRESNEL_BIAS] = 1.0;
+  s[EMISSION_RED] = glow.r, s[EMISSION_GREEN] = glow.g, s[EMISSION_BLUE] = glow.b;
+}
+)";
+
+}  // namespace sdf::viewer::parts
