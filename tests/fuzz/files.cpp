@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fuzz/targets.h"
+#include "sdf/base/file.h"
 #include "sdf/gltf/read_formats.h"
 
 namespace sdf::fuzz {
@@ -16,12 +17,13 @@ constexpr const char* kFolder = "/no/such/folder/";
 
 bool finite(const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
-void checkError(const Error& error) {
+void checkError(const std::filesystem::path& file, const Error& error) {
   const auto fault = [&](const char* what) { find(std::string(what) + ": '" + error.message + "'"); };
   if (error.kind != ErrorKind::Files && error.kind != ErrorKind::Limits) fault("an error of another kind");
   if (error.message.find_first_of("\r\n") != std::string::npos) fault("more than one line");
-  if (!error.message.starts_with("cannot read '")) fault("an error that does not name the file");
-  if (error.message.find("it is broken: ") != std::string::npos) fault("a library's exception");
+  const std::string start = "cannot read '" + file.string() + "': ";
+  if (!error.message.starts_with(start)) fault("an error that does not name the file");
+  if (error.message.starts_with(start + "it is broken: ")) fault("a library's exception");
 }
 
 void checkMesh(const TriangleMesh& mesh) {
@@ -60,10 +62,10 @@ void files(Input input) {
   const std::string bytes(input.begin(), input.end());
   const std::size_t blank = bytes.find(' ');
   if (blank == std::string::npos || blank > 16 || bytes.size() > kMostBytes) return;
-  const MeshFile file{kFolder + bytes.substr(0, blank), bytes.substr(blank + 1)};
-  if (!checkReadable(file.path)) return;
+  const MeshFile file{kFolder + ("a." + bytes.substr(0, blank)), bytes.substr(blank + 1)};
+  if (!checkReadable(file.path) || lowerExtension(file.path).size() <= blank) return;
   const Result<ReadMesh> read = readMesh(file);
-  if (!read) return checkError(read.error());
+  if (!read) return checkError(file.path, read.error());
   checkMesh(read->mesh);
 }
 
