@@ -35,6 +35,7 @@ void replay(const std::string& target, void (*run)(Input)) {
 TEST(Corpus, SceneTextsRunOrFailWithALine) { replay("script", script); }
 TEST(Corpus, GraphsReadAlikeByEveryReading) { replay("graph", graph); }
 TEST(Corpus, ShapesBecomeSoundMeshesAndFiles) { replay("meshed", meshed); }
+TEST(Corpus, MeshFilesReadOrFailWithALine) { replay("files", files); }
 
 // The corpus is for every checkout: small, and quick to run.
 TEST(Corpus, StaysSmall) {

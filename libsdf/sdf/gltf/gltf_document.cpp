@@ -21,9 +21,7 @@ constexpr std::string_view kUnderstood[] = {kCompression, "KHR_lights_punctual",
 
 /// tinygltf goes into extensions and extras by recursion.
 constexpr int kDeepestNesting = 64;
-struct NestedTooDeep : std::exception {
-  const char* what() const noexcept override { return "JSON nested too deep"; }
-};
+struct NestedTooDeep {};
 
 std::uint32_t word(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -141,6 +139,8 @@ class GltfOpener {
       return bad("its JSON is broken at byte " + std::to_string(error.byte));
     } catch (const Json::exception&) {
       return bad("its JSON is broken");
+    } catch (const NestedTooDeep&) {
+      return bad("its JSON is nested too deep");
     }
     if (!root_.is_object()) return bad("its JSON is no object");
     return okStatus();

@@ -117,6 +117,8 @@ Result<GltfElements> GltfElements::open(GltfDocument& document, int accessor) {
     if (!fit(out.count_, out.size_, out.stride_, from.byteOffset, view->size()))
       return bad(" reaches beyond its buffer view");
     out.data_ = view->data() + from.byteOffset;
+  } else if (out.count_ > document.file().bytes.size()) {
+    return bad(" is too long for what is stored of it");
   }
   if (!from.sparse.isSparse) return out;
 

@@ -5,6 +5,9 @@
 
 namespace sdf {
 
+/// readMesh for a file whose bytes are at hand; no file but what it names is opened.
+Result<ReadMesh> readMesh(const MeshFile& file);
+
 /// glTF 2.0, binary or text. Vertices that no triangle has are left out.
 Result<ReadMesh> readGltf(const MeshFile& file);
 Result<ReadMesh> readObj(const MeshFile& file);

@@ -33,11 +33,19 @@ glm::dmat4 placementOf(const tinygltf::Node& node) {
   return out;
 }
 
-/// What takes normals along, whatever their length: the inverse's transpose times |determinant|.
-glm::dmat3 normalMatrix(const glm::dmat3& m) {
-  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return glm::determinant(m) < 0.0 ? -cofactors : cofactors;
-}
+/// Where a mesh stands.
+struct Place {
+  glm::dmat4 points;
+  glm::dmat3 normals;  ///< the inverse's transpose, times |determinant|
+  bool mirrored;
+
+  explicit Place(const glm::dmat4& place) : points(place) {
+    const glm::dmat3 m(place);
+    mirrored = glm::determinant(m) < 0.0;
+    normals = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    if (mirrored) normals = -normals;
+  }
+};
 
 /// The vertices of one primitive, as accessors say them.
 struct GltfVertices {
@@ -57,6 +65,9 @@ class GltfReader {
 
   Result<ReadMesh> read() {
     read_.warnings = document_.warnings();
+    hasNormals_ = hasAttribute("NORMAL");
+    hasColors_ = hasAttribute("COLOR_0");
+    hasTexture_ = !document_.pictures().empty() && hasAttribute("TEXCOORD_");
     struct Placed {
       int node;
       glm::dmat4 place;
@@ -74,12 +85,12 @@ class GltfReader {
       if (seen[index]) return bad("its node " + std::to_string(index) + " is in more than one place");
       seen[index] = true;
       const glm::dmat4 place = above * placementOf(nodes[index]);
-      if (Status done = addMesh(nodes[index].mesh, place); !done) return done.error();
+      if (Status done = addMesh(nodes[index].mesh, Place(place)); !done) return done.error();
       const std::vector<int>& children = nodes[index].children;
       for (auto child = children.rbegin(); child != children.rend(); ++child) open.push_back({*child, place});
     }
     if (read_.mesh.materials.empty()) read_.mesh.materials.emplace_back();
-    dropUnusedLists();
+    if (read_.mesh.images.empty()) read_.mesh.textureAt.clear();
     return std::move(read_);
   }
 
@@ -101,7 +112,7 @@ class GltfReader {
     return out;
   }
 
-  Status addMesh(int index, const glm::dmat4& place) {
+  Status addMesh(int index, const Place& place) {
     if (index < 0) return okStatus();
     if (index >= static_cast<int>(document_.model().meshes.size()))
       return bad("it has no mesh " + std::to_string(index));
@@ -111,7 +122,7 @@ class GltfReader {
     return okStatus();
   }
 
-  Status addPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& place) {
+  Status addPrimitive(const tinygltf::Primitive& primitive, const Place& place) {
     const int mode = primitive.mode;
     const bool isList = mode == TINYGLTF_MODE_TRIANGLES, isStrip = mode == TINYGLTF_MODE_TRIANGLE_STRIP;
     if (!isList && !isStrip && mode != TINYGLTF_MODE_TRIANGLE_FAN) {
@@ -129,19 +140,18 @@ class GltfReader {
     const Result<GltfVertices> vertices = open(primitive, *look);
     if (!vertices) return vertices.error();
 
-    startVertices(primitive, *look, *vertices);
-    const bool mirrored = glm::determinant(glm::dmat3(place)) < 0.0;
     const std::size_t corners = vertices->corners();
     const std::size_t triangles = isList ? corners / 3 : std::max<std::size_t>(corners, 2) - 2;
     if (triangles > kMostReadTriangles - read_.mesh.triangles.size())
       return tooManyTriangles(document_.file().path);
+    startVertices(primitive, *look, *vertices);
     for (std::size_t t = 0; t < triangles; ++t) {
       // 3.7.2.1
       const std::size_t first = isList ? 3 * t : (isStrip ? t : 0);
       const std::size_t turned = isStrip ? t % 2 : 0;
       std::uint32_t of[3] = {vertices->at(first), vertices->at((isList || isStrip ? first : t) + 1 + turned),
                              vertices->at((isList || isStrip ? first : t) + 2 - turned)};
-      if (mirrored) std::swap(of[1], of[2]);
+      if (place.mirrored) std::swap(of[1], of[2]);
       for (std::uint32_t& v : of) {
         if (v >= vertices->positions.count()) {
           return bad("a triangle names vertex " + std::to_string(v) + ", and there are " +
@@ -200,32 +210,38 @@ class GltfReader {
     const bool isShared = shared_ && shared_->attributes == primitive.attributes && textureAt == textureAt_;
     shared_ = &primitive;
     textureAt_ = textureAt;
-    hasNormals_ = hasNormals_ || from.normals;
-    hasColors_ = hasColors_ || from.colors;
-    hasTexture_ = hasTexture_ || (look.textureAt && from.textureAt);
     if (isShared) return;
     ++epoch_;
     if (taken_.size() < from.positions.count()) taken_.resize(from.positions.count());
   }
 
-  std::uint32_t vertex(std::uint32_t v, const GltfVertices& from, const glm::dmat4& place) {
+  std::uint32_t vertex(std::uint32_t v, const GltfVertices& from, const Place& place) {
     Taken& taken = taken_[v];
     if (taken.epoch == epoch_) return taken.place;
     TriangleMesh& mesh = read_.mesh;
     taken = {epoch_, static_cast<std::uint32_t>(mesh.positions.size())};
-    mesh.positions.emplace_back(place * glm::dvec4(glm::dvec3(from.positions.at(v)), 1.0));
-    mesh.normals.emplace_back(from.normals ? normalMatrix(glm::dmat3(place)) * glm::dvec3(from.normals->at(v))
-                                           : glm::dvec3(0.0));
-    mesh.colors.emplace_back(from.colors ? glm::vec3(from.colors->at(v)) : glm::vec3(1.0f));
-    const glm::vec3 at = from.textureAt ? glm::vec3(glm::vec2(from.textureAt->at(v)), 1.0f) : glm::vec3(0.0f);
-    mesh.textureAt.emplace_back(from.textureAt ? glm::vec2(textureAt_.transform * at) : glm::vec2(0.0f));
+    mesh.positions.emplace_back(place.points * glm::dvec4(glm::dvec3(from.positions.at(v)), 1.0));
+    if (hasNormals_)
+      mesh.normals.emplace_back(from.normals ? place.normals * glm::dvec3(from.normals->at(v))
+                                             : glm::dvec3(0.0));
+    if (hasColors_) mesh.colors.emplace_back(from.colors ? glm::vec3(from.colors->at(v)) : glm::vec3(1.0f));
+    if (hasTexture_) {
+      const glm::vec3 at =
+          from.textureAt ? glm::vec3(glm::vec2(from.textureAt->at(v)), 1.0f) : glm::vec3(0.0f);
+      mesh.textureAt.emplace_back(textureAt_.transform * at);
+    }
     return taken.place;
   }
 
-  void dropUnusedLists() {
-    if (!hasNormals_) read_.mesh.normals.clear();
-    if (!hasColors_) read_.mesh.colors.clear();
-    if (!hasTexture_) read_.mesh.textureAt.clear();
+  /// Does a primitive have an attribute whose name begins so?
+  bool hasAttribute(const std::string& start) const {
+    for (const tinygltf::Mesh& mesh : document_.model().meshes) {
+      for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        const auto found = primitive.attributes.lower_bound(start);
+        if (found != primitive.attributes.end() && found->first.starts_with(start)) return true;
+      }
+    }
+    return false;
   }
 
   struct Taken {

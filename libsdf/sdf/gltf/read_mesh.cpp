@@ -27,15 +27,6 @@ const Readable* readableAs(const std::filesystem::path& file) {
   return nullptr;
 }
 
-Result<ReadMesh> readTidy(const std::filesystem::path& path, Reader read) {
-  const Result<MeshFile> file = readWhole(path);
-  if (!file) return file.error();
-  Result<ReadMesh> mesh = read(*file);
-  if (!mesh) return mesh;
-  if (Status tidied = tidy(path, *mesh); !tidied) return tidied.error();
-  return mesh;
-}
-
 }  // namespace
 
 Status checkReadable(const std::filesystem::path& file) {
@@ -48,16 +39,25 @@ Status checkReadable(const std::filesystem::path& file) {
   return Error{ErrorKind::Usage, std::move(message)};
 }
 
-// Libraries that take a file apart may throw what they like.
 Result<ReadMesh> readMesh(const std::filesystem::path& file) {
   if (Status known = checkReadable(file); !known) return known.error();
+  const Result<MeshFile> whole = readWhole(file);
+  return whole ? readMesh(*whole) : whole.error();
+}
+
+// Libraries that take a file apart may throw what they like.
+Result<ReadMesh> readMesh(const MeshFile& file) {
+  if (Status known = checkReadable(file.path); !known) return known.error();
   try {
-    return readTidy(file, readableAs(file)->read);
+    Result<ReadMesh> read = readableAs(file.path)->read(file);
+    if (!read) return read;
+    if (Status tidied = tidy(file.path, *read); !tidied) return tidied.error();
+    return read;
   } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::Limits,
-                 unreadable(file, "it needs more memory than there is; simplify it").message};
+    const std::string why = "it needs more memory than there is; simplify it";
+    return Error{ErrorKind::Limits, unreadable(file.path, why).message};
   } catch (const std::exception& broken) {
-    return unreadable(file, "it is broken: " + inQuotes(broken.what()));
+    return unreadable(file.path, "it is broken: " + inQuotes(broken.what()));
   }
 }
 
