@@ -44,7 +44,7 @@ TEST(Settings, ACameraMayMoveWithTime) {
 TEST(Settings, LightsArriveInOrder) {
   const Scene scene = withSphere(
       "directional_light{direction = {1, 2, 3}, color = {1, 0, 0}, intensity = 2, shadow = false}"
-      "point_light{position = {4, 5, 6}} directional_light()");
+      "point_light{position = {4, 5, 6}, radius = 0.5} directional_light{radius = 2 * time}");
   ASSERT_EQ(scene.lights.size(), 3u);
   EXPECT_EQ(scene.lights[0].kind, Light::Kind::Directional);
   expectVector(scene.lights[0].vector, 1, 2, 3);
@@ -54,6 +54,9 @@ TEST(Settings, LightsArriveInOrder) {
   EXPECT_EQ(scene.lights[1].kind, Light::Kind::Point);
   expectVector(scene.lights[1].vector, 4, 5, 6);
   EXPECT_TRUE(scene.lights[2].castsShadow);
+  EXPECT_TRUE(scene.lights[0].radius.isConstant(0.0));
+  EXPECT_TRUE(scene.lights[1].radius.isConstant(0.5));
+  EXPECT_FALSE(scene.lights[2].radius.isConstant());
 }
 
 TEST(Settings, LightsAreTheStandardOnesWhereNothingIsSaidOfLight) {

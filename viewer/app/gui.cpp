@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "viewer/app/materials.h"
 
@@ -64,6 +65,18 @@ bool coloredLight(glm::vec4& product) {
   return moved;
 }
 
+/// Of a light that has a size; shaders know whether one has.
+bool sizeOf(LookLight& light, float speed) {
+  if (light.size == 0.0f) return false;
+  constexpr float kLeast = 1e-4f, kSteepest = 89.0f;  // not quite to 0, where there would be none to drag
+  if (light.vector.w > 0.0f)
+    return ImGui::DragFloat("radius", &light.size, speed, kLeast, 1e6f, "%.3g", kClamped);
+  float degrees = glm::degrees(std::asin(light.size));
+  const bool moved = ImGui::SliderFloat("radius", &degrees, kLeast, kSteepest, "%.2f degrees", kLogarithmic);
+  if (moved) light.size = std::sin(glm::radians(degrees));
+  return moved;
+}
+
 /// `speed` is how far a drag of a pixel moves a light's place, scene units.
 bool lightControls(LookLight& light, float speed) {
   const bool point = light.vector.w > 0.0f;
@@ -77,7 +90,7 @@ bool lightControls(LookLight& light, float speed) {
   bool shadow = light.color.w > 0.0f;
   moved |= ImGui::Checkbox("casts a shadow", &shadow);
   light.color.w = shadow ? 1.0f : 0.0f;
-  return moved;
+  return sizeOf(light, speed) || moved;
 }
 
 /// The numbers of one control, if they are the same all over the part.

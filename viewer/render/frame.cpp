@@ -75,11 +75,17 @@ double Shot::pixelRadius() const { return std::tan(0.5 * glm::radians(frame_.loo
 
 double Shot::footprint() const { return frame_.filter ? 2.0 * pixelRadius() / frame_.samples : 0.0; }
 
-// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: steps by powers of 1 / 1.3247…
-glm::vec2 Shot::lobe() const {
-  const glm::dvec2 place = static_cast<double>(sample_) * glm::dvec2(0.7548776662466927, 0.5698402909980532);
+glm::vec2 Shot::placeBySteps(const glm::dvec2& steps) const {
+  const glm::dvec2 place = static_cast<double>(sample_) * steps;
   return {place.x - std::floor(place.x), place.y - std::floor(place.y)};
 }
+
+// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: steps by powers of 1 / g in two
+// dimensions, where g^3 = g + 1, and in four, where g^5 = g + 1. No combination of all of them by whole
+// numbers is one, so that together they fill their cube (Weyl 1916).
+glm::vec2 Shot::lobe() const { return placeBySteps({0.7548776662466927, 0.5698402909980532}); }
+
+glm::vec2 Shot::lightPlace() const { return placeBySteps({0.733891856627126, 0.6287067210378087}); }
 
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
   const Eye& eye = frame_.look.eye;

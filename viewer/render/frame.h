@@ -75,8 +75,10 @@ class Shot {
   /// Returns the width of a sample's cone at distance 1 over which patterns are averaged; 0 leaves them
   /// sharp.
   double footprint() const;
-  /// Returns the sample's place in the unit square, of places that fill it evenly.
+  /// Return the sample's places in unit squares, which choose a direction of a glossy mirror and a point of
+  /// each light. The places of all samples fill each square evenly, and no choice follows from another.
   glm::vec2 lobe() const;
+  glm::vec2 lightPlace() const;
   /// Draws the rays of the i-th sample from now on.
   void chooseSample(int i) { sample_ = i; }
 
@@ -85,6 +87,7 @@ class Shot {
 
  private:
   double pixelRadius() const;  // of a pixel's cone at distance 1
+  glm::vec2 placeBySteps(const glm::dvec2& steps) const;
 
   const Frame& frame_;
   int width_, height_, sample_ = 0;

@@ -21,7 +21,7 @@ std::vector<Expr> numbersOf(const Scene& scene) {
   for (const Light& light : scene.lights) {
     add(light.vector);
     add(light.color);
-    numbers.push_back(light.intensity);
+    numbers.insert(numbers.end(), {light.intensity, light.radius});
   }
   return numbers;
 }
@@ -86,6 +86,8 @@ Look LookFunction::at(const Values& values, double aspect) const {
     const glm::dvec3 place = vector(), color = vector();
     look.lights.push_back({glm::vec4(point ? place : glm::normalize(place), point ? 1.0 : 0.0),
                            glm::vec4(color * number(), light.castsShadow ? 1.0 : 0.0)});
+    const double radius = number();
+    look.lights.back().size = static_cast<float>(point ? radius : std::sin(glm::radians(radius)));
   }
   return look;
 }

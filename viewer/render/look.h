@@ -35,8 +35,9 @@ Axes axesOf(const Eye& eye);
 
 /// A LookLight is a light at one moment.
 struct LookLight {
-  glm::vec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
-  glm::vec4 color;   ///< times its intensity; w: 1 if it casts shadows
+  glm::vec4 vector;   ///< xyz: towards the light, of length 1, w 0; or its position, w 1
+  glm::vec4 color;    ///< times its intensity; w: 1 if it casts shadows
+  float size = 0.0f;  ///< its radius; of one far away, the sine of half the angle that it is seen under
   bool operator==(const LookLight&) const = default;
 };
 

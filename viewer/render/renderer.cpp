@@ -110,6 +110,12 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
     program.set("shadowHit", std::min(1e-3 * lengths.unit, 0.5 * lengths.shadowStart));
     program.set("sharpness", look.sharpness);
     program.set("shadowSteps", shadowSteps_);
+    if (plan.sized) {
+      std::vector<float> sizes;
+      for (const LookLight& light : look.lights) sizes.push_back(light.size);
+      program.set("lightSize", sizes);
+      program.set("lightPlace", shot.lightPlace());
+    }
   }
   if (plan.occlusion != AmbientOcclusion::Kind::None) program.set("tapStrength", look.occlusionStrength);
   if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", lengths.tapSpacing);

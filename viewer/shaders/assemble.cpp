@@ -49,12 +49,19 @@ std::string encoder(const Scene& scene, const Plan& plan) {
   return std::string(isSrgb ? parts::kSrgb : "") + (isPicture ? parts::kDither : "");
 }
 
+// Those that later parts choose by, pixel by pixel.
+std::string choosing(const Plan& plan) {
+  const bool chooses = plan.sized || plan.glossy;
+  return std::string(chooses || plan.options.view == View::Picture ? parts::kBayer : "") +
+         (chooses ? parts::kChosen : "");
+}
+
 // The primary rays are marched by the picture's shader, from where the cones say.
 bool startsHere(const Plan& plan) { return plan.cones && !plan.grouped && plan.options.view != View::Slice; }
 
 // Shadows of these kinds are looked for between the half spaces and the rest.
 bool readsRest(const Plan& plan) {
-  return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft;
+  return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft || plan.sized;
 }
 
 const Box& boundsOfRest(const Plan& plan) { return plan.rest ? plan.rest->bounds : plan.whole.bounds; }
@@ -91,10 +98,8 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["OCCLUSION"] = taps ? "occlusion(p, n)" : "1.0";
   macros["STEP_OCCLUSION"] = steps ? "max(0.0, 1.0 - tapStrength * float(hit.readings))" : "1.0";
   macros["DIRECT"] = plan.lights ? "direct(p, n, d, s)" : "vec3(0.0)";
-  macros["SHADE_LIGHT"] = plan.shadow == ShadowKind::None
-                              ? ""
-                              : "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
-                                "min(shadowReach, far) : shadowReach);";
+  macros["SHADE_LIGHT"] =
+      plan.shadow == ShadowKind::None ? "" : "if (lightColor[i].w > 0.0) light *= arriving(i, p, l, far);";
   macros["SHADOW_SPENT"] = plan.shadow == ShadowKind::None ? "false" : "shadowSpent";
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);
   for (int i = 0; i + 1 < kAttributeCount; ++i) macros[kAttributeNames[i]] = std::to_string(i);
@@ -105,7 +110,10 @@ std::string shadowParts(const Plan& plan) {
   if (plan.shadow == ShadowKind::None) return "";
   const char* const kinds[] = {"", parts::kHardShadow, parts::kSoftShadow, parts::kImprovedShadow,
                                parts::kSignedShadow};
-  const std::string shadow = parts::kShadowSettings + std::string(kinds[static_cast<int>(plan.shadow)]);
+  const bool looks = plan.sized || plan.shadow == ShadowKind::Hard;
+  const std::string shadow = parts::kShadowSettings + std::string(looks ? parts::kVisible : "") +
+                             kinds[static_cast<int>(plan.shadow)] +
+                             (plan.sized ? parts::kArrivingSized : parts::kArriving);
   if (!readsRest(plan)) return shadow;
   return (boundsOfRest(plan).finite() ? parts::kShadowSpan : parts::kNoShadowSpan) +
          std::string(plan.planes.empty() ? parts::kNoPlanesLight : parts::kPlanesLight) + shadow;
@@ -148,7 +156,8 @@ std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& r
   if (plan.lights) text += parts::kLightSettings;
   const char* const occlusions[] = {"", parts::kOcclusionTaps, parts::kOcclusionSteps};
   text += occlusions[static_cast<int>(plan.occlusion)];
-  return text + shadowParts(plan) + colorParts(plan) + encoder(scene, plan) + parts::kPicture;
+  return text + choosing(plan) + shadowParts(plan) + colorParts(plan) + encoder(scene, plan) +
+         parts::kPicture;
 }
 
 // Those of the kinds, and then those of the surfaces.
@@ -197,9 +206,9 @@ Shader background(const Scene& scene, const Plan& plan) {
   macros["START_RAY"] = "";
   macros["SHADOW_SPENT"] = "false";
   Composer composer(plan.options.es, macros, functions, {});
-  std::string text = composer.compose(std::string(parts::kCamera) +
-                                      (plan.options.countReadings ? parts::kPictureCounts : "") +
-                                      parts::kBackground + encoder(scene, plan) + parts::kPicture);
+  std::string text = composer.compose(
+      std::string(parts::kCamera) + (plan.options.countReadings ? parts::kPictureCounts : "") +
+      parts::kBackground + parts::kBayer + encoder(scene, plan) + parts::kPicture);
   return {std::move(text), composer.uniforms()};
 }
 
@@ -231,7 +240,8 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   std::optional<Shader> tiles;
   if (plan->tiled) tiles = background(scene, *plan);
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
-  std::string resolved = resolve.compose(encoder(scene, *plan) + parts::kResolve);
+  const char* const dithers = options.view == View::Picture ? parts::kBayer : "";
+  std::string resolved = resolve.compose(dithers + encoder(scene, *plan) + parts::kResolve);
   return SceneShaders{std::move(*plan), std::move(hits),  std::move(boxes),   rows.numbers(),
                       std::move(shown), std::move(tiles), std::move(resolved)};
 }

@@ -81,6 +81,13 @@ void planSurface(const Shape& whole, Plan& plan) {
   plan.filters = shown.changed;
 }
 
+void planShadows(const Scene& scene, Plan& plan) {
+  const auto isPoint = [](const Light& light) { return light.radius.isConstant(0.0); };
+  const auto isSized = [](const Light& l) { return l.radius.isConstant() && !l.radius.isConstant(0.0); };
+  plan.sized = !std::ranges::all_of(scene.lights, isPoint);
+  plan.shadow = std::ranges::all_of(scene.lights, isSized) ? Shadow::Kind::Hard : scene.shadow.kind;
+}
+
 }  // namespace
 
 Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
@@ -105,7 +112,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   plan.tiled = plan.cones && isPicture && plan.planes.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
-  if (plan.lights) plan.shadow = scene.shadow.kind;
+  if (plan.lights && scene.shadow.kind != Shadow::Kind::None) planShadows(scene, plan);
   if (isPicture || view == View::Occlusion) plan.occlusion = scene.ambientOcclusion.kind;
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;

@@ -34,6 +34,10 @@ struct Light {
   Vec3E color{Expr(1.0)};   ///< linear RGB
   Expr intensity = 1.0;     ///< no fall-off with distance (the seeds' and Phong's convention)
   bool castsShadow = true;
+  /// How large it is: Point, the radius of a ball, scene units; Directional, half the angle that it is seen
+  /// under, degrees below 90. Above 0 its shadows are those of all its points, whatever the shadows' kind;
+  /// what it gives where nothing is in the way, highlights included, stays that of its middle.
+  Expr radius = 0.0;
 };
 
 struct Shadow {

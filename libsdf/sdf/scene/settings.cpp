@@ -213,19 +213,23 @@ const std::vector<Setting<Scene>>& sceneSettings() {
 }
 
 const std::vector<Setting<Light>>& lightSettings() {
-  static const auto fields = [](const char* vector, const char* doc, Rule rule) {
+  static const auto fields = [](const char* vector, const char* doc, Rule rule, const char* radius) {
     return std::vector{field<&Light::vector>(vector, Kind::Vector, doc, rule),
                        field<&Light::color>("color", Kind::Color, "linear RGB"),
                        field<&Light::intensity>("intensity", Kind::Number, "factor of the colour; does not fall off with distance", Rule::NotNegative),
-                       field<&Light::castsShadow>("shadow", Kind::Flag, "whether it casts shadows")};
+                       field<&Light::castsShadow>("shadow", Kind::Flag, "whether it casts shadows"),
+                       field<&Light::radius>("radius", Kind::Number, radius, Rule::NotNegative)};
   };
   static const std::vector<Setting<Light>> settings{
       {"directional_light", "directional_light{direction = {1, 1, 1}}",
        "adds a light from far away; a scene that has no light and does not call `ambient` gets a warm one from above that casts a soft shadow, unless `shadows` says which, a weak one from the right, and a grey background if it names none",
-       fields("direction", "towards the light", Rule::NotZero), false,
-       [](Light& light) { light.kind = Light::Kind::Directional; }},
+       fields("direction", "towards the light", Rule::NotZero, "half the angle that it is seen under, degrees below 90 (the sun's is 0.27): blurs its shadows, whatever their kind; it takes many samples a pixel"), false,
+       [](Light& light) { light.kind = Light::Kind::Directional; },
+       [](const Light& light) -> std::string {
+         return uniformValue(light.radius) >= 90.0 ? ": 'radius' must be below 90 degrees" : "";
+       }},
       {"point_light", "point_light{position = {1, 1, 1}}", "adds a light at a point",
-       fields("position", "where it is", Rule::Any), false,
+       fields("position", "where it is", Rule::Any, "of a ball, scene units: blurs its shadows, whatever their kind; what is in the ball casts none; it takes many samples a pixel"), false,
        [](Light& light) { light.kind = Light::Kind::Point; }}};
   return settings;
 }
