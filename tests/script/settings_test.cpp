@@ -41,6 +41,16 @@ TEST(Settings, ACameraMayMoveWithTime) {
   EXPECT_TRUE(scene.camera.eye().x == 6.0 * sin(Expr::parameter(scene.parameters.at(0))));
 }
 
+TEST(Settings, ACameraMayHaveALens) {
+  const Camera pinhole = withSphere("camera{from = {1, 2, 3}}").camera;
+  EXPECT_TRUE(pinhole.aperture.isConstant(0.0));
+  EXPECT_FALSE(pinhole.focus);
+  const Camera lens = withSphere("camera{aperture = 0.05, focus = 1 + time}").camera;
+  EXPECT_TRUE(lens.aperture.isConstant(0.05));
+  ASSERT_TRUE(lens.focus);
+  EXPECT_FALSE(lens.focus->isConstant());
+}
+
 TEST(Settings, LightsArriveInOrder) {
   const Scene scene = withSphere(
       "directional_light{direction = {1, 2, 3}, color = {1, 0, 0}, intensity = 2, shadow = false}"

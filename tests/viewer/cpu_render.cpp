@@ -85,10 +85,10 @@ struct Surface {
   }
 };
 
-// Of each ray the places in the unit square that choose a direction of a glossy mirror's lobe and a point of
-// each light.
+// Of each ray the places in the unit square that choose a direction of a glossy mirror's lobe, a point of
+// each light and one of the lens.
 struct Choice {
-  glm::dvec2 lobe, light;
+  glm::dvec2 lobe, light, lens;
 };
 using Choices = std::vector<Choice>;
 
@@ -293,27 +293,13 @@ Picture blank(int width, int height) {
           std::vector<glm::dvec3>(count, nothing)};
 }
 
-// The samples of a row's pixels, n * n of each together, from left to right and from the bottom.
-Rays raysOfRow(const Scene& scene, const CpuRenderOptions& o, int row) {
-  Rays rays;
-  const Pinhole camera(scene.camera, o.width, o.height);
-  const auto within = [&](int i, int sample) { return i + (sample + 0.5) / o.samples; };
-  for (int column = 0; column < o.width; ++column)
-    for (int sample = 0; sample < o.samples * o.samples; ++sample)
-      rays.add(
-          camera.from(),
-          camera.through(within(column, sample % o.samples), within(row, o.samples - 1 - sample / o.samples)),
-          0.0, viewLengths(scene, std::nullopt).maxDistance);
-  return rays;
-}
-
 // Bayer's pattern of 8 by 8, counted from the lower left as OpenGL does.
 unsigned bayer(unsigned x, unsigned y) {
   x ^= y;
   return (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
 }
 
-// Those of raysOfRow: the samples' places by Roberts's sequences, shifted in each pixel.
+// Those of a row's samples in the order of raysOfRow: places by Roberts's sequences, shifted in each pixel.
 Choices choicesOfRow(const CpuRenderOptions& o, int row) {
   Choices choices;
   for (int column = 0; column < o.width; ++column) {
@@ -324,16 +310,45 @@ Choices choicesOfRow(const CpuRenderOptions& o, int row) {
     };
     for (int sample = 0; sample < o.samples * o.samples; ++sample)
       choices.push_back({placeOf(sample, 0.7548776662466927, 0.5698402909980532),
-                         placeOf(sample, 0.733891856627126, 0.6287067210378087)});
+                         placeOf(sample, 0.733891856627126, 0.6287067210378087),
+                         placeOf(sample, 0.8566748838545029, 0.5385972572236101)});
   }
   return choices;
+}
+
+// A ray through a point of the picture; with a lens from one of its points, to where that of the pinhole
+// meets what is in focus.
+void addRay(const Scene& scene, const Pinhole& camera, const glm::dvec2& at, const glm::dvec2& u,
+            Rays& rays) {
+  const double radius = uniformValue(scene.camera.aperture), turn = 2.0 * std::numbers::pi * u.y;
+  const double focus = scene.camera.focus ? uniformValue(*scene.camera.focus)
+                                          : glm::length(uniform(scene.camera.to) - camera.from());
+  const glm::dvec3 d = camera.through(at.x, at.y);
+  const glm::dvec3 off = radius * std::sqrt(u.x) * camera.aside({std::cos(turn), std::sin(turn)});
+  const glm::dvec3 sharp = focus / glm::dot(d, camera.ahead()) * d;
+  rays.add(camera.from() + off, radius > 0.0 ? glm::normalize(sharp - off) : d, 0.0,
+           viewLengths(scene, std::nullopt).maxDistance);
+}
+
+// The samples of a row's pixels, n * n of each together, from left to right and from the bottom.
+Rays raysOfRow(const Scene& scene, const CpuRenderOptions& o, int row, const Choices& choices) {
+  Rays rays;
+  const Pinhole camera(scene.camera, o.width, o.height);
+  const auto within = [&](int i, int sample) { return i + (sample + 0.5) / o.samples; };
+  for (int column = 0; column < o.width; ++column)
+    for (int sample = 0; sample < o.samples * o.samples; ++sample)
+      addRay(scene, camera,
+             {within(column, sample % o.samples), within(row, o.samples - 1 - sample / o.samples)},
+             choices[rays.size()].lens, rays);
+  return rays;
 }
 
 void drawRow(const Scene& scene, const CpuRenderOptions& o, Eye& eye, int row, Picture& picture) {
   const std::size_t each = static_cast<std::size_t>(o.samples) * o.samples;
   const int half = o.samples / 2;
   const std::size_t middle = static_cast<std::size_t>((o.samples - 1 - half) * o.samples + half);
-  const Seen seen = eye.look(raysOfRow(scene, o, row), choicesOfRow(o, row), scene.reflectionBounces);
+  const Choices choices = choicesOfRow(o, row);
+  const Seen seen = eye.look(raysOfRow(scene, o, row, choices), choices, scene.reflectionBounces);
   for (int column = 0; column < o.width; ++column) {
     const std::size_t pixel = picture.at(column, row), first = each * column;
     for (std::size_t k = 0; k < each; ++k)

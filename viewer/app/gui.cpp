@@ -182,6 +182,23 @@ void marching(Controls& controls) {
   ImGui::SliderInt("samples", &controls.samples, 1, kMostSamples, "%d a side", kClamped);
 }
 
+/// Of a camera that has one; shaders know whether it has.
+void lens(Session& session) {
+  Eye eye = session.eye();
+  if (eye.aperture == 0.0) return;
+  const double far = glm::length(eye.to - eye.from);
+  constexpr double kLeast = 1e-9;  // not quite 0, where there would be none
+  double focus = eye.focus.value_or(far);
+  bool moved = ImGui::DragScalar("aperture", ImGuiDataType_Double, &eye.aperture,
+                                 static_cast<float>(1e-4 * far), &kLeast, &kLargest, "%.4g", kClamped);
+  if (ImGui::DragScalar("focus", ImGuiDataType_Double, &focus, static_cast<float>(2e-3 * far), &kLeast,
+                        &kLargest, "%.4g", kClamped)) {
+    eye.focus = focus;
+    moved = true;
+  }
+  if (moved) session.controls.eye = eye;
+}
+
 void camera(Session& session, Requests& requests) {
   ImGui::BeginDisabled(!session.controls.eye);
   if (ImGui::Button("The scene's (0)")) session.controls.eye.reset();
@@ -189,6 +206,7 @@ void camera(Session& session, Requests& requests) {
   ImGui::SameLine();
   requests.fit |= ImGui::Button("All in view (F)");
   requests.copyCamera |= ImGui::Button("Copy as scene text (C)");
+  lens(session);
   ImGui::TextWrapped("%s", textOf(session.eye()).c_str());
 }
 

@@ -87,6 +87,8 @@ glm::vec2 Shot::lobe() const { return placeBySteps({0.7548776662466927, 0.569840
 
 glm::vec2 Shot::lightPlace() const { return placeBySteps({0.733891856627126, 0.6287067210378087}); }
 
+glm::vec2 Shot::lensPlace() const { return placeBySteps({0.8566748838545029, 0.5385972572236101}); }
+
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
   const Eye& eye = frame_.look.eye;
   program.set("size", glm::vec2(width_, height_));

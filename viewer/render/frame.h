@@ -75,10 +75,12 @@ class Shot {
   /// Returns the width of a sample's cone at distance 1 over which patterns are averaged; 0 leaves them
   /// sharp.
   double footprint() const;
-  /// Return the sample's places in unit squares, which choose a direction of a glossy mirror and a point of
-  /// each light. The places of all samples fill each square evenly, and no choice follows from another.
+  /// Return the sample's places in unit squares, which choose a direction of a glossy mirror, a point of each
+  /// light and one of the lens. The places of all samples fill each square evenly, and no choice follows from
+  /// another.
   glm::vec2 lobe() const;
   glm::vec2 lightPlace() const;
+  glm::vec2 lensPlace() const;
   /// Draws the rays of the i-th sample from now on.
   void chooseSample(int i) { sample_ = i; }
 

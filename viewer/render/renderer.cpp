@@ -121,6 +121,11 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
   if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", lengths.tapSpacing);
   if (plan.filters) program.set("footprint", shot.footprint());
   if (plan.glossy) program.set("lobe", shot.lobe());
+  if (plan.lens) {
+    program.set("aperture", look.eye.aperture);
+    program.set("focus", look.eye.focus.value_or(glm::length(look.eye.to - look.eye.from)));
+    program.set("lensPlace", shot.lensPlace());
+  }
   if (view == View::Slice) {
     program.set("slicePoint", glm::vec3(look.eye.to));
     program.set("sliceNormal", axisOf(look.eye));

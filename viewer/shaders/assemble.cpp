@@ -51,7 +51,7 @@ std::string encoder(const Scene& scene, const Plan& plan) {
 
 // Those that later parts choose by, pixel by pixel.
 std::string choosing(const Plan& plan) {
-  const bool chooses = plan.sized || plan.glossy;
+  const bool chooses = plan.sized || plan.glossy || plan.lens;
   return std::string(chooses || plan.options.view == View::Picture ? parts::kBayer : "") +
          (chooses ? parts::kChosen : "");
 }
@@ -84,7 +84,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["ENCODE(c)"] = encoding(scene, plan);
   macros["BOX_MIN"] = vector(bounds.min);
   macros["BOX_MAX"] = vector(bounds.max);
-  macros["START_RAY"] = startsHere(plan) ? "startRay(ray);" : "";
+  macros["START_RAY"] = startsHere(plan) ? "startRay(ray);" : plan.lens ? "throughLens(ray);" : "";
   macros["FIND_HIT"] = !plan.grouped       ? "hit = meet(ray);"
                        : plan.bounces == 0 ? "hit = primaryHit();"
                                            : "if (bounce == 0) hit = primaryHit(); else hit = meet(ray);";
@@ -123,7 +123,7 @@ std::string shadowParts(const Plan& plan) {
 std::string colorParts(const Plan& plan) {
   if (plan.options.view == View::Picture)
     return (plan.lights ? parts::kLights : "") + std::string(plan.glossy ? parts::kGlossy : "") +
-           parts::kRadiance;
+           (plan.lens ? parts::kLens : "") + parts::kRadiance;
   const char* const shadows = plan.shadow == ShadowKind::None ? parts::kHitsView : parts::kShadowView;
   const char* const views[] = {"",
                                parts::kNormalsView,

@@ -345,6 +345,22 @@ vec3 dithered(vec3 c) {
 }
 )";
 
+/// Defines throughLens(ray), which lets a primary ray start at a point of the lens; it meets the plane in
+/// focus where it did.
+inline constexpr const char* kLens = R"(
+uniform float aperture, focus;  // radius, and how far ahead is seen sharply
+uniform vec2 lensPlace;         // the sample's, in the unit square
+
+void throughLens(inout Ray ray) {
+  vec2 u = inPixel(lensPlace);
+  vec3 off = aperture * sqrt(u.x) * (cos(6.2831853 * u.y) * right + sin(6.2831853 * u.y) * up);
+  float focal = length(forward), share = focal / focus;
+  vec3 way = ray.direction * (focal * focal / dot(ray.direction, forward)) - share * off;
+  float far = length(way);
+  ray = Ray(ray.origin + (1.0 - ahead * share) * off, way / far, ahead * far, 0.0, 1e30, maxDistance - ahead * far);
+}
+)";
+
 /// Defines main() of the picture: one sample of each pixel, encoded if it is the only one.
 inline constexpr const char* kPicture = R"(
 layout(location = 0) out vec4 color;  // alpha is 0 where a ray ran out of steps, 1/2 where only a shadow's did

@@ -108,7 +108,8 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   } else if (!parts.others.empty()) {
     if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
   }
-  plan.cones = options.method == Method::AutoRelaxed && !stepsCount;
+  plan.lens = isPicture && !scene.camera.aperture.isConstant(0.0);
+  plan.cones = options.method == Method::AutoRelaxed && !stepsCount && !plan.lens;
   plan.tiled = plan.cones && isPicture && plan.planes.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();

@@ -71,6 +71,7 @@ struct Plan {
   bool filters = false;       ///< the surface has patterns that are averaged over what a pixel covers
   int bounces = 0;            ///< reflections that are followed
   bool glossy = false;        ///< and spread over the lobe of the highlight
+  bool lens = false;          ///< primary rays start all over a lens; there are no cones then
   Shadow::Kind shadow = Shadow::Kind::None;  ///< of lights without a size
   bool sized = false;                        ///< lights that have one cast shadows, too
   AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;

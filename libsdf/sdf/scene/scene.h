@@ -12,7 +12,7 @@
 
 namespace sdf {
 
-/// Pinhole camera. Vectors may depend on parameters and time, not on position.
+/// A camera. Vectors and numbers may depend on parameters and time, not on position.
 struct Camera {
   /// None: the camera is fitted (scene/fit.h): it looks at the middle of the scene along the way from
   /// eye() to `to`, from where all of the scene is in view.
@@ -22,6 +22,9 @@ struct Camera {
   Expr fov = 45.0;  ///< vertical field of view, degrees
   /// Flips left and right, for scenes ported from shaders that build right = up x forward.
   bool mirrored = false;
+  Expr aperture = 0.0;  ///< radius of its thin lens, scene units; 0: a pinhole, which sees all sharply
+  /// How far along the way that it looks is seen sharply by a lens, scene units; none: as far as `to`.
+  std::optional<Expr> focus{};
 
   /// `from`, or {3.4, 2.6, 4.6} where there is none.
   Vec3E eye() const { return from.value_or(Vec3E(Expr(3.4), Expr(2.6), Expr(4.6))); }

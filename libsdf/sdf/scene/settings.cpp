@@ -167,7 +167,9 @@ const std::vector<Setting<Scene>>& sceneSettings() {
         field<&Scene::camera, &Camera::to>("to", Kind::Vector, "the point in the middle of the picture"),
         field<&Scene::camera, &Camera::up>("up", Kind::Vector, "what is up"),
         field<&Scene::camera, &Camera::fov>("fov", Kind::Number, "vertical field of view, below 180 degrees", Rule::Positive),
-        field<&Scene::camera, &Camera::mirrored>("mirrored", Kind::Flag, "swaps left and right")},
+        field<&Scene::camera, &Camera::mirrored>("mirrored", Kind::Flag, "swaps left and right"),
+        field<&Scene::camera, &Camera::aperture>("aperture", Kind::Number, "radius of the lens, scene units: blurs what is nearer or farther than the focus; it takes many samples a pixel", Rule::NotNegative),
+        field<&Scene::camera, &Camera::focus>("focus", Kind::Number, "how far along the way that it looks a lens sees sharply", Rule::Positive, "as far as `to`")},
        false, [](Scene& s) { s.camera.from = s.camera.eye(); },
        [](const Scene& s) -> std::string {
          if (uniformValue(s.camera.fov) >= 180.0) return ": 'fov' must be below 180 degrees";
