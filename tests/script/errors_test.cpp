@@ -213,6 +213,8 @@ TEST(Errors, ValuesThatMakeNoSenseAreRefused) {
        "scene.lua:1: directional_light: 'direction' must not be {0, 0, 0}"},
       {"point_light{radius = -1}", "scene.lua:1: point_light: 'radius' must be 0 or more, got -1"},
       {"directional_light{radius = 90}", "scene.lua:1: directional_light: 'radius' must be below 90 degrees"},
+      {"background_light(-1)", "scene.lua:1: background_light must be 0 or more, got -1"},
+      {"background_light('sky')", "scene.lua:1: background_light must be a number, got a string \"sky\""},
       {"shadows{steps = 0}", "scene.lua:1: shadows: 'steps' must be 1 or more, got 0"},
       {"shadows{kind = 'sharp'}",
        "scene.lua:1: shadows: 'kind' must be one of \"none\", \"hard\", \"soft\", "

@@ -133,6 +133,16 @@ TEST(Settings, TheRestArrives) {
   EXPECT_EQ(scene.bounds->max, glm::dvec3(1, 2, 3));
 }
 
+TEST(Settings, TheBackgroundsLightTakesThePlaceOfAmbientLight) {
+  const Scene alone = withSphere("background_light(0.5)");
+  EXPECT_TRUE(alone.backgroundLight.isConstant(0.5));
+  expectVector(alone.ambient, 0, 0, 0);
+  EXPECT_TRUE(alone.lights.empty());
+  EXPECT_EQ(alone.shadow.kind, Shadow::Kind::None);
+  for (const char* both : {"background_light(0.5) ambient(0.3)", "ambient(0.3) background_light(0.5)"})
+    expectVector(withSphere(both).ambient, 0.3, 0.3, 0.3);
+}
+
 TEST(Settings, WithoutSettingsTheScenesDefaultsStand) {
   const Scene scene = withSphere(""), fresh;
   EXPECT_FALSE(scene.camera.from);

@@ -16,6 +16,7 @@
 #include "sdf/march/ambient_occlusion.h"
 #include "sdf/march/normals.h"
 #include "sdf/march/shadow.h"
+#include "sdf/scene/background_light.h"
 #include "sdf/scene/fit.h"
 #include "viewer/cpu_camera.h"
 #include "viewer/cpu_uniform.h"
@@ -44,11 +45,13 @@ struct Present {
   MarchOptions march;
   TapePtr surface, background;
   std::vector<PresentLight> lights;
+  BackgroundLight around;
   glm::dvec3 ambient, fogColor;
   double fogDensity, sharpness, occlusionStrength;
 
   Present(const Scene& scene, const CpuRenderOptions& options)
       : march(options.march),
+        around(backgroundLight(scene)),
         ambient(uniform(scene.ambient)),
         fogColor(uniform(scene.fog.color)),
         fogDensity(uniformValue(scene.fog.density)),
@@ -160,7 +163,8 @@ class Eye {
     const std::vector<double> open = tapOcclusion(s);
     std::vector<glm::dvec3> color;
     for (std::size_t i = 0; i < s.ray.size(); ++i)
-      color.push_back(now_.ambient * s.color(i, Attribute::AmbientRed) * open[i] +
+      color.push_back((now_.ambient + now_.around.at(s.normals[i])) * s.color(i, Attribute::AmbientRed) *
+                          open[i] +
                       s.color(i, Attribute::EmissionRed));
     for (const PresentLight& light : now_.lights) addLight(light, rays, choices, s, color);
     if (scene_.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps) darkenBySteps(s, hits, color);

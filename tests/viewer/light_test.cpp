@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "sdf/scene/patterns.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
@@ -125,6 +126,62 @@ TEST(Light, IsDarkWhereAShadowRunsOutOfSteps) {
       EXPECT_GT(lit, 10) << static_cast<int>(kind) << ": more steps would have shown light";
     }
   }
+}
+
+Sky skyWithSunAt(const Expr& height) {
+  Sky sky;
+  sky.ground = Vec3E(0.2, 0.1, 0.05);
+  sky.sun = {1.0, height, 0.5};
+  sky.sunSize = 4.0;  // large enough to light the scene
+  return sky;
+}
+
+// A ball on a floor under a sky, whose sun's height is a parameter.
+Scene underASky() {
+  Scene scene;
+  scene.camera.from = Vec3E(3.0, 2.0, 4.0);
+  scene.ambient = Vec3E(0.05, 0.0, 0.0);
+  scene.background = skyColor(skyWithSunAt(scene.parameter("height", 1.0, -1.0, 1.0)));
+  scene.backgroundLight = 0.8;
+  scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
+  scene.add("floor", plane(Vec3E(0.0, 1.0, 0.0), -0.5).paint({.color = Vec3E(0.6), .reflectivity = 0.2}));
+  scene.add("ball", ball({0.0, 0.1, 0.0}, 0.6, {.color = {0.8, 0.7, 0.6}}));
+  return scene;
+}
+
+TEST(Light, OfTheBackgroundIsTheCpus) {
+  Scene scene = underASky();
+  GpuRenderOptions options;
+  options.threshold = 0.0;
+  const auto onGpu = colors(renderOnGpu(scene, options));
+  EXPECT_GE(psnr(onGpu, encode(renderOnCpu(scene, {}).color, scene.gamma)), 40.0);
+  scene.backgroundLight = 0.0;
+  EXPECT_LT(psnr(onGpu, colors(renderOnGpu(scene, options))), 20.0);
+  EXPECT_EQ(viewer::assemble(scene, {}).value().picture.text.find("backgroundLight"), std::string::npos);
+}
+
+TEST(Light, OfTheBackgroundFollowsItsParameters) {
+  const Scene scene = underASky();
+  GpuRenderOptions options;
+  options.parameters["height"] = -0.5;
+  const auto moved = renderOnGpu(scene, options);
+  const auto before = renderOnGpu(scene, {});
+  Scene low = underASky();
+  low.background = skyColor(skyWithSunAt(-0.5));
+  EXPECT_GE(psnr(colors(moved), colors(renderOnGpu(low, {}))), 60.0);
+  EXPECT_LT(psnr(colors(moved), colors(before)), 40.0);
+}
+
+// One colour all around is ambient light of that colour.
+TEST(Light, OfAGreyBackgroundIsAmbientLight) {
+  Scene scene = underASky();
+  scene.ambient = Vec3E(0.0);
+  scene.background = {0.3, 0.4, 0.5};
+  scene.backgroundLight = 1.0;
+  const auto around = renderOnGpu(scene, {});
+  scene.ambient = {0.3, 0.4, 0.5};
+  scene.backgroundLight = 0.0;
+  EXPECT_GE(psnr(colors(around), colors(renderOnGpu(scene, {}))), 80.0);
 }
 
 // A grey that lies between two bytes is the mix of both that comes nearest to it in every 8 by 8 pixels; one

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "sdf/scene/background_light.h"
+
 namespace sdf::viewer {
 namespace {
 
@@ -27,21 +29,39 @@ Frame frameOf(const LookFunction& look, Values parameters, double aspect) {
   return frame;
 }
 
-UniformValues::UniformValues(Function numbers) : numbers_(std::move(numbers)) {
-  for (const ParameterInfo& input : numbers_.inputs()) inputs_.push_back(input.name);
+OwnInputs::OwnInputs(const Function& function) {
+  for (const ParameterInfo& input : function.inputs()) names_.push_back(input.name);
+}
+
+bool OwnInputs::move(const Values& inputs) {
+  Values own;
+  for (const std::string& name : names_)
+    if (const auto value = inputs.find(name); value != inputs.end()) own.insert(*value);
+  if (own == last_) return false;
+  last_ = std::move(own);
+  return true;
+}
+
+UniformValues::UniformValues(Function numbers) : numbers_(std::move(numbers)), inputs_(numbers_) {
   vectors_.resize((numbers_.outputs().size() + 3) / 4);
 }
 
 bool UniformValues::move(const Values& inputs) {
-  Values own;
-  for (const std::string& name : inputs_)
-    if (const auto value = inputs.find(name); value != inputs.end()) own.insert(*value);
-  if (own == last_) return false;
-  const std::vector<double> values = numbers_.uniform(own);
+  if (!inputs_.move(inputs)) return false;
+  const std::vector<double> values = numbers_.uniform(inputs_.values());
   for (std::size_t i = 0; i < values.size(); ++i)
     vectors_[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
-  last_ = std::move(own);
   return true;
+}
+
+BackgroundValues::BackgroundValues(const Scene& scene)
+    : radiance_(backgroundRadiance(scene)), inputs_(radiance_) {}
+
+void BackgroundValues::move(const Values& inputs) {
+  if (!inputs_.move(inputs)) return;
+  vectors_.clear();
+  for (const glm::dvec3& part : backgroundLight(*radiance_.at(inputs_.values())).parts)
+    vectors_.emplace_back(glm::vec3(part), 0.0f);
 }
 
 Extent::Extent(const Scene& scene) : stated_(scene) {

@@ -23,6 +23,21 @@ struct Frame {
 /// Makes the frame of a scene's own look at these values, for pictures of this width by their height.
 Frame frameOf(const LookFunction& look, Values parameters = {}, double aspect = kPictureAspect);
 
+/// OwnInputs are those of all inputs that a function takes, in one frame after the other.
+class OwnInputs {
+ public:
+  explicit OwnInputs(const Function& function);
+
+  /// Takes those of a frame, and returns whether they are others than those of the frame before.
+  bool move(const Values& inputs);
+  /// Returns those of the frame.
+  const Values& values() const { return *last_; }
+
+ private:
+  std::vector<std::string> names_;  // those that a frame can move
+  std::optional<Values> last_;
+};
+
 /// UniformValues are what a shader's uniform sdfValues holds in one frame after the other.
 class UniformValues {
  public:
@@ -37,8 +52,22 @@ class UniformValues {
 
  private:
   Function numbers_;
-  std::vector<std::string> inputs_;  // those that a frame can move
-  std::optional<Values> last_;
+  OwnInputs inputs_;
+  std::vector<glm::vec4> vectors_;
+};
+
+/// BackgroundValues are what a shader's uniform backgroundLight holds in one frame after the other.
+class BackgroundValues {
+ public:
+  explicit BackgroundValues(const Scene& scene);
+
+  /// Computes the values where the scene's inputs have these, unless they are those of the frame before.
+  void move(const Values& inputs);
+  const std::vector<glm::vec4>& vectors() const { return vectors_; }
+
+ private:
+  Function radiance_;
+  OwnInputs inputs_;
   std::vector<glm::vec4> vectors_;
 };
 

@@ -69,7 +69,9 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
       values_(shaders_.picture.uniforms),
       rowValues_(shaders_.rows),
       extent_(scene),
-      shadowSteps_(scene.shadow.steps) {}
+      shadowSteps_(scene.shadow.steps) {
+  if (shaders_.plan.around) around_.emplace(scene);
+}
 
 Status Renderer::compile() {
   const Plan& plan = shaders_.plan;
@@ -119,6 +121,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
   }
   if (plan.occlusion != AmbientOcclusion::Kind::None) program.set("tapStrength", look.occlusionStrength);
   if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", lengths.tapSpacing);
+  if (around_) program.set("backgroundLight", around_->vectors());
   if (plan.filters) program.set("footprint", shot.footprint());
   if (plan.glossy) program.set("lobe", shot.lobe());
   if (plan.lens) {
@@ -189,6 +192,7 @@ void Renderer::prepare(const Frame& frame) {
   values_.move(frame.parameters);
   rowsMoved_ = rowValues_.move(frame.parameters) || rowsMoved_;
   if (backgroundValues_) backgroundValues_->move(frame.parameters);
+  if (around_) around_->move(frame.parameters);
   if (hits_) hits_->prepare(frame);
 }
 

@@ -71,6 +71,7 @@ class Renderer {
   double grain_ = 0.0;          // step of the values of what it was drawn into
   UniformValues values_;        // of the picture
   std::optional<UniformValues> backgroundValues_;
+  std::optional<BackgroundValues> around_;  // what lights surfaces of the background, if that does
   UniformValues rowValues_;
   bool rowsMoved_ = false;      // and rows_ have not been filled since
   std::optional<Texels> rows_;  // the texture sdfRows, if there are any

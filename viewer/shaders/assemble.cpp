@@ -95,6 +95,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["TAPS"] = std::to_string(scene.ambientOcclusion.count);
   macros["BOUNCES"] = std::to_string(plan.bounces);
   macros["MIRRORED"] = plan.glossy ? "glossy(d, n, s[SHININESS])" : "reflect(d, n)";
+  macros["AMBIENT"] = plan.around ? "(ambient + lightAround(n))" : "ambient";
   macros["OCCLUSION"] = taps ? "occlusion(p, n)" : "1.0";
   macros["STEP_OCCLUSION"] = steps ? "max(0.0, 1.0 - tapStrength * float(hit.readings))" : "1.0";
   macros["DIRECT"] = plan.lights ? "direct(p, n, d, s)" : "vec3(0.0)";
@@ -123,7 +124,7 @@ std::string shadowParts(const Plan& plan) {
 std::string colorParts(const Plan& plan) {
   if (plan.options.view == View::Picture)
     return (plan.lights ? parts::kLights : "") + std::string(plan.glossy ? parts::kGlossy : "") +
-           (plan.lens ? parts::kLens : "") + parts::kRadiance;
+           (plan.lens ? parts::kLens : "") + (plan.around ? parts::kLightAround : "") + parts::kRadiance;
   const char* const shadows = plan.shadow == ShadowKind::None ? parts::kHitsView : parts::kShadowView;
   const char* const views[] = {"",
                                parts::kNormalsView,

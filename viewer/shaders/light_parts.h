@@ -228,6 +228,18 @@ inline constexpr const char* kOcclusionSteps = R"(
 uniform float tapStrength;
 )";
 
+/// Defines lightAround(n), the background's light; see sdf/scene/background_light.h.
+inline constexpr const char* kLightAround = R"(
+uniform vec4 backgroundLight[9];
+
+vec3 lightAround(vec3 n) {
+  vec4 light = backgroundLight[0] + n.x * backgroundLight[1] + n.y * backgroundLight[2] + n.z * backgroundLight[3] +
+               n.x * n.y * backgroundLight[4] + n.y * n.z * backgroundLight[5] + n.z * n.x * backgroundLight[6] +
+               (3.0 * n.z * n.z - 1.0) * backgroundLight[7] + (n.x * n.x - n.y * n.y) * backgroundLight[8];
+  return max(light.rgb, 0.0);
+}
+)";
+
 /// Declares the lights.
 inline constexpr const char* kLightSettings = R"(
 uniform vec4 lightVector[LIGHTS];  // xyz: towards the light, of length 1, if w is 0; its position if w is 1
@@ -293,7 +305,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     FOOTPRINT
     TAKE_OPERAND
     sdfSurface(p, n, s);
-    vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
+    vec3 local = AMBIENT * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;
     float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t));

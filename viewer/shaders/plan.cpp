@@ -114,6 +114,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
   if (plan.lights && scene.shadow.kind != Shadow::Kind::None) planShadows(scene, plan);
+  plan.around = isPicture && !scene.backgroundLight.isConstant(0.0);
   if (isPicture || view == View::Occlusion) plan.occlusion = scene.ambientOcclusion.kind;
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;

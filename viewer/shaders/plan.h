@@ -68,6 +68,7 @@ struct Plan {
   bool cones = false;         ///< rays start where the cone pass says
   bool tiled = false;         ///< where the cones saw nothing there is only background
   bool lights = false;        ///< light is shown, and there is some
+  bool around = false;        ///< the background lights surfaces
   bool filters = false;       ///< the surface has patterns that are averaged over what a pixel covers
   int bounces = 0;            ///< reflections that are followed
   bool glossy = false;        ///< and spread over the lobe of the highlight

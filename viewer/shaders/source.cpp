@@ -88,7 +88,7 @@ std::vector<std::string> deadMacros(const Macros& macros) {
       kStarts, kHitCounts, kPictureCounts, kCones, kHits, kHitFromLayers, kFootprint, kShadowSpan,
       kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kVisible, kHardShadow, kSoftShadow,
       kImprovedShadow, kSignedShadow, kArriving, kArrivingSized, kBayer, kChosen, kOcclusionTaps,
-      kOcclusionSteps, kLightSettings, kLights, kGlossy, kLens, kRadiance,
+      kOcclusionSteps, kLightAround, kLightSettings, kLights, kGlossy, kLens, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
       kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kDither, kPicture, kResolve};
   // clang-format on

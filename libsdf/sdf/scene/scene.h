@@ -83,6 +83,7 @@ struct Scene {
   std::vector<Light> lights;
   Vec3E ambient{Expr(0.1)};
   Vec3E background{Expr(0.05), Expr(0.05), Expr(0.08)};
+  Expr backgroundLight = 0.0;  ///< share of the background that lights surfaces (scene/background_light.h)
   Fog fog;
   Shadow shadow;
   AmbientOcclusion ambientOcclusion;

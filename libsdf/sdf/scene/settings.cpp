@@ -181,6 +181,9 @@ const std::vector<Setting<Scene>>& sceneSettings() {
       {"background", "background(color)",
        "what a ray sees that hits nothing; in a function, x, y, z are the ray's unit direction",
        {field<&Scene::background>("color", Kind::SurfaceColor, "")}, true},
+      {"background_light", "background_light(1)",
+       "lets the background light the scene: ambient light by the direction that a surface faces, in the place of `ambient` or, where that is called too, beside it; a factor",
+       {field<&Scene::backgroundLight>("strength", Kind::Number, "", Rule::NotNegative)}, true},
       {"fog", "fog{color = c, density = 0.1}",
        "mixes far surfaces into a colour; the share that is kept is exp(-density * distance)",
        {field<&Scene::fog, &Fog::color>("color", Kind::Color, "colour of the fog"),
@@ -224,7 +227,7 @@ const std::vector<Setting<Light>>& lightSettings() {
   };
   static const std::vector<Setting<Light>> settings{
       {"directional_light", "directional_light{direction = {1, 1, 1}}",
-       "adds a light from far away; a scene that has no light and does not call `ambient` gets a warm one from above that casts a soft shadow, unless `shadows` says which, a weak one from the right, and a grey background if it names none",
+       "adds a light from far away; a scene that has no light and calls neither `ambient` nor `background_light` gets a warm one from above that casts a soft shadow, unless `shadows` says which, a weak one from the right, and a grey background if it names none",
        fields("direction", "towards the light", Rule::NotZero, "half the angle that it is seen under, degrees below 90 (the sun's is 0.27): blurs its shadows, whatever their kind; it takes many samples a pixel"), false,
        [](Light& light) { light.kind = Light::Kind::Directional; },
        [](const Light& light) -> std::string {
