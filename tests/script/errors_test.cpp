@@ -219,6 +219,8 @@ TEST(Errors, ValuesThatMakeNoSenseAreRefused) {
       {"shadows{kind = 'sharp'}",
        "scene.lua:1: shadows: 'kind' must be one of \"none\", \"hard\", \"soft\", "
        "\"improved\" or \"signed\", got a string \"sharp\""},
+      {"tone('bright')",
+       "scene.lua:1: tone must be one of \"linear\" or \"filmic\", got a string \"bright\""},
       {"gamma(0)", "scene.lua:1: gamma must be positive, got 0"},
       {"max_distance(1e20)", "scene.lua:1: max_distance must be at most 1e15, got 1e+20"},
       {"bounds({1, 1, 1}, {0, 2, 2})",

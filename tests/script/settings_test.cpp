@@ -110,6 +110,7 @@ TEST(Settings, TheRestArrives) {
     ambient_occlusion{kind = "steps", spacing = 0.5, count = 3, strength = 0.005}
     reflections{bounces = 2, glossy = true}
     max_distance(40)
+    tone("filmic")
     gamma(2.2)
     bounds({-1, -2, -3}, {1, 2, 3}))");
   expectVector(scene.ambient, 0.1, 0.2, 0.3);
@@ -127,6 +128,7 @@ TEST(Settings, TheRestArrives) {
   EXPECT_EQ(scene.reflectionBounces, 2);
   EXPECT_TRUE(scene.glossyReflections);
   EXPECT_EQ(scene.maxDistance, 40.0);
+  EXPECT_EQ(scene.tone, Tone::Filmic);
   EXPECT_EQ(scene.gamma, 2.2);
   ASSERT_TRUE(scene.bounds);
   EXPECT_EQ(scene.bounds->min, glm::dvec3(-1, -2, -3));

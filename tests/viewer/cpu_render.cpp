@@ -390,6 +390,12 @@ Picture renderOnCpu(const Scene& scene, const CpuRenderOptions& options) {
   return picture;
 }
 
+glm::dvec3 toned(const glm::dvec3& linear, Tone tone) {
+  if (tone == Tone::Linear) return linear;
+  const glm::dvec3 c = glm::max(linear, 0.0);
+  return glm::min(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 1.0);
+}
+
 glm::dvec3 encode(const glm::dvec3& linear, const std::optional<double>& gamma) {
   glm::dvec3 shown;
   for (int i = 0; i < 3; ++i) {

@@ -184,6 +184,49 @@ TEST(Light, OfAGreyBackgroundIsAmbientLight) {
   EXPECT_GE(psnr(colors(around), colors(renderOnGpu(scene, {}))), 80.0);
 }
 
+// The mean of the samples is bent, not each of them: half of a pixel at 4 is 2.
+TEST(Tone, BendsTheMeanOfLinearColours) {
+  Scene scene = darkScene();
+  scene.add("", ball({0.0, 0.0, -1000.0}, 1e-3, {}));
+  const Expr x = position().x;
+  scene.background = Vec3E(0.18);
+  GpuRenderOptions options;
+  options.width = 3;  // the middle pixel lies on both sides of x = 0
+  options.height = 1;
+  for (const auto gamma : {std::optional(1.0), std::optional(2.2), std::optional<double>()})
+    for (const int samples : {1, 2}) {
+      scene.gamma = gamma;
+      options.samples = samples;
+      scene.tone = Tone::Filmic;
+      scene.background.y = samples == 1 ? Expr(2.0) : select(less(x, 0.0), 0.0, 4.0);
+      const glm::dvec3 shown(renderOnGpu(scene, options)[1]);
+      const glm::dvec3 bent = encode(toned(glm::dvec3(2.0, 2.0, 0.18), Tone::Filmic), gamma);
+      EXPECT_NEAR(shown.y, bent.y, 1e-5);
+      EXPECT_NEAR(shown.z, bent.z, 1e-5);
+      scene.tone = Tone::Linear;
+      EXPECT_NEAR(glm::min(renderOnGpu(scene, options)[1].y, 1.0f), 1.0, 1e-5) << "cut off";
+    }
+}
+
+// By hand: Narkowicz's fraction.
+TEST(Tone, FollowsItsFormula) {
+  EXPECT_EQ(toned(glm::dvec3(-1.0, 0.0, 0.0), Tone::Filmic), glm::dvec3(0.0));
+  EXPECT_NEAR(toned(glm::dvec3(1.0), Tone::Filmic).x, 2.54 / 3.16, 1e-15);
+  EXPECT_EQ(toned(glm::dvec3(100.0), Tone::Filmic).x, 1.0);
+  EXPECT_EQ(toned(glm::dvec3(-1.0, 0.5, 3.0), Tone::Linear), glm::dvec3(-1.0, 0.5, 3.0));
+}
+
+TEST(Tone, IsOfThePictureAlone) {
+  Scene scene = darkScene();
+  scene.add("", ball({0.0, 0.0, 0.0}, 1.0, {.color = Vec3E(0.5)}));
+  const auto text = [&](viewer::View view) { return viewer::assemble(scene, {.view = view}).value(); };
+  EXPECT_EQ(text(viewer::View::Picture).picture.text.find("filmic"), std::string::npos);
+  scene.tone = Tone::Filmic;
+  EXPECT_NE(text(viewer::View::Picture).picture.text.find("filmic"), std::string::npos);
+  EXPECT_NE(text(viewer::View::Picture).background->text.find("filmic"), std::string::npos);
+  EXPECT_EQ(text(viewer::View::Material).picture.text.find("filmic"), std::string::npos);
+}
+
 // A grey that lies between two bytes is the mix of both that comes nearest to it in every 8 by 8 pixels; one
 // that is a byte's own is that byte throughout.
 TEST(Dither, KeepsTheMeanOfWhatBytesCannotHold) {

@@ -36,17 +36,20 @@ GlslWriter labelled(const Scene& scene) {
 // What is shown of a linear colour c, by debug views as it is.
 std::string encoding(const Scene& scene, const Plan& plan) {
   if (plan.options.view != View::Picture && plan.options.view != View::Material) return "(c)";
-  const std::string curve = !scene.gamma ? "encode(c)"
+  const bool isPicture = plan.options.view == View::Picture;
+  const std::string toned = isPicture && scene.tone == Tone::Filmic ? "filmic(c)" : "c";
+  const std::string curve = !scene.gamma ? "encode(" + toned + ")"
                             : *scene.gamma == 1.0
-                                ? "(c)"
-                                : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
-  return plan.options.view == View::Picture ? "dithered(" + curve + ")" : curve;
+                                ? "(" + toned + ")"
+                                : "pow(max(" + toned + ", 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
+  return isPicture ? "dithered(" + curve + ")" : curve;
 }
 
 std::string encoder(const Scene& scene, const Plan& plan) {
   const bool isPicture = plan.options.view == View::Picture;
   const bool isSrgb = !scene.gamma && (isPicture || plan.options.view == View::Material);
-  return std::string(isSrgb ? parts::kSrgb : "") + (isPicture ? parts::kDither : "");
+  return std::string(isSrgb ? parts::kSrgb : "") +
+         (isPicture && scene.tone == Tone::Filmic ? parts::kFilmic : "") + (isPicture ? parts::kDither : "");
 }
 
 // Those that later parts choose by, pixel by pixel.

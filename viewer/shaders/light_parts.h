@@ -346,6 +346,14 @@ vec3 encode(vec3 c) {
 }
 )";
 
+/// Defines filmic(c), linear colours by Tone::Filmic.
+inline constexpr const char* kFilmic = R"(
+vec3 filmic(vec3 c) {
+  c = max(c, 0.0);
+  return min(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 1.0);
+}
+)";
+
 /// Defines dithered(c): a colour moved by less than half a step of what the target holds, so that slow
 /// changes do not show as bands. How far follows from the pixel, by Bayer's pattern of 8 by 8, which files
 /// still pack well; a colour that is one of the target's stays.

@@ -90,7 +90,7 @@ std::vector<std::string> deadMacros(const Macros& macros) {
       kImprovedShadow, kSignedShadow, kArriving, kArrivingSized, kBayer, kChosen, kOcclusionTaps,
       kOcclusionSteps, kLightAround, kLightSettings, kLights, kGlossy, kLens, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
-      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kDither, kPicture, kResolve};
+      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kFilmic, kDither, kPicture, kResolve};
   // clang-format on
   std::set<std::string> used;
   for (const char* const part : kParts) used.merge(usedMacros(part));

@@ -70,6 +70,13 @@ struct Part {
   Shape shape;
 };
 
+/// How a picture's light becomes colours that can be shown, each of red, green and blue by itself:
+///   Linear  as it is; what is above 1 is cut off
+///   Filmic  c (2.51 c + 0.03) / (c (2.43 c + 0.59) + 0.14), at most 1, which keeps differences far above 1
+///   and
+///           darkens shadows (Narkowicz, "ACES filmic tone mapping curve", 2015, without a factor before)
+enum class Tone { Linear, Filmic };
+
 /// The colour seen along a ray that hits nothing is an expression of the ray's unit direction, held in x, y
 /// and z.
 struct Scene {
@@ -90,7 +97,8 @@ struct Scene {
   int reflectionBounces = 1;
   bool glossyReflections = false;       ///< mirrored rays are spread over the lobe of Phong's highlight
   std::optional<double> maxDistance{};  ///< how far the camera sees; none: see viewLengths
-  std::optional<double> gamma;          ///< none: sRGB output; 1: raw values
+  Tone tone = Tone::Linear;
+  std::optional<double> gamma;  ///< none: sRGB output; 1: raw values. After the tone
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);

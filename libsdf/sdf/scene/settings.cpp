@@ -209,6 +209,8 @@ const std::vector<Setting<Scene>>& sceneSettings() {
        [](const Scene& s) -> std::string {  // the squares of more are beyond a GPU's floats
          return s.maxDistance > 1e15 ? " must be at most 1e15, got " + shown(*s.maxDistance) : "";
        }},
+      {"tone", "tone(\"filmic\")", "how the picture shows light: \"linear\" cuts off what is above 1, \"filmic\" bends it so that bright places keep their differences",
+       {field<&Scene::tone>("curve", Kind::Choice, "", Rule::Any, "", {"linear", "filmic"})}, true},
       {"gamma", "gamma(2.2)", "exponent of the picture's tone curve; 1 for raw values",
        {field<&Scene::gamma>("exponent", Kind::PlainNumber, "", Rule::Positive, "sRGB")}, true},
       {"bounds", "bounds({x0, y0, z0}, {x1, y1, z1})",
