@@ -430,12 +430,33 @@ TEST_F(CanvasTest, AStillPictureIsRefinedToTheOneOfAllItsSamples) {
 
   auto target = Target::create(kSize, kSize, {PixelFormat::Rgba8});
   Frame frame = session.frame();
-  frame.samples = Canvas::kRefined;
+  frame.samples = usefulSamples(session.renderer().shaders().plan);
+  ASSERT_EQ(frame.samples * frame.samples, canvas.samplesAtRest());
   ASSERT_TRUE(session.renderer().draw(frame, *target));
   const auto expected = target->picture();
   ASSERT_TRUE(refined && expected);
   for (std::size_t i = 0; i < refined->bytes.size(); ++i)
     ASSERT_NEAR(refined->bytes[i], expected->bytes[i / 3 * 4 + i % 3], 1) << i;
+}
+
+// Where nothing spreads 36 samples smooth the edges; what spreads takes 256; --samples may ask for more.
+TEST_F(CanvasTest, HowFarItIsRefinedFollowsFromTheScene) {
+  const auto atRest = [&](const std::string& settings, View view = View::Picture) {
+    write(settings + "return sphere(1):paint{reflectivity = 0.5}");
+    start.view = view;
+    Session session = open();
+    Canvas canvas;
+    EXPECT_TRUE(*canvas.update(session, 4, 4, 0.0));
+    return canvas.samplesAtRest();
+  };
+  EXPECT_EQ(atRest(""), 36);
+  EXPECT_EQ(atRest("reflections{glossy = true}\n"), 256);
+  EXPECT_EQ(atRest("camera{aperture = 0.1}\n"), 256);
+  EXPECT_EQ(atRest("camera{aperture = 0.1}\n", View::Normals), 36);
+  EXPECT_EQ(atRest("point_light{radius = 0.1}\n"), 36) << "without shadows";
+  EXPECT_EQ(atRest("point_light{radius = 0.1} shadows{}\n"), 256);
+  start.samples = 20;
+  EXPECT_EQ(atRest(""), 400);
 }
 
 TEST_F(CanvasTest, CountsPixelsThatRanOutOfSteps) {

@@ -1,7 +1,5 @@
 #include "viewer/app/canvas.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,6 +14,11 @@ constexpr int kRgba = 4, kRgb = 3;
 
 double secondsNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A side.
+int samplesAtRestOf(const Session& session) {
+  return std::max(session.controls.samples, usefulSamples(session.renderer().shaders().plan));
 }
 
 int scaled(int pixels, double scale) { return std::max(1, static_cast<int>(std::lround(pixels * scale))); }
@@ -69,9 +72,9 @@ Status Canvas::draw(Session& session, double scale, int samples) {
   frame.samples = samples;
   const double start = secondsNow();
   if (const Status drawn = session.renderer().draw(frame, *target_); !drawn) return drawn;
-  glFinish();
+  finish();
   statistics_ = {width, height, samples, secondsNow() - start, 0, {}, {}};
-  const int atRest = std::max(session.controls.samples, kRefined);
+  const int atRest = samplesAtRestOf(session);
   samplesAtRest_ = atRest * atRest;
   const double rays = double(width) * height * samples * samples;
   pace_.drew(statistics_.seconds, rays / (double(shown_->width) * shown_->height));
@@ -90,10 +93,10 @@ Status Canvas::refine(Session& session) {
   if (const Status made = ensure(refined_, target_->width(), target_->height(), {PixelFormat::Rgba8}); !made)
     return made;
   Frame frame = session.frame();
-  frame.samples = std::max(session.controls.samples, kRefined);
+  frame.samples = samplesAtRestOf(session);
   if (const Status drawn = session.renderer().refine(frame, statistics_.refined, *refined_); !drawn)
     return drawn;
-  glFinish();
+  finish();
   ++statistics_.refined;
   if (statistics_.refined > statistics_.samples * statistics_.samples) std::swap(target_, refined_);
   return okStatus();

@@ -46,8 +46,6 @@ class Canvas {
   /// The seconds without a change after which a picture is drawn with all pixels and samples.
   static constexpr double kStill = 0.15;
 
-  /// The samples a side that a still picture gets to, or what the controls say if that is more.
-  static constexpr int kRefined = 6;
   /// The seconds that an update may go on to refine.
   static constexpr double kRefining = 0.02;
 
@@ -62,7 +60,7 @@ class Canvas {
 
   /// Whether the last picture has all samples that it gets to: nothing is due until something changes.
   bool resting() const { return whole_ && statistics_.refined == samplesAtRest_; }
-  /// The samples a pixel of a picture that rests.
+  /// The samples a pixel of a picture that rests: usefulSamples, or what the controls say if that is more.
   int samplesAtRest() const { return samplesAtRest_; }
 
   /// Copies the picture, if there is one, to the window that is current.

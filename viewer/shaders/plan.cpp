@@ -90,6 +90,11 @@ void planShadows(const Scene& scene, Plan& plan) {
 
 }  // namespace
 
+int usefulSamples(const Plan& plan) {
+  constexpr int kOfEdges = 6, kOfSpread = 16;
+  return plan.sized || plan.glossy || plan.lens ? kOfSpread : kOfEdges;
+}
+
 Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   const Shape whole = scene.whole();
   Plan plan;

@@ -78,6 +78,10 @@ struct Plan {
   AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;
 };
 
+/// The samples a side of a pixel up to which more of them are seen to help: 6 where they smooth edges alone,
+/// 16 where lights, mirrors or a lens spread.
+int usefulSamples(const Plan& plan);
+
 /// Makes the plan of a sound scene. Errors (Scene): a shape whose distance has no known slope.
 Result<Plan> planOf(const Scene& scene, const ShaderOptions& options);
 
