@@ -224,7 +224,9 @@ void Gui::statistics(const Session& session, const Canvas& canvas, Requests& req
   const FrameStatistics& frame = canvas.statistics();
   ImGui::Text("%.1f ms a frame, %d x %d, %d samples", 1e3 * frame.seconds, frame.width, frame.height,
               frame.samples * frame.samples);
-  if (canvas.resting())
+  if (const auto share = canvas.drawnShare())
+    ImGui::Text("drawing: %.0f %%", 100.0 * *share);
+  else if (canvas.resting())
     ImGui::Text("refined to %d samples", frame.refined);
   else
     ImGui::Text("refined: %d of %d samples", frame.refined, canvas.samplesAtRest());

@@ -88,6 +88,9 @@ class [[nodiscard]] DrawingMode {
 DrawingMode nearestWins();
 /// Adds up the values of all fragments.
 DrawingMode sumOfAll();
+/// Lets fragments and clears into these rows only, counted from the bottom, of targets of this width; the
+/// others stay as they are.
+DrawingMode someRows(int first, int count, int width);
 /// Lets fragments into one layer only; the others stay as they are.
 DrawingMode oneLayer(int layer);
 

@@ -203,17 +203,23 @@ void Renderer::giveRows() {
   rows_->bind(kRowsUnit);
 }
 
-Status Renderer::begin(const Frame& frame, const Shot& shot, const Target& target) {
+// Where rays start is looked for once, before the first of a picture's pieces.
+Status Renderer::begin(const Frame& frame, const Shot& shot, const Target& target, const Rows& rows) {
   prepare(frame);
   samples_ = shot.samples();
   giveRows();
   grain_ = target.step();
-  return hits_ ? hits_->begin(shot, rowValues_.vectors()) : okStatus();
+  return hits_ && rows.first == 0 ? hits_->begin(shot, rowValues_.vectors()) : okStatus();
 }
 
 Status Renderer::draw(const Frame& frame, const Target& target) {
+  return draw(frame, target, {0, target.height()});
+}
+
+Status Renderer::draw(const Frame& frame, const Target& target, const Rows& rows) {
   Shot shot(frame, target.width(), target.height(), extent_);
-  if (auto s = begin(frame, shot, target); !s) return s;
+  if (auto s = begin(frame, shot, target, rows); !s) return s;
+  const DrawingMode some = someRows(rows.first, rows.count, target.width());
   if (samples_ > 1) {
     if (auto s = clearSums(shot); !s) return s;
     for (int i = 0; i < samples_; ++i)
@@ -230,8 +236,13 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
 }
 
 Status Renderer::refine(const Frame& frame, int drawn, const Target& target) {
+  return refine(frame, drawn, target, {0, target.height()});
+}
+
+Status Renderer::refine(const Frame& frame, int drawn, const Target& target, const Rows& rows) {
   Shot shot(frame, target.width(), target.height(), extent_);
-  if (auto s = begin(frame, shot, target); !s) return s;
+  if (auto s = begin(frame, shot, target, rows); !s) return s;
+  const DrawingMode some = someRows(rows.first, rows.count, target.width());
   if (drawn == 0)
     if (auto s = clearSums(shot); !s) return s;
   if (auto s = addSample(frame, shot, scattered(drawn, samples_)); !s) return s;
