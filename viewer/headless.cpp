@@ -51,7 +51,7 @@ class Headless {
         renderer = Renderer::make(scene_, options_.shader);
         if (!renderer) return renderer.error();
       }
-      if (auto s = renderer->draw(frame(time), *target); !s) return s;
+      if (auto s = draw(*renderer, frame(time), *target, nameOf(i)); !s) return s;
       if (auto s = write(*target, nameOf(i)); !s) return s;
     }
     return okStatus();
@@ -145,6 +145,26 @@ class Headless {
     }
     std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
     return times[kFrames / 2];
+  }
+
+  Status draw(Renderer& renderer, const Frame& f, const Target& target,
+              const std::filesystem::path& file) const {
+    return options_.seconds ? refine(renderer, f, target, file) : renderer.draw(f, target);
+  }
+
+  // As the window does, with --samples if that is more.
+  Status refine(Renderer& renderer, Frame f, const Target& target, const std::filesystem::path& file) const {
+    f.samples = std::max(f.samples, usefulSamples(renderer.shaders().plan));
+    const int all = f.samples * f.samples;
+    const auto start = Clock::now();
+    int drawn = 0;
+    do {
+      if (auto s = renderer.refine(f, drawn, target); !s) return s;
+      finish();
+      ++drawn;
+    } while (drawn < all && millisecondsSince(start) < 1e3 * *options_.seconds);
+    std::cerr << "sdfview: " << file.string() << ": " << drawn << " of " << all << " samples a pixel\n";
+    return okStatus();
   }
 
   // Alpha marks pixels that ran out of steps: told, not shown.

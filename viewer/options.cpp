@@ -104,6 +104,8 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
       [&](const std::string& word) { return take<double>("--time", word, options.time, seconds); });
   add("--samples", "N", "samples a pixel: 1, 4, 9, ... [1]",
       [&](const std::string& word) { return samples(word, options.samples); });
+  add("--seconds", "S", "refine for S seconds, or until more samples are not seen to help",
+      [&](const std::string& word) { return take<double>("--seconds", word, options.seconds, positive); });
   whole("--steps", options.maxSteps, "readings of the distance that a ray may take [1024]");
   add("--view", "NAME", "picture, normals, steps, slice, gradient, material, occlusion or shadow",
       [&](const std::string& word) { return choose("--view", word, kViews, options.shader.view); });
@@ -145,6 +147,8 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   if (!answer) return answer.error();
   if (*answer) return Parsed(std::move(**answer));
   if (sound && options.picture) sound = checkPictureName(*options.picture);
+  if (sound && options.seconds && !options.picture)
+    sound = usage("--seconds says how long --render OUT.png refines; add --render or leave --seconds out");
   if (sound) sound = checkSequence(options, app.count("--fps") > 0);
   if (!sound) return sound.error();
   if (auto s = keep(parameters(parameterWords), options.parameters); !s) return s.error();

@@ -21,6 +21,7 @@ struct Options {
   int width = 1280, height = 720;
   int samples = 1;  ///< a side
   int maxSteps = 1024;
+  std::optional<double> seconds;  ///< that a picture is refined for
   double time = 0.0;
   std::optional<int> frames;
   double framesPerSecond = 24.0;

@@ -246,6 +246,33 @@ TEST(Bake, WithoutOcclusionAllOfTheAmbientLightArrives) {
   EXPECT_EQ(parts[0].ambient->error, 0.0f);
 }
 
+// A gradient from below to above gives each normal a blend of two colours, which a file can hold.
+TEST(Bake, TheBackgroundsLightFollowsTheNormals) {
+  const Scene scene = sceneOf(
+      "background_light(0.5) background(vertical_gradient({0.2, 0.4, 0.6}, {1, 0.8, 0.6}))"
+      "return sphere(1):paint { color = {0.8, 0.5, 0.4} }");
+  const Emitter file = written(scene, bakedParts(scene));
+  const Emitter::Piece& piece = file.pieces[0];
+  for (std::uint32_t v = 0; v < piece.positions.size(); ++v) {
+    // Of what is linear in the direction a cosine leaves 2/3.
+    const double up = 0.5 + 1.0 / 3.0 * static_cast<double>(piece.normals[v].y);
+    const glm::dvec3 light = glm::mix(glm::dvec3(0.2, 0.4, 0.6), glm::dvec3(1.0, 0.8, 0.6), up);
+    const glm::dvec3 emitted = file.at(piece, file.coordinates(piece, v));
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(emitted[c], 0.5 * light[c] * glm::dvec3(0.8, 0.5, 0.4)[c], kWritten) << "vertex " << v;
+  }
+}
+
+TEST(Bake, OfTheBackgroundAReaderShowsWhatTheViewerShows) {
+  Scene scene = sceneOf(kStage);
+  scene.lights.clear();
+  scene.ambient = Vec3E(0.1);
+  scene.background = Vec3E(0.3, 0.4, 0.5);
+  scene.backgroundLight = 1.0;
+  const auto [rms, median] = compareWithPicture(scene, written(scene, bakedParts(scene)));
+  EXPECT_LT(median, kWritten);
+}
+
 TEST(Bake, WithoutAmbientLightNothingIsRead) {
   const Scene scene = sceneOf("ambient(0) ambient_occlusion { kind = 'taps' } return box(1)");
   const std::vector<ExportPart> parts = bakedParts(scene);

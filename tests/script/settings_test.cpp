@@ -41,10 +41,20 @@ TEST(Settings, ACameraMayMoveWithTime) {
   EXPECT_TRUE(scene.camera.eye().x == 6.0 * sin(Expr::parameter(scene.parameters.at(0))));
 }
 
+TEST(Settings, ACameraMayHaveALens) {
+  const Camera pinhole = withSphere("camera{from = {1, 2, 3}}").camera;
+  EXPECT_TRUE(pinhole.aperture.isConstant(0.0));
+  EXPECT_FALSE(pinhole.focus);
+  const Camera lens = withSphere("camera{aperture = 0.05, focus = 1 + time}").camera;
+  EXPECT_TRUE(lens.aperture.isConstant(0.05));
+  ASSERT_TRUE(lens.focus);
+  EXPECT_FALSE(lens.focus->isConstant());
+}
+
 TEST(Settings, LightsArriveInOrder) {
   const Scene scene = withSphere(
       "directional_light{direction = {1, 2, 3}, color = {1, 0, 0}, intensity = 2, shadow = false}"
-      "point_light{position = {4, 5, 6}} directional_light()");
+      "point_light{position = {4, 5, 6}, radius = 0.5} directional_light{radius = 2 * time}");
   ASSERT_EQ(scene.lights.size(), 3u);
   EXPECT_EQ(scene.lights[0].kind, Light::Kind::Directional);
   expectVector(scene.lights[0].vector, 1, 2, 3);
@@ -54,6 +64,9 @@ TEST(Settings, LightsArriveInOrder) {
   EXPECT_EQ(scene.lights[1].kind, Light::Kind::Point);
   expectVector(scene.lights[1].vector, 4, 5, 6);
   EXPECT_TRUE(scene.lights[2].castsShadow);
+  EXPECT_TRUE(scene.lights[0].radius.isConstant(0.0));
+  EXPECT_TRUE(scene.lights[1].radius.isConstant(0.5));
+  EXPECT_FALSE(scene.lights[2].radius.isConstant());
 }
 
 TEST(Settings, LightsAreTheStandardOnesWhereNothingIsSaidOfLight) {
@@ -97,6 +110,7 @@ TEST(Settings, TheRestArrives) {
     ambient_occlusion{kind = "steps", spacing = 0.5, count = 3, strength = 0.005}
     reflections{bounces = 2, glossy = true}
     max_distance(40)
+    tone("filmic")
     gamma(2.2)
     bounds({-1, -2, -3}, {1, 2, 3}))");
   expectVector(scene.ambient, 0.1, 0.2, 0.3);
@@ -114,10 +128,21 @@ TEST(Settings, TheRestArrives) {
   EXPECT_EQ(scene.reflectionBounces, 2);
   EXPECT_TRUE(scene.glossyReflections);
   EXPECT_EQ(scene.maxDistance, 40.0);
+  EXPECT_EQ(scene.tone, Tone::Filmic);
   EXPECT_EQ(scene.gamma, 2.2);
   ASSERT_TRUE(scene.bounds);
   EXPECT_EQ(scene.bounds->min, glm::dvec3(-1, -2, -3));
   EXPECT_EQ(scene.bounds->max, glm::dvec3(1, 2, 3));
+}
+
+TEST(Settings, TheBackgroundsLightTakesThePlaceOfAmbientLight) {
+  const Scene alone = withSphere("background_light(0.5)");
+  EXPECT_TRUE(alone.backgroundLight.isConstant(0.5));
+  expectVector(alone.ambient, 0, 0, 0);
+  EXPECT_TRUE(alone.lights.empty());
+  EXPECT_EQ(alone.shadow.kind, Shadow::Kind::None);
+  for (const char* both : {"background_light(0.5) ambient(0.3)", "ambient(0.3) background_light(0.5)"})
+    expectVector(withSphere(both).ambient, 0.3, 0.3, 0.3);
 }
 
 TEST(Settings, WithoutSettingsTheScenesDefaultsStand) {

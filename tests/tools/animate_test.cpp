@@ -189,6 +189,21 @@ TEST_F(Animate, WarnsOfAmbientLightThatChanges) {
   EXPECT_EQ(told("0.1"), "");
 }
 
+TEST_F(Animate, WarnsOfTheBackgroundsLightOnWhatMoves) {
+  const auto told = [&](const std::string& settings, const std::string& ball) {
+    const std::string file = scene("background(vertical_gradient(0, 1)) " + settings + " return " + ball);
+    return run({file, "-o", out("a.glb"), "--animate", "--bake", "--frames", "2", "--fps", "1",
+                "--voxel-size", "0.1"})
+        .err;
+  };
+  const std::string still = "sphere(0.5)", turning = "box(0.5):rotate(90 * time, 0, 0)";
+  const char* const rests = "--bake: each mesh has the light of the frame";
+  EXPECT_EQ(told("background_light(1)", still), "");
+  EXPECT_NE(told("background_light(1)", turning).find(rests), std::string::npos);
+  EXPECT_NE(told("background_light(0.1 + time)", still).find(rests), std::string::npos);
+  EXPECT_EQ(told("ambient(1)", turning), "");
+}
+
 TEST_F(Animate, GivesTheSameBytesForAnyNumberOfThreads) {
   std::vector<std::string> bytes;
   for (const char* threads : {"1", "3"}) {

@@ -430,12 +430,79 @@ TEST_F(CanvasTest, AStillPictureIsRefinedToTheOneOfAllItsSamples) {
 
   auto target = Target::create(kSize, kSize, {PixelFormat::Rgba8});
   Frame frame = session.frame();
-  frame.samples = Canvas::kRefined;
+  frame.samples = usefulSamples(session.renderer().shaders().plan);
+  ASSERT_EQ(frame.samples * frame.samples, canvas.samplesAtRest());
   ASSERT_TRUE(session.renderer().draw(frame, *target));
   const auto expected = target->picture();
   ASSERT_TRUE(refined && expected);
   for (std::size_t i = 0; i < refined->bytes.size(); ++i)
     ASSERT_NEAR(refined->bytes[i], expected->bytes[i / 3 * 4 + i % 3], 1) << i;
+}
+
+// Where nothing spreads 36 samples smooth the edges; what spreads takes 256; --samples may ask for more.
+TEST_F(CanvasTest, HowFarItIsRefinedFollowsFromTheScene) {
+  const auto atRest = [&](const std::string& settings, View view = View::Picture) {
+    write(settings + "return sphere(1):paint{reflectivity = 0.5}");
+    start.view = view;
+    Session session = open();
+    Canvas canvas;
+    while (!*canvas.update(session, 4, 4, 0.0)) {
+    }
+    return canvas.samplesAtRest();
+  };
+  EXPECT_EQ(atRest(""), 36);
+  EXPECT_EQ(atRest("reflections{glossy = true}\n"), 256);
+  EXPECT_EQ(atRest("camera{aperture = 0.1}\n"), 256);
+  EXPECT_EQ(atRest("camera{aperture = 0.1}\n", View::Normals), 36);
+  EXPECT_EQ(atRest("point_light{radius = 0.1}\n"), 36) << "without shadows";
+  EXPECT_EQ(atRest("point_light{radius = 0.1} shadows{}\n"), 256);
+  start.samples = 20;
+  EXPECT_EQ(atRest(""), 400);
+}
+
+// 1024 samples a pixel take some pieces on any machine that tests run on without a GPU.
+TEST_F(CanvasTest, WhatTakesLongIsDrawnInPieces) {
+  constexpr int kLarge = 300;
+  start.samples = 32;
+  Session session = open();
+  Canvas canvas;
+  int pieces = 1;
+  for (double share = 0.0; !*canvas.update(session, kLarge, kLarge, 0.0); ++pieces) {
+    ASSERT_TRUE(canvas.working());
+    ASSERT_FALSE(canvas.whole());
+    if (canvas.statistics().samples == 1) continue;
+    ASSERT_GE(*canvas.drawnShare(), share);
+    share = *canvas.drawnShare();
+  }
+  if (pieces == 1) GTEST_SKIP() << "this machine draws it at once";
+  for (double now = 1.0; !canvas.whole(); now += 1.0)
+    ASSERT_TRUE(canvas.update(session, kLarge, kLarge, now));
+  EXPECT_FALSE(canvas.drawnShare());
+  EXPECT_EQ(canvas.statistics().samples, 32);
+  auto target = Target::create(kLarge, kLarge, {PixelFormat::Rgba8});
+  ASSERT_TRUE(session.renderer().draw(session.frame(), *target));
+  const auto expected = target->picture();
+  const auto saved = canvas.picture(session);
+  ASSERT_TRUE(expected && saved);
+  for (std::size_t i = 0; i < saved->bytes.size(); ++i)  // refined in another order
+    ASSERT_NEAR(saved->bytes[i], expected->bytes[i / 3 * 4 + i % 3], 1) << i;
+}
+
+TEST_F(CanvasTest, AChangeEndsAnUnfinishedPictureAndAFastOneComesFirst) {
+  constexpr int kLarge = 300;
+  Session session = open();
+  Canvas canvas;
+  ASSERT_TRUE(*canvas.update(session, kLarge, kLarge, 0.0));
+  session.controls.samples = 32;
+  while (!*canvas.update(session, kLarge, kLarge, 1.0)) ASSERT_TRUE(canvas.working());
+  if (*canvas.update(session, kLarge, kLarge, 2.0)) GTEST_SKIP() << "this machine draws it at once";
+  ASSERT_TRUE(canvas.drawnShare());
+  session.controls.parameters["x"] = 1.0;
+  for (int i = 0; !*canvas.update(session, kLarge, kLarge, 2.1); ++i) ASSERT_LT(i, 100);
+  EXPECT_EQ(canvas.statistics().samples, 1);
+  EXPECT_FALSE(canvas.whole());
+  EXPECT_FALSE(canvas.working());
+  EXPECT_FALSE(*canvas.update(session, kLarge, kLarge, 2.1 + 0.5 * Canvas::kStill)) << "it may move on";
 }
 
 TEST_F(CanvasTest, CountsPixelsThatRanOutOfSteps) {

@@ -327,7 +327,7 @@ TEST_F(BareWindowTest, SleepsWhileNothingChanges) {
 
 // Over the ball's rim the mean of all samples has shades that a pixel's own few do not.
 TEST_F(BareWindowTest, RefinesAStillPictureAndRestsUntilItMoves) {
-  const int all = Canvas::kRefined * Canvas::kRefined;
+  const int all = window->canvas().samplesAtRest();
   EXPECT_EQ(window->canvas().statistics().refined, all);
   std::set<int> shades;
   const Screenshot still = screenshot();

@@ -82,8 +82,8 @@ TEST_F(Sdfview, SaysWhatItCanDo) {
   const Outcome help = run({"--help"}), version = run({"--version"});
   EXPECT_EQ(help.status, 0);
   for (const char* word :
-       {"SCENE", "--render", "--size", "--time", "--samples", "--steps", "--view", "--method", "-D",
-        "--camera", "--fit", "--frames", "--fps", "--bench", "--glsl", "--version",
+       {"SCENE", "--render", "--size", "--time", "--samples", "--seconds", "--steps", "--view", "--method",
+        "-D", "--camera", "--fit", "--frames", "--fps", "--bench", "--glsl", "--version",
         "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.status, 0);
@@ -110,6 +110,8 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
       {{"--samples", "-4"}, "got '-4'"},
       {{"--samples", "1089"}, "got '1089'"},
       {{"--samples", "four"}, "got 'four'"},
+      {{"--seconds", "0"}, "--seconds needs a number above 0, got '0'"},
+      {{"--seconds", "soon"}, "got 'soon'"},
       {{"--steps", "0"}, "--steps needs a whole number from 1 to 100000, got '0'"},
       {{"--steps", "2.5"}, "got '2.5'"},
       {{"--steps", "1e6"}, "got '1e6'"},
@@ -144,6 +146,8 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
   }
   expectRefused(kUsage, "SCENE is required; see sdfview --help", {});
   expectRefused(kUsage, "add --render", {s, "--frames", "2", "--glsl", at("a.glsl")});
+  expectRefused(kUsage, "--seconds says how long --render OUT.png refines; add --render",
+                {s, "--seconds", "2"});
   // Nothing of the scene is looked at before.
   for (const char* name : {"a.jpg", "a.png.jpeg", "a%04d.exr"})
     expectRefused(kUsage,
@@ -198,6 +202,28 @@ TEST_F(Sdfview, DrawsAFieldWithBoundsBesideWhatHasNone) {
   const Picture field = drawn(floor + "part('ball', " + ball + ")", {"--view", "material"}),
                 sphere = drawn(floor + "part('ball', sphere(1))", {"--view", "material"});
   EXPECT_EQ(field.bytes, sphere.bytes);
+}
+
+TEST_F(Sdfview, RefinesForAsLongAsItIsTold) {
+  const std::string lit =
+      "point_light{position = {2, 3, 4}, radius = 1} shadows{} part('floor', plane{offset = -1}) "
+      "part('ball', sphere(1))";
+  const auto refined = [&](const std::string& text, std::vector<std::string> options) {
+    options.insert(options.begin(), {scene(text), "--render", at("a.png"), "--size", "32x24"});
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    return outcome.err;
+  };
+  const std::string told = "sdfview: " + at("a.png") + ": ";
+  EXPECT_EQ(refined(kBall, {"--seconds", "100"}), told + "36 of 36 samples a pixel\n");
+  const Picture settled = read(at("a.png")), expected = drawn(kBall, {"--samples", "36"});
+  for (std::size_t i = 0; i < settled.bytes.size(); ++i)  // the sum's order decides how one is rounded
+    ASSERT_NEAR(settled.bytes[i], expected.bytes[i], 1) << i;
+  EXPECT_EQ(refined(lit, {"--seconds", "100"}), told + "256 of 256 samples a pixel\n");
+  EXPECT_EQ(refined(lit, {"--seconds", "1e-9"}), told + "1 of 256 samples a pixel\n");
+  EXPECT_EQ(refined(kBall, {"--seconds", "1e-9", "--samples", "400"}), told + "1 of 400 samples a pixel\n");
+  EXPECT_EQ(refined(kBall, {"--seconds", "1e-9", "--samples", "4"}), told + "1 of 36 samples a pixel\n");
 }
 
 TEST_F(Sdfview, NamesPicturesThatAreTooLarge) {

@@ -38,6 +38,9 @@ struct CpuRenderOptions {
 /// with shadows; the rows are shared out among the machine's threads.
 Picture renderOnCpu(const Scene& scene, const CpuRenderOptions& options);
 
+/// A linear colour on the scene's tone curve.
+glm::dvec3 toned(const glm::dvec3& linear, Tone tone);
+
 /// A linear colour as it is shown, each part in [0, 1]: by sRGB's curve, or by the power 1 / gamma.
 glm::dvec3 encode(const glm::dvec3& linear, const std::optional<double>& gamma);
 std::vector<glm::dvec3> encode(const std::vector<glm::dvec3>& linear, const std::optional<double>& gamma);

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "sdf/scene/patterns.h"
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/place.h"
 #include "sdf/shape/solids.h"
@@ -125,6 +126,105 @@ TEST(Light, IsDarkWhereAShadowRunsOutOfSteps) {
       EXPECT_GT(lit, 10) << static_cast<int>(kind) << ": more steps would have shown light";
     }
   }
+}
+
+Sky skyWithSunAt(const Expr& height) {
+  Sky sky;
+  sky.ground = Vec3E(0.2, 0.1, 0.05);
+  sky.sun = {1.0, height, 0.5};
+  sky.sunSize = 4.0;  // large enough to light the scene
+  return sky;
+}
+
+// A ball on a floor under a sky, whose sun's height is a parameter.
+Scene underASky() {
+  Scene scene;
+  scene.camera.from = Vec3E(3.0, 2.0, 4.0);
+  scene.ambient = Vec3E(0.05, 0.0, 0.0);
+  scene.background = skyColor(skyWithSunAt(scene.parameter("height", 1.0, -1.0, 1.0)));
+  scene.backgroundLight = 0.8;
+  scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
+  scene.add("floor", plane(Vec3E(0.0, 1.0, 0.0), -0.5).paint({.color = Vec3E(0.6), .reflectivity = 0.2}));
+  scene.add("ball", ball({0.0, 0.1, 0.0}, 0.6, {.color = {0.8, 0.7, 0.6}}));
+  return scene;
+}
+
+TEST(Light, OfTheBackgroundIsTheCpus) {
+  Scene scene = underASky();
+  GpuRenderOptions options;
+  options.threshold = 0.0;
+  const auto onGpu = colors(renderOnGpu(scene, options));
+  EXPECT_GE(psnr(onGpu, encode(renderOnCpu(scene, {}).color, scene.gamma)), 40.0);
+  scene.backgroundLight = 0.0;
+  EXPECT_LT(psnr(onGpu, colors(renderOnGpu(scene, options))), 20.0);
+  EXPECT_EQ(viewer::assemble(scene, {}).value().picture.text.find("backgroundLight"), std::string::npos);
+}
+
+TEST(Light, OfTheBackgroundFollowsItsParameters) {
+  const Scene scene = underASky();
+  GpuRenderOptions options;
+  options.parameters["height"] = -0.5;
+  const auto moved = renderOnGpu(scene, options);
+  const auto before = renderOnGpu(scene, {});
+  Scene low = underASky();
+  low.background = skyColor(skyWithSunAt(-0.5));
+  EXPECT_GE(psnr(colors(moved), colors(renderOnGpu(low, {}))), 60.0);
+  EXPECT_LT(psnr(colors(moved), colors(before)), 40.0);
+}
+
+// One colour all around is ambient light of that colour.
+TEST(Light, OfAGreyBackgroundIsAmbientLight) {
+  Scene scene = underASky();
+  scene.ambient = Vec3E(0.0);
+  scene.background = {0.3, 0.4, 0.5};
+  scene.backgroundLight = 1.0;
+  const auto around = renderOnGpu(scene, {});
+  scene.ambient = {0.3, 0.4, 0.5};
+  scene.backgroundLight = 0.0;
+  EXPECT_GE(psnr(colors(around), colors(renderOnGpu(scene, {}))), 80.0);
+}
+
+// The mean of the samples is bent, not each of them: half of a pixel at 4 is 2.
+TEST(Tone, BendsTheMeanOfLinearColours) {
+  Scene scene = darkScene();
+  scene.add("", ball({0.0, 0.0, -1000.0}, 1e-3, {}));
+  const Expr x = position().x;
+  scene.background = Vec3E(0.18);
+  GpuRenderOptions options;
+  options.width = 3;  // the middle pixel lies on both sides of x = 0
+  options.height = 1;
+  for (const auto gamma : {std::optional(1.0), std::optional(2.2), std::optional<double>()})
+    for (const int samples : {1, 2}) {
+      scene.gamma = gamma;
+      options.samples = samples;
+      scene.tone = Tone::Filmic;
+      scene.background.y = samples == 1 ? Expr(2.0) : select(less(x, 0.0), 0.0, 4.0);
+      const glm::dvec3 shown(renderOnGpu(scene, options)[1]);
+      const glm::dvec3 bent = encode(toned(glm::dvec3(2.0, 2.0, 0.18), Tone::Filmic), gamma);
+      EXPECT_NEAR(shown.y, bent.y, 1e-5);
+      EXPECT_NEAR(shown.z, bent.z, 1e-5);
+      scene.tone = Tone::Linear;
+      EXPECT_NEAR(glm::min(renderOnGpu(scene, options)[1].y, 1.0f), 1.0, 1e-5) << "cut off";
+    }
+}
+
+// By hand: Narkowicz's fraction.
+TEST(Tone, FollowsItsFormula) {
+  EXPECT_EQ(toned(glm::dvec3(-1.0, 0.0, 0.0), Tone::Filmic), glm::dvec3(0.0));
+  EXPECT_NEAR(toned(glm::dvec3(1.0), Tone::Filmic).x, 2.54 / 3.16, 1e-15);
+  EXPECT_EQ(toned(glm::dvec3(100.0), Tone::Filmic).x, 1.0);
+  EXPECT_EQ(toned(glm::dvec3(-1.0, 0.5, 3.0), Tone::Linear), glm::dvec3(-1.0, 0.5, 3.0));
+}
+
+TEST(Tone, IsOfThePictureAlone) {
+  Scene scene = darkScene();
+  scene.add("", ball({0.0, 0.0, 0.0}, 1.0, {.color = Vec3E(0.5)}));
+  const auto text = [&](viewer::View view) { return viewer::assemble(scene, {.view = view}).value(); };
+  EXPECT_EQ(text(viewer::View::Picture).picture.text.find("filmic"), std::string::npos);
+  scene.tone = Tone::Filmic;
+  EXPECT_NE(text(viewer::View::Picture).picture.text.find("filmic"), std::string::npos);
+  EXPECT_NE(text(viewer::View::Picture).background->text.find("filmic"), std::string::npos);
+  EXPECT_EQ(text(viewer::View::Material).picture.text.find("filmic"), std::string::npos);
 }
 
 // A grey that lies between two bytes is the mix of both that comes nearest to it in every 8 by 8 pixels; one

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "memory.h"
+#include "sdf/scene/background_light.h"
 #include "timed.h"
 
 namespace sdf::exporter {
@@ -37,9 +38,16 @@ bool areSame(const std::optional<Box>& a, const std::optional<Box>& b) {
 
 bool ambientChanges(const std::vector<Scene>& scenes) {
   const auto value = [](const Scene& s) {
-    return std::array{uniformValue(s.ambient.x), uniformValue(s.ambient.y), uniformValue(s.ambient.z)};
+    const glm::dvec3 all(uniformValue(s.ambient.x), uniformValue(s.ambient.y), uniformValue(s.ambient.z));
+    return std::pair(all, backgroundLight(s).parts);
   };
   return std::ranges::adjacent_find(scenes, std::ranges::not_equal_to(), value) != scenes.end();
+}
+
+/// Does what a mesh gets depend on where it is, and how it is turned?
+bool hasAPlace(const Scene& scene) {
+  return scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Taps ||
+         backgroundLight(scene) != BackgroundLight{};
 }
 
 }  // namespace
@@ -123,8 +131,8 @@ void AnimationExport::nameMeshes() {
 
 void AnimationExport::warn() {
   for (std::string& line : notAnimated(animation_)) report_.warnings.push_back(std::move(line));
-  const bool isOccluded = animation_.scenes[0].ambientOcclusion.kind == AmbientOcclusion::Kind::Taps;
-  if (options_.bake && ((isOccluded && moves(animation_)) || ambientChanges(animation_.scenes)))
+  if (options_.bake &&
+      ((moves(animation_) && hasAPlace(animation_.scenes[0])) || ambientChanges(animation_.scenes)))
     report_.warnings.emplace_back(kLightRests);
 }
 

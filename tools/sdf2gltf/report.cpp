@@ -133,8 +133,8 @@ void printWarnings(std::ostream& out, const FileReport& report) {
     if (ambientError.value_or(0.0f) > kSeenError)
       out << part << "the baked ambient light is off by up to " << formatted("%.2g", *ambientError)
           << ": a primitive's emission holds the blends of two colours, and this part's ambient colours are "
-             "of "
-             "more; give the colours materials of their own\n";
+             "of more; give the colours materials of their own, or light them by ambient(color) in the place "
+             "of background_light\n";
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "viewer/app/materials.h"
 
@@ -64,6 +65,18 @@ bool coloredLight(glm::vec4& product) {
   return moved;
 }
 
+/// Of a light that has a size; shaders know whether one has.
+bool sizeOf(LookLight& light, float speed) {
+  if (light.size == 0.0f) return false;
+  constexpr float kLeast = 1e-4f, kSteepest = 89.0f;  // not quite to 0, where there would be none to drag
+  if (light.vector.w > 0.0f)
+    return ImGui::DragFloat("radius", &light.size, speed, kLeast, 1e6f, "%.3g", kClamped);
+  float degrees = glm::degrees(std::asin(light.size));
+  const bool moved = ImGui::SliderFloat("radius", &degrees, kLeast, kSteepest, "%.2f degrees", kLogarithmic);
+  if (moved) light.size = std::sin(glm::radians(degrees));
+  return moved;
+}
+
 /// `speed` is how far a drag of a pixel moves a light's place, scene units.
 bool lightControls(LookLight& light, float speed) {
   const bool point = light.vector.w > 0.0f;
@@ -77,7 +90,7 @@ bool lightControls(LookLight& light, float speed) {
   bool shadow = light.color.w > 0.0f;
   moved |= ImGui::Checkbox("casts a shadow", &shadow);
   light.color.w = shadow ? 1.0f : 0.0f;
-  return moved;
+  return sizeOf(light, speed) || moved;
 }
 
 /// The numbers of one control, if they are the same all over the part.
@@ -169,6 +182,23 @@ void marching(Controls& controls) {
   ImGui::SliderInt("samples", &controls.samples, 1, kMostSamples, "%d a side", kClamped);
 }
 
+/// Of a camera that has one; shaders know whether it has.
+void lens(Session& session) {
+  Eye eye = session.eye();
+  if (eye.aperture == 0.0) return;
+  const double far = glm::length(eye.to - eye.from);
+  constexpr double kLeast = 1e-9;  // not quite 0, where there would be none
+  double focus = eye.focus.value_or(far);
+  bool moved = ImGui::DragScalar("aperture", ImGuiDataType_Double, &eye.aperture,
+                                 static_cast<float>(1e-4 * far), &kLeast, &kLargest, "%.4g", kClamped);
+  if (ImGui::DragScalar("focus", ImGuiDataType_Double, &focus, static_cast<float>(2e-3 * far), &kLeast,
+                        &kLargest, "%.4g", kClamped)) {
+    eye.focus = focus;
+    moved = true;
+  }
+  if (moved) session.controls.eye = eye;
+}
+
 void camera(Session& session, Requests& requests) {
   ImGui::BeginDisabled(!session.controls.eye);
   if (ImGui::Button("The scene's (0)")) session.controls.eye.reset();
@@ -176,6 +206,7 @@ void camera(Session& session, Requests& requests) {
   ImGui::SameLine();
   requests.fit |= ImGui::Button("All in view (F)");
   requests.copyCamera |= ImGui::Button("Copy as scene text (C)");
+  lens(session);
   ImGui::TextWrapped("%s", textOf(session.eye()).c_str());
 }
 
@@ -194,7 +225,9 @@ void Gui::statistics(const Session& session, const Canvas& canvas, Requests& req
   const FrameStatistics& frame = canvas.statistics();
   ImGui::Text("%.1f ms a frame, %d x %d, %d samples", 1e3 * frame.seconds, frame.width, frame.height,
               frame.samples * frame.samples);
-  if (canvas.resting())
+  if (const auto share = canvas.drawnShare())
+    ImGui::Text("drawing: %.0f %%", 100.0 * *share);
+  else if (canvas.resting())
     ImGui::Text("refined to %d samples", frame.refined);
   else
     ImGui::Text("refined: %d of %d samples", frame.refined, canvas.samplesAtRest());

@@ -131,7 +131,7 @@ void Window::wait() const {
   const bool moving = session_.playing || input_.flying() || repaints_ > 0;
   if (visible && moving)
     glfwPollEvents();
-  else if (visible && refining_)
+  else if (visible && (refining_ || canvas_.working()))
     glfwPollEvents();
   else
     glfwWaitEventsTimeout(visible && !canvas_.resting() ? 0.5 * Canvas::kStill : kLookEvery);
@@ -157,7 +157,7 @@ Result<bool> Window::turn() {
   if (!drawn) return drawn.error();
   refining_ = *drawn && canvas_.statistics().refined > 0 && !canvas_.resting();
   if (*drawn && canvas_.statistics().refined == 0) gui_.readings.reset();  // they were another picture's
-  if (*drawn || repaints_ > 0) {
+  if (*drawn || repaints_ > 0 || canvas_.working()) {
     repaints_ = std::max(repaints_ - 1, 0);
     if (const Status shown = show(); !shown) return shown.error();
   }

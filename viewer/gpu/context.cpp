@@ -250,6 +250,8 @@ Status check(const std::string& doing) {
   return first;
 }
 
+void finish() { glFinish(); }
+
 Status statusOf(unsigned glError, const std::string& doing) {
   const std::string cannot = "cannot " + doing + ": ";
   if (glError == GL_NO_ERROR) return okStatus();

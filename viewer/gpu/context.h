@@ -60,6 +60,9 @@ class Context {
 /// nothing: a draw that is still under way reports later. Errors: Limits if memory ran out, else Graphics.
 Status check(const std::string& doing);
 
+/// Waits until all is drawn that OpenGL was told to draw.
+void finish();
+
 /// Returns what check does for a value of glGetError.
 Status statusOf(unsigned glError, const std::string& doing);
 

@@ -205,6 +205,10 @@ void Program::set(const std::string& name, const glm::vec3& value) const {
   glUniform3fv(location(name), 1, glm::value_ptr(value));
 }
 
+void Program::set(const std::string& name, std::span<const float> values) const {
+  glUniform1fv(location(name), GLsizei(values.size()), values.data());
+}
+
 void Program::set(const std::string& name, std::span<const glm::vec4> values) const {
   glUniform4fv(location(name), GLsizei(values.size()), reinterpret_cast<const float*>(values.data()));
 }

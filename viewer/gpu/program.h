@@ -55,6 +55,7 @@ class Program {
   void set(const std::string& name, double value) const;  ///< a float
   void set(const std::string& name, const glm::vec2& value) const;
   void set(const std::string& name, const glm::vec3& value) const;
+  void set(const std::string& name, std::span<const float> values) const;      ///< float[]
   void set(const std::string& name, std::span<const glm::vec4> values) const;  ///< vec4[]
 
   /// Covers the viewport with one triangle: three vertices without attributes, made from gl_VertexID by the

@@ -192,6 +192,12 @@ DrawingMode firstLayers(int count) {
   return DrawingMode([] { glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE); });
 }
 
+DrawingMode someRows(int first, int count, int width) {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, first, width, count);
+  return DrawingMode([] { glDisable(GL_SCISSOR_TEST); });
+}
+
 DrawingMode oneLayer(int layer) {
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glColorMaski(GLuint(layer), GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

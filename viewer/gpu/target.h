@@ -90,6 +90,9 @@ DrawingMode nearestWins();
 DrawingMode sumOfAll();
 /// Lets fragments into the first layers only; the others stay as they are.
 DrawingMode firstLayers(int count);
+/// Lets fragments and clears into these rows only, counted from the bottom, of targets of this width; the
+/// others stay as they are.
+DrawingMode someRows(int first, int count, int width);
 /// Lets fragments into one layer only; the others stay as they are.
 DrawingMode oneLayer(int layer);
 

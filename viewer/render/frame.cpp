@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "sdf/scene/background_light.h"
+
 namespace sdf::viewer {
 namespace {
 
@@ -27,21 +29,39 @@ Frame frameOf(const LookFunction& look, Values parameters, double aspect) {
   return frame;
 }
 
-UniformValues::UniformValues(Function numbers) : numbers_(std::move(numbers)) {
-  for (const ParameterInfo& input : numbers_.inputs()) inputs_.push_back(input.name);
+OwnInputs::OwnInputs(const Function& function) {
+  for (const ParameterInfo& input : function.inputs()) names_.push_back(input.name);
+}
+
+bool OwnInputs::move(const Values& inputs) {
+  Values own;
+  for (const std::string& name : names_)
+    if (const auto value = inputs.find(name); value != inputs.end()) own.insert(*value);
+  if (own == last_) return false;
+  last_ = std::move(own);
+  return true;
+}
+
+UniformValues::UniformValues(Function numbers) : numbers_(std::move(numbers)), inputs_(numbers_) {
   vectors_.resize((numbers_.outputs().size() + 3) / 4);
 }
 
 bool UniformValues::move(const Values& inputs) {
-  Values own;
-  for (const std::string& name : inputs_)
-    if (const auto value = inputs.find(name); value != inputs.end()) own.insert(*value);
-  if (own == last_) return false;
-  const std::vector<double> values = numbers_.uniform(own);
+  if (!inputs_.move(inputs)) return false;
+  const std::vector<double> values = numbers_.uniform(inputs_.values());
   for (std::size_t i = 0; i < values.size(); ++i)
     vectors_[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
-  last_ = std::move(own);
   return true;
+}
+
+BackgroundValues::BackgroundValues(const Scene& scene)
+    : radiance_(backgroundRadiance(scene)), inputs_(radiance_) {}
+
+void BackgroundValues::move(const Values& inputs) {
+  if (!inputs_.move(inputs)) return;
+  vectors_.clear();
+  for (const glm::dvec3& part : backgroundLight(*radiance_.at(inputs_.values())).parts)
+    vectors_.emplace_back(glm::vec3(part), 0.0f);
 }
 
 Extent::Extent(const Scene& scene) : stated_(scene) {
@@ -75,9 +95,8 @@ double Shot::pixelRadius() const { return std::tan(0.5 * glm::radians(frame_.loo
 
 double Shot::footprint() const { return frame_.filter ? 2.0 * pixelRadius() / frame_.samples : 0.0; }
 
-// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: steps by powers of 1 / 1.3247…
-glm::vec2 Shot::lobe() const {
-  const glm::dvec2 place = static_cast<double>(sample_) * glm::dvec2(0.7548776662466927, 0.5698402909980532);
+glm::vec2 Shot::placeBySteps(const glm::dvec2& steps) const {
+  const glm::dvec2 place = static_cast<double>(sample_) * steps;
   return {place.x - std::floor(place.x), place.y - std::floor(place.y)};
 }
 
@@ -85,6 +104,15 @@ glm::vec2 Shot::within() const {
   const int side = frame_.samples;
   return glm::vec2(sample_ % side + 0.5, sample_ / side + 0.5) / static_cast<float>(side);
 }
+
+// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: steps by powers of 1 / g in two
+// dimensions, where g^3 = g + 1, and in four, where g^5 = g + 1. No combination of all of them by whole
+// numbers is one, so that together they fill their cube (Weyl 1916).
+glm::vec2 Shot::lobe() const { return placeBySteps({0.7548776662466927, 0.5698402909980532}); }
+
+glm::vec2 Shot::lightPlace() const { return placeBySteps({0.733891856627126, 0.6287067210378087}); }
+
+glm::vec2 Shot::lensPlace() const { return placeBySteps({0.8566748838545029, 0.5385972572236101}); }
 
 void Shot::set(const Program& program, const std::vector<glm::vec4>& values) const {
   const Eye& eye = frame_.look.eye;

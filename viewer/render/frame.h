@@ -24,6 +24,21 @@ struct Frame {
 /// Makes the frame of a scene's own look at these values, for pictures of this width by their height.
 Frame frameOf(const LookFunction& look, Values parameters = {}, double aspect = kPictureAspect);
 
+/// OwnInputs are those of all inputs that a function takes, in one frame after the other.
+class OwnInputs {
+ public:
+  explicit OwnInputs(const Function& function);
+
+  /// Takes those of a frame, and returns whether they are others than those of the frame before.
+  bool move(const Values& inputs);
+  /// Returns those of the frame.
+  const Values& values() const { return *last_; }
+
+ private:
+  std::vector<std::string> names_;  // those that a frame can move
+  std::optional<Values> last_;
+};
+
 /// UniformValues are what a shader's uniform sdfValues holds in one frame after the other.
 class UniformValues {
  public:
@@ -38,8 +53,22 @@ class UniformValues {
 
  private:
   Function numbers_;
-  std::vector<std::string> inputs_;  // those that a frame can move
-  std::optional<Values> last_;
+  OwnInputs inputs_;
+  std::vector<glm::vec4> vectors_;
+};
+
+/// BackgroundValues are what a shader's uniform backgroundLight holds in one frame after the other.
+class BackgroundValues {
+ public:
+  explicit BackgroundValues(const Scene& scene);
+
+  /// Computes the values where the scene's inputs have these, unless they are those of the frame before.
+  void move(const Values& inputs);
+  const std::vector<glm::vec4>& vectors() const { return vectors_; }
+
+ private:
+  Function radiance_;
+  OwnInputs inputs_;
   std::vector<glm::vec4> vectors_;
 };
 
@@ -76,12 +105,16 @@ class Shot {
   /// Returns the width of a sample's cone at distance 1 over which patterns are averaged; 0 leaves them
   /// sharp.
   double footprint() const;
-  /// Returns the sample's place in the unit square, of places that fill it evenly.
+  /// Return the sample's places in unit squares, which choose a direction of a glossy mirror, a point of each
+  /// light and one of the lens. The places of all samples fill each square evenly, and no choice follows from
+  /// another.
   glm::vec2 lobe() const;
   /// Returns the picture's axes, forward as long as its plane is far away in picture heights, and the eye.
   std::pair<Axes, glm::dvec3> view() const { return {axes_, frame_.look.eye.from}; }
   /// Returns where in its pixel the sample is.
   glm::vec2 within() const;
+  glm::vec2 lightPlace() const;
+  glm::vec2 lensPlace() const;
   /// Draws the rays of the i-th sample from now on.
   void chooseSample(int i) { sample_ = i; }
 
@@ -90,6 +123,7 @@ class Shot {
 
  private:
   double pixelRadius() const;  // of a pixel's cone at distance 1
+  glm::vec2 placeBySteps(const glm::dvec2& steps) const;
 
   const Frame& frame_;
   int width_, height_, sample_ = 0;

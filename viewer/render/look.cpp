@@ -16,12 +16,12 @@ std::vector<Expr> numbersOf(const Scene& scene) {
   for (const Vec3E& v :
        {scene.camera.eye(), scene.camera.to, scene.camera.up, scene.ambient, scene.fog.color})
     add(v);
-  numbers.insert(numbers.end(), {scene.camera.fov, scene.fog.density, scene.shadow.sharpness,
-                                 scene.ambientOcclusion.strength});
+  numbers.insert(numbers.end(), {scene.camera.fov, scene.camera.aperture, scene.camera.focus.value_or(0.0),
+                                 scene.fog.density, scene.shadow.sharpness, scene.ambientOcclusion.strength});
   for (const Light& light : scene.lights) {
     add(light.vector);
     add(light.color);
-    numbers.push_back(light.intensity);
+    numbers.insert(numbers.end(), {light.intensity, light.radius});
   }
   return numbers;
 }
@@ -47,6 +47,7 @@ Eye fitted(Eye eye, const Box& box, double aspect) {
   const glm::dmat3 columns(axes.right, axes.up, axes.forward);
   eye.to = box.centre();
   eye.from = eye.to - fittingDistance(box, columns, glm::radians(eye.fov), aspect) * axes.forward;
+  eye.focus.reset();
   eye.fittedRadius = viewRadius(box);
   return eye;
 }
@@ -76,6 +77,8 @@ Look LookFunction::at(const Values& values, double aspect) const {
   look.fogColor = glm::vec3(vector());
   look.eye.fov = number();
   look.eye.mirrored = mirrored_;
+  look.eye.aperture = number();
+  if (const double focus = number(); focus > 0.0) look.eye.focus = focus;
   look.eye = upright(look.eye);
   if (inView_) look.eye = fitted(look.eye, *inView_, aspect);
   look.fogDensity = static_cast<float>(number());
@@ -86,16 +89,25 @@ Look LookFunction::at(const Values& values, double aspect) const {
     const glm::dvec3 place = vector(), color = vector();
     look.lights.push_back({glm::vec4(point ? place : glm::normalize(place), point ? 1.0 : 0.0),
                            glm::vec4(color * number(), light.castsShadow ? 1.0 : 0.0)});
+    const double radius = number();
+    look.lights.back().size = static_cast<float>(point ? radius : std::sin(glm::radians(radius)));
   }
   return look;
 }
 
 std::string textOf(const Eye& eye) {
-  char fov[32];
-  std::snprintf(fov, sizeof fov, "%.6g", eye.fov);
+  const auto field = [](const char* name, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, ", %s = %.6g", name, value);
+    return std::string(text);
+  };
   std::string line = "camera { from = " + text(eye.from) + ", to = " + text(eye.to);
   if (eye.up != glm::dvec3(0.0, 1.0, 0.0)) line += ", up = " + text(eye.up);
-  return line + ", fov = " + fov + (eye.mirrored ? ", mirrored = true }" : " }");
+  line += field("fov", eye.fov);
+  if (eye.mirrored) line += ", mirrored = true";
+  if (eye.aperture > 0.0) line += field("aperture", eye.aperture);
+  if (eye.focus) line += field("focus", *eye.focus);
+  return line + " }";
 }
 
 }  // namespace sdf::viewer

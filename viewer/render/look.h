@@ -10,11 +10,13 @@
 
 namespace sdf::viewer {
 
-/// An Eye is a pinhole camera, in double: it may stand far from the origin.
+/// An Eye is a camera, in double: it may stand far from the origin.
 struct Eye {
   glm::dvec3 from{3.4, 2.6, 4.6}, to{0.0}, up{0.0, 1.0, 0.0};
   double fov = 45.0;  ///< vertical, degrees
   bool mirrored = false;
+  double aperture = 0.0;                 ///< radius of its lens; 0: a pinhole
+  std::optional<double> focus{};         ///< how far ahead a lens sees sharply; none: as far as `to`
   std::optional<double> fittedRadius{};  ///< of what the eye was fitted to, if it was; see viewLengths
   bool operator==(const Eye&) const = default;
 };
@@ -24,7 +26,8 @@ struct Eye {
 Eye upright(Eye eye);
 
 /// Moves an eye to where all of a finite box is in view in a picture of this width by its height, and has it
-/// look at the box's middle. Its direction, `up` and field of view stay.
+/// look at the box's middle, which a lens sees sharply then. Its direction, `up`, field of view and aperture
+/// stay.
 Eye fitted(Eye eye, const Box& box, double aspect);
 
 /// Axes are the picture's own, of length 1: `right` is the picture's right also where it is mirrored.
@@ -35,8 +38,9 @@ Axes axesOf(const Eye& eye);
 
 /// A LookLight is a light at one moment.
 struct LookLight {
-  glm::vec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
-  glm::vec4 color;   ///< times its intensity; w: 1 if it casts shadows
+  glm::vec4 vector;   ///< xyz: towards the light, of length 1, w 0; or its position, w 1
+  glm::vec4 color;    ///< times its intensity; w: 1 if it casts shadows
+  float size = 0.0f;  ///< its radius; of one far away, the sine of half the angle that it is seen under
   bool operator==(const LookLight&) const = default;
 };
 

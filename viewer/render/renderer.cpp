@@ -69,7 +69,9 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
       values_(shaders_.picture.uniforms),
       rowValues_(shaders_.rows),
       extent_(scene),
-      shadowSteps_(scene.shadow.steps) {}
+      shadowSteps_(scene.shadow.steps) {
+  if (shaders_.plan.around) around_.emplace(scene);
+}
 
 Status Renderer::compile() {
   const Plan& plan = shaders_.plan;
@@ -111,11 +113,23 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
     program.set("shadowHit", std::min(1e-3 * lengths.unit, 0.5 * lengths.shadowStart));
     program.set("sharpness", look.sharpness);
     program.set("shadowSteps", shadowSteps_);
+    if (plan.sized) {
+      std::vector<float> sizes;
+      for (const LookLight& light : look.lights) sizes.push_back(light.size);
+      program.set("lightSize", sizes);
+      program.set("lightPlace", shot.lightPlace());
+    }
   }
   if (plan.occlusion != AmbientOcclusion::Kind::None) program.set("tapStrength", look.occlusionStrength);
   if (plan.occlusion == AmbientOcclusion::Kind::Taps) program.set("tapSpacing", lengths.tapSpacing);
+  if (around_) program.set("backgroundLight", around_->vectors());
   if (plan.filters) program.set("footprint", shot.footprint());
   if (plan.glossy) program.set("lobe", shot.lobe());
+  if (plan.lens) {
+    program.set("aperture", look.eye.aperture);
+    program.set("focus", look.eye.focus.value_or(glm::length(look.eye.to - look.eye.from)));
+    program.set("lensPlace", shot.lensPlace());
+  }
   if (view == View::Slice) {
     program.set("slicePoint", glm::vec3(look.eye.to));
     program.set("sliceNormal", axisOf(look.eye));
@@ -179,6 +193,7 @@ void Renderer::prepare(const Frame& frame) {
   values_.move(frame.parameters);
   rowsMoved_ = rowValues_.move(frame.parameters) || rowsMoved_;
   if (backgroundValues_) backgroundValues_->move(frame.parameters);
+  if (around_) around_->move(frame.parameters);
   if (hits_) hits_->prepare(frame);
 }
 
@@ -189,18 +204,24 @@ void Renderer::giveRows() {
   rows_->bind(kRowsUnit);
 }
 
-Status Renderer::begin(const Frame& frame, const Shot& shot, const Target& target) {
+// Where rays start is looked for once, before the first of a picture's pieces.
+Status Renderer::begin(const Frame& frame, const Shot& shot, const Target& target, const Rows& rows) {
   prepare(frame);
   samples_ = shot.samples();
   giveRows();
   volumes_.bind();
   grain_ = target.step();
-  return hits_ ? hits_->begin(shot, rowValues_.vectors()) : okStatus();
+  return hits_ && rows.first == 0 ? hits_->begin(shot, rowValues_.vectors()) : okStatus();
 }
 
 Status Renderer::draw(const Frame& frame, const Target& target) {
+  return draw(frame, target, {0, target.height()});
+}
+
+Status Renderer::draw(const Frame& frame, const Target& target, const Rows& rows) {
   Shot shot(frame, target.width(), target.height(), extent_);
-  if (auto s = begin(frame, shot, target); !s) return s;
+  if (auto s = begin(frame, shot, target, rows); !s) return s;
+  const DrawingMode some = someRows(rows.first, rows.count, target.width());
   if (samples_ > 1) {
     if (auto s = clearSums(shot); !s) return s;
     for (int i = 0; i < samples_; ++i)
@@ -217,8 +238,13 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
 }
 
 Status Renderer::refine(const Frame& frame, int drawn, const Target& target) {
+  return refine(frame, drawn, target, {0, target.height()});
+}
+
+Status Renderer::refine(const Frame& frame, int drawn, const Target& target, const Rows& rows) {
   Shot shot(frame, target.width(), target.height(), extent_);
-  if (auto s = begin(frame, shot, target); !s) return s;
+  if (auto s = begin(frame, shot, target, rows); !s) return s;
+  const DrawingMode some = someRows(rows.first, rows.count, target.width());
   if (drawn == 0)
     if (auto s = clearSums(shot); !s) return s;
   if (auto s = addSample(frame, shot, scattered(drawn, samples_)); !s) return s;

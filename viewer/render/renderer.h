@@ -25,6 +25,11 @@ std::size_t pixelsOutOfSteps(const Picture& picture);
 /// Counts the others of which the ray of a shadow ran out of the scene's shadow steps, and is taken for dark.
 std::size_t pixelsOutOfShadowSteps(const Picture& picture);
 
+/// Rows are some of a picture's, counted from the bottom.
+struct Rows {
+  int first, count;
+};
+
 /// A Renderer draws one scene.
 class Renderer {
  public:
@@ -39,11 +44,16 @@ class Renderer {
   /// ray ran out of steps, 1/2 where only one of a shadow did) and, with countReadings, whose second (floats)
   /// holds what readings(target) then sums up. Errors: Limits, Graphics.
   Status draw(const Frame& frame, const Target& target);
+  /// Draws these rows of the same picture, and leaves the others. The pieces of a picture follow one another
+  /// from row 0 on, and this renderer draws nothing else between. Errors: as draw.
+  Status draw(const Frame& frame, const Target& target, const Rows& rows);
 
   /// Draws one more of the frame's samples, of which `drawn` have been drawn, of the same frame and into a
   /// target of the same size; 0 begins anew. The target shows their mean, and after the last one what draw()
   /// does but for the order of the sum. Errors: as draw.
   Status refine(const Frame& frame, int drawn, const Target& target);
+  /// Draws these rows of the same sample, as draw does of a picture.
+  Status refine(const Frame& frame, int drawn, const Target& target, const Rows& rows);
 
   /// Returns the readings that the last picture, in this target, took. Errors: as Target::pixels.
   Result<Readings> readings(const Target& target) const;
@@ -58,7 +68,7 @@ class Renderer {
   void giveRows();  // those of the frame, to all shaders
   void drawPicture(const Frame& frame, const Shot& shot) const;
   void drawBackground(const Shot& shot) const;
-  Status begin(const Frame& frame, const Shot& shot, const Target& target);
+  Status begin(const Frame& frame, const Shot& shot, const Target& target, const Rows& rows);
   Status clearSums(const Shot& shot);
   Status addSample(const Frame& frame, Shot& shot, int i);
   Status resolve(const Shot& shot, const Target& target, double drawn);
@@ -73,6 +83,7 @@ class Renderer {
   double grain_ = 0.0;          // step of the values of what it was drawn into
   UniformValues values_;        // of the picture
   std::optional<UniformValues> backgroundValues_;
+  std::optional<BackgroundValues> around_;  // what lights surfaces of the background, if that does
   UniformValues rowValues_;
   bool rowsMoved_ = false;      // and rows_ have not been filled since
   std::optional<Texels> rows_;  // the texture sdfRows, if there are any

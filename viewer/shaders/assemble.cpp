@@ -37,17 +37,27 @@ GlslWriter labelled(const Scene& scene) {
 // What is shown of a linear colour c, by debug views as it is.
 std::string encoding(const Scene& scene, const Plan& plan) {
   if (plan.options.view != View::Picture && plan.options.view != View::Material) return "(c)";
-  const std::string curve = !scene.gamma ? "encode(c)"
+  const bool isPicture = plan.options.view == View::Picture;
+  const std::string toned = isPicture && scene.tone == Tone::Filmic ? "filmic(c)" : "c";
+  const std::string curve = !scene.gamma ? "encode(" + toned + ")"
                             : *scene.gamma == 1.0
-                                ? "(c)"
-                                : "pow(max(c, 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
-  return plan.options.view == View::Picture ? "dithered(" + curve + ")" : curve;
+                                ? "(" + toned + ")"
+                                : "pow(max(" + toned + ", 0.0), vec3(" + number(1.0 / *scene.gamma) + "))";
+  return isPicture ? "dithered(" + curve + ")" : curve;
 }
 
 std::string encoder(const Scene& scene, const Plan& plan) {
   const bool isPicture = plan.options.view == View::Picture;
   const bool isSrgb = !scene.gamma && (isPicture || plan.options.view == View::Material);
-  return std::string(isSrgb ? parts::kSrgb : "") + (isPicture ? parts::kDither : "");
+  return std::string(isSrgb ? parts::kSrgb : "") +
+         (isPicture && scene.tone == Tone::Filmic ? parts::kFilmic : "") + (isPicture ? parts::kDither : "");
+}
+
+// Those that later parts choose by, pixel by pixel.
+std::string choosing(const Plan& plan) {
+  const bool chooses = plan.sized || plan.glossy || plan.lens;
+  return std::string(chooses || plan.options.view == View::Picture ? parts::kBayer : "") +
+         (chooses ? parts::kChosen : "");
 }
 
 // The primary rays are marched by the picture's shader, from where the cones say.
@@ -55,7 +65,7 @@ bool startsHere(const Plan& plan) { return plan.cones && !plan.grouped && plan.o
 
 // Shadows of these kinds are looked for between the half spaces and the rest.
 bool readsRest(const Plan& plan) {
-  return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft;
+  return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft || plan.sized;
 }
 
 const Box& boundsOfRest(const Plan& plan) { return plan.rest ? plan.rest->bounds : plan.whole.bounds; }
@@ -78,7 +88,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["ENCODE(c)"] = encoding(scene, plan);
   macros["BOX_MIN"] = vector(bounds.min);
   macros["BOX_MAX"] = vector(bounds.max);
-  macros["START_RAY"] = startsHere(plan) ? "startRay(ray);" : "";
+  macros["START_RAY"] = startsHere(plan) ? "startRay(ray);" : plan.lens ? "throughLens(ray);" : "";
   macros["FIND_HIT"] = !plan.grouped       ? "hit = meet(ray);"
                        : plan.bounces == 0 ? "hit = primaryHit();"
                                            : "if (bounce == 0) hit = primaryHit(); else hit = meet(ray);";
@@ -92,13 +102,12 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["TAPS"] = std::to_string(scene.ambientOcclusion.count);
   macros["BOUNCES"] = std::to_string(plan.bounces);
   macros["MIRRORED"] = plan.glossy ? "glossy(d, n, s[SHININESS])" : "reflect(d, n)";
+  macros["AMBIENT"] = plan.around ? "(ambient + lightAround(n))" : "ambient";
   macros["OCCLUSION"] = taps ? "occlusion(p, n)" : "1.0";
   macros["STEP_OCCLUSION"] = steps ? "max(0.0, 1.0 - tapStrength * float(hit.readings))" : "1.0";
   macros["DIRECT"] = plan.lights ? "direct(p, n, d, s)" : "vec3(0.0)";
-  macros["SHADE_LIGHT"] = plan.shadow == ShadowKind::None
-                              ? ""
-                              : "if (lightColor[i].w > 0.0) light *= shadow(p, l, lightVector[i].w > 0.0 ? "
-                                "min(shadowReach, far) : shadowReach);";
+  macros["SHADE_LIGHT"] =
+      plan.shadow == ShadowKind::None ? "" : "if (lightColor[i].w > 0.0) light *= arriving(i, p, l, far);";
   macros["SHADOW_SPENT"] = plan.shadow == ShadowKind::None ? "false" : "shadowSpent";
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);
   for (int i = 0; i + 1 < kAttributeCount; ++i) macros[kAttributeNames[i]] = std::to_string(i);
@@ -109,7 +118,10 @@ std::string shadowParts(const Plan& plan) {
   if (plan.shadow == ShadowKind::None) return "";
   const char* const kinds[] = {"", parts::kHardShadow, parts::kSoftShadow, parts::kImprovedShadow,
                                parts::kSignedShadow};
-  const std::string shadow = parts::kShadowSettings + std::string(kinds[static_cast<int>(plan.shadow)]);
+  const bool looks = plan.sized || plan.shadow == ShadowKind::Hard;
+  const std::string shadow = parts::kShadowSettings + std::string(looks ? parts::kVisible : "") +
+                             kinds[static_cast<int>(plan.shadow)] +
+                             (plan.sized ? parts::kArrivingSized : parts::kArriving);
   if (!readsRest(plan)) return shadow;
   return (boundsOfRest(plan).finite() ? parts::kShadowSpan : parts::kNoShadowSpan) +
          std::string(plan.planes.empty() ? parts::kNoPlanesLight : parts::kPlanesLight) + shadow;
@@ -119,7 +131,7 @@ std::string shadowParts(const Plan& plan) {
 std::string colorParts(const Plan& plan) {
   if (plan.options.view == View::Picture)
     return (plan.lights ? parts::kLights : "") + std::string(plan.glossy ? parts::kGlossy : "") +
-           parts::kRadiance;
+           (plan.lens ? parts::kLens : "") + (plan.around ? parts::kLightAround : "") + parts::kRadiance;
   const char* const shadows = plan.shadow == ShadowKind::None ? parts::kHitsView : parts::kShadowView;
   const char* const views[] = {"",
                                parts::kNormalsView,
@@ -153,7 +165,8 @@ std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& r
   if (plan.lights) text += parts::kLightSettings;
   const char* const occlusions[] = {"", parts::kOcclusionTaps, parts::kOcclusionSteps};
   text += occlusions[static_cast<int>(plan.occlusion)];
-  return text + shadowParts(plan) + colorParts(plan) + encoder(scene, plan) + parts::kPicture;
+  return text + choosing(plan) + shadowParts(plan) + colorParts(plan) + encoder(scene, plan) +
+         parts::kPicture;
 }
 
 // Those of the kinds, and then those of the surfaces.
@@ -202,9 +215,9 @@ Shader background(const Scene& scene, const Plan& plan) {
   macros["START_RAY"] = "";
   macros["SHADOW_SPENT"] = "false";
   Composer composer(plan.options.es, macros, functions, {});
-  std::string text = composer.compose(std::string(parts::kCamera) +
-                                      (plan.options.countReadings ? parts::kPictureCounts : "") +
-                                      parts::kBackground + encoder(scene, plan) + parts::kPicture);
+  std::string text = composer.compose(
+      std::string(parts::kCamera) + (plan.options.countReadings ? parts::kPictureCounts : "") +
+      parts::kBackground + parts::kBayer + encoder(scene, plan) + parts::kPicture);
   return {std::move(text), composer.uniforms()};
 }
 
@@ -237,7 +250,8 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   std::optional<Shader> tiles;
   if (plan->tiled) tiles = background(scene, *plan);
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
-  std::string resolved = resolve.compose(encoder(scene, *plan) + parts::kResolve);
+  const char* const dithers = options.view == View::Picture ? parts::kBayer : "";
+  std::string resolved = resolve.compose(dithers + encoder(scene, *plan) + parts::kResolve);
   return SceneShaders{std::move(*plan), std::move(hits),  std::move(boxes), std::move(triangles),
                       rows.numbers(),   std::move(shown), std::move(tiles), std::move(resolved)};
 }

@@ -14,6 +14,30 @@ void setFootprint(vec3 n, vec3 d, float distance) {
 }
 )";
 
+/// Defines bayer(), the pixel's number in Bayer's pattern of 8 by 8.
+inline constexpr const char* kBayer = R"(
+uint bayer() {
+  uint y = uint(gl_FragCoord.y), x = uint(gl_FragCoord.x) ^ y;
+  return (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
+}
+)";
+
+/// Defines inPixel(place), a sample's place in the unit square as this pixel has it: all samples' are shifted
+/// alike (Cranley, Patterson 1976), by Bayer's pattern, so that pictures are the same each time; and
+/// around(axis, cosine, sine, turn), a direction at that angle to an axis, turned by a share of the circle.
+inline constexpr const char* kChosen = R"(
+vec2 inPixel(vec2 place) {
+  uint shift = bayer();
+  return fract(place + vec2(float(shift) + 0.5, float(shift * 29u & 63u) + 0.5) / 64.0);
+}
+
+vec3 around(vec3 axis, float cosine, float sine, float turn) {
+  vec3 across = normalize(cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+  turn *= 6.2831853;
+  return cosine * axis + sine * (cos(turn) * across + sin(turn) * cross(axis, across));
+}
+)";
+
 /// Either defines clip(p, l, widening, t, reach), which leaves the part of the way to a light that can be
 /// dimmed.
 /// Only what is nearer to the ray than t / k dims the light: within the rest's bounds grown by the most of
@@ -68,8 +92,9 @@ float ended(float t, float reach, float light) {
 }
 )";
 
-inline constexpr const char* kHardShadow = R"(
-float shadow(vec3 p, vec3 l, float reach) {
+/// Defines visible(p, l, reach), 1 where a light can be seen and 0 elsewhere.
+inline constexpr const char* kVisible = R"(
+float visible(vec3 p, vec3 l, float reach) {
   float t = shadowStart;
   if (leastOfPlanes(p, l, reach) <= 0.0) return 0.0;
   clip(p, l, 0.0, t, reach);
@@ -81,6 +106,10 @@ float shadow(vec3 p, vec3 l, float reach) {
   }
   return ended(t, reach, 1.0);
 }
+)";
+
+inline constexpr const char* kHardShadow = R"(
+float shadow(vec3 p, vec3 l, float reach) { return visible(p, l, reach); }
 )";
 
 /// Between readings by sdf/march/shadow.h's parabola: far, least, stepBefore and riseBefore are the t of the
@@ -150,6 +179,35 @@ float shadow(vec3 p, vec3 l, float reach) {
 }
 )";
 
+/// Either defines arriving(i, p, l, far), the share of light i that arrives at p, `far` from its middle in
+/// the direction l.
+inline constexpr const char* kArriving = R"(
+float arriving(int i, vec3 p, vec3 l, float far) {
+  return shadow(p, l, lightVector[i].w > 0.0 ? min(shadowReach, far) : shadowReach);
+}
+)";
+
+/// Of a light that has a size all or nothing, by whether one of its points is seen: a sample's is one of
+/// those that look alike large (Shirley, Wang, Zimmerman, "Monte Carlo techniques for direct lighting
+/// calculations", 1996). A ray ends where it meets the ball.
+inline constexpr const char* kArrivingSized = R"(
+uniform float lightSize[LIGHTS];  // its radius; if it is far away the sine of half the angle that it is seen under
+uniform vec2 lightPlace;          // the sample's, in the unit square
+
+float arriving(int i, vec3 p, vec3 l, float far) {
+  bool isBall = lightVector[i].w > 0.0;
+  float size = lightSize[i], reach = isBall ? min(shadowReach, far) : shadowReach;
+  if (size == 0.0) return shadow(p, l, reach);
+  float rim = isBall ? min(size / far, 1.0) : size;  // the sine of its angle
+  vec2 u = inPixel(lightPlace);
+  float low = u.x * rim * rim / (1.0 + sqrt(1.0 - rim * rim));  // 1 - the cosine of the ray's
+  float cosine = 1.0 - low, sine = sqrt(low * (2.0 - low));
+  float enters = far * cosine - sqrt(max(size * size - far * far * sine * sine, 0.0));
+  if (isBall) reach = min(shadowReach, max(enters, shadowStart));
+  return visible(p, around(l, cosine, sine, u.y), reach);
+}
+)";
+
 /// Defines occlusion(p, n), by taps along the normal.
 inline constexpr const char* kOcclusionTaps = R"(
 uniform float tapSpacing, tapStrength;
@@ -168,6 +226,18 @@ float occlusion(vec3 p, vec3 n) {
 /// Declares the uniform of occlusion by steps.
 inline constexpr const char* kOcclusionSteps = R"(
 uniform float tapStrength;
+)";
+
+/// Defines lightAround(n), the background's light; see sdf/scene/background_light.h.
+inline constexpr const char* kLightAround = R"(
+uniform vec4 backgroundLight[9];
+
+vec3 lightAround(vec3 n) {
+  vec4 light = backgroundLight[0] + n.x * backgroundLight[1] + n.y * backgroundLight[2] + n.z * backgroundLight[3] +
+               n.x * n.y * backgroundLight[4] + n.y * n.z * backgroundLight[5] + n.z * n.x * backgroundLight[6] +
+               (3.0 * n.z * n.z - 1.0) * backgroundLight[7] + (n.x * n.x - n.y * n.y) * backgroundLight[8];
+  return max(light.rgb, 0.0);
+}
 )";
 
 /// Declares the lights.
@@ -197,20 +267,14 @@ vec3 direct(vec3 p, vec3 n, vec3 d, float s[ATTRIBUTES]) {
 )";
 
 /// Defines glossy(d, n, exponent), a mirrored direction within the lobe of Phong's highlight: its cosine to
-/// the mirror image of d is u^(1 / (exponent + 1)) (Lafortune, Willems 1994). Which one follows from the
-/// sample, and from the pixel by Bayer's pattern (Cranley, Patterson 1976: a shift of all samples), so that
-/// pictures are the same each time.
+/// the mirror image of d is u^(1 / (exponent + 1)) (Lafortune, Willems 1994).
 inline constexpr const char* kGlossy = R"(
 uniform vec2 lobe;  // the sample's place in the unit square
 
 vec3 glossy(vec3 d, vec3 n, float exponent) {
-  uint y = uint(gl_FragCoord.y), x = uint(gl_FragCoord.x) ^ y;
-  uint place = (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
-  vec2 u = fract(lobe + vec2(float(place) + 0.5, float(place * 29u & 63u) + 0.5) / 64.0);
-  vec3 m = reflect(d, n);
-  vec3 across = normalize(cross(m, abs(m.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
-  float cosine = pow(u.x, 1.0 / (exponent + 1.0)), turn = 6.2831853 * u.y;
-  vec3 way = cosine * m + sqrt(1.0 - cosine * cosine) * (cos(turn) * across + sin(turn) * cross(m, across));
+  vec2 u = inPixel(lobe);
+  float cosine = pow(u.x, 1.0 / (exponent + 1.0));
+  vec3 way = around(reflect(d, n), cosine, sqrt(1.0 - cosine * cosine), u.y);
   return way - min(2.0 * dot(way, n), 0.0) * n;  // none goes into the surface
 }
 )";
@@ -242,7 +306,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     TAKE_OPERAND
     sdfSurface(p, n, s);
     TAKE_LOOK
-    vec3 local = ambient * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
+    vec3 local = AMBIENT * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;
     float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t));
@@ -283,6 +347,14 @@ vec3 encode(vec3 c) {
 }
 )";
 
+/// Defines filmic(c), linear colours by Tone::Filmic.
+inline constexpr const char* kFilmic = R"(
+vec3 filmic(vec3 c) {
+  c = max(c, 0.0);
+  return min(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 1.0);
+}
+)";
+
 /// Defines dithered(c): a colour moved by less than half a step of what the target holds, so that slow
 /// changes do not show as bands. How far follows from the pixel, by Bayer's pattern of 8 by 8, which files
 /// still pack well; a colour that is one of the target's stays.
@@ -290,9 +362,23 @@ inline constexpr const char* kDither = R"(
 uniform float grain;  // the step; 0: floats, which need none
 
 vec3 dithered(vec3 c) {
-  uint y = uint(gl_FragCoord.y), x = uint(gl_FragCoord.x) ^ y;
-  uint place = (x & 1u) << 5u | (y & 1u) << 4u | (x & 2u) << 2u | (y & 2u) << 1u | (x & 4u) >> 1u | (y & 4u) >> 2u;
-  return c + grain * ((float(place) + 0.5) / 64.0 - 0.5);
+  return c + grain * ((float(bayer()) + 0.5) / 64.0 - 0.5);
+}
+)";
+
+/// Defines throughLens(ray), which lets a primary ray start at a point of the lens; it meets the plane in
+/// focus where it did.
+inline constexpr const char* kLens = R"(
+uniform float aperture, focus;  // radius, and how far ahead is seen sharply
+uniform vec2 lensPlace;         // the sample's, in the unit square
+
+void throughLens(inout Ray ray) {
+  vec2 u = inPixel(lensPlace);
+  vec3 off = aperture * sqrt(u.x) * (cos(6.2831853 * u.y) * right + sin(6.2831853 * u.y) * up);
+  float focal = length(forward), share = focal / focus;
+  vec3 way = ray.direction * (focal * focal / dot(ray.direction, forward)) - share * off;
+  float far = length(way);
+  ray = Ray(ray.origin + (1.0 - ahead * share) * off, way / far, ahead * far, 0.0, 1e30, maxDistance - ahead * far);
 }
 )";
 

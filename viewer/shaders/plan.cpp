@@ -99,7 +99,19 @@ void planSurface(const Shape& whole, Plan& plan) {
   plan.filters = shown.changed;
 }
 
+void planShadows(const Scene& scene, Plan& plan) {
+  const auto isPoint = [](const Light& light) { return light.radius.isConstant(0.0); };
+  const auto isSized = [](const Light& l) { return l.radius.isConstant() && !l.radius.isConstant(0.0); };
+  plan.sized = !std::ranges::all_of(scene.lights, isPoint);
+  plan.shadow = std::ranges::all_of(scene.lights, isSized) ? Shadow::Kind::Hard : scene.shadow.kind;
+}
+
 }  // namespace
+
+int usefulSamples(const Plan& plan) {
+  constexpr int kOfEdges = 6, kOfSpread = 16;
+  return plan.sized || plan.glossy || plan.lens ? kOfSpread : kOfEdges;
+}
 
 Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   const Shape whole = scene.whole();
@@ -116,7 +128,10 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
                          view == View::Occlusion || view == View::Shadow;
   // A group is read without what marchable() adds where a slope is known near the bounds only.
   const bool mayGroup = options.sharing && slopeOf(whole) < kInfinity;
-  Split parts = split(scene, !stepsCount, options.drawing && mayGroup && showsHits && !stepsCount);
+  // Each pixel's rays through a lens are others.
+  plan.lens = isPicture && !scene.camera.aperture.isConstant(0.0);
+  Split parts =
+      split(scene, !stepsCount, options.drawing && mayGroup && showsHits && !stepsCount && !plan.lens);
   plan.planes = std::move(parts.planes);
   plan.drawn = std::move(parts.drawn);
   const Shape rest = plan.planes.empty() || parts.others.empty() ? whole : unite(parts.others);
@@ -125,11 +140,12 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   } else if (!parts.others.empty()) {
     if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
   }
-  plan.cones = options.method == Method::AutoRelaxed && !stepsCount;
+  plan.cones = options.method == Method::AutoRelaxed && !stepsCount && !plan.lens;
   plan.tiled = plan.cones && isPicture && plan.planes.empty() && plan.drawn.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
-  if (plan.lights) plan.shadow = scene.shadow.kind;
+  if (plan.lights && scene.shadow.kind != Shadow::Kind::None) planShadows(scene, plan);
+  plan.around = isPicture && !scene.backgroundLight.isConstant(0.0);
   if (isPicture || view == View::Occlusion) plan.occlusion = scene.ambientOcclusion.kind;
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;

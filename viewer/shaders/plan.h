@@ -79,12 +79,19 @@ struct Plan {
   bool cones = false;         ///< rays start where the cone pass says
   bool tiled = false;         ///< where the cones saw nothing there is only background
   bool lights = false;        ///< light is shown, and there is some
+  bool around = false;        ///< the background lights surfaces
   bool filters = false;       ///< the surface has patterns that are averaged over what a pixel covers
   int bounces = 0;            ///< reflections that are followed
   bool glossy = false;        ///< and spread over the lobe of the highlight
-  Shadow::Kind shadow = Shadow::Kind::None;
+  bool lens = false;          ///< primary rays start all over a lens; there are no cones then
+  Shadow::Kind shadow = Shadow::Kind::None;  ///< of lights without a size
+  bool sized = false;                        ///< lights that have one cast shadows, too
   AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;
 };
+
+/// The samples a side of a pixel up to which more of them are seen to help: 6 where they smooth edges alone,
+/// 16 where lights, mirrors or a lens spread.
+int usefulSamples(const Plan& plan);
 
 /// Makes the plan of a sound scene. Errors (Scene): a shape whose distance has no known slope.
 Result<Plan> planOf(const Scene& scene, const ShaderOptions& options);

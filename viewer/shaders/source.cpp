@@ -88,10 +88,11 @@ std::vector<std::string> deadMacros(const Macros& macros) {
   static constexpr const char* kParts[] = {
       kCamera, kHit, kField, kRest, kRestByBox, kPlanes, kNoPlanes, kMarch, kGradient, kGradientByTaps, kNormal, kMeet,
       kStarts, kHitCounts, kPictureCounts, kCones, kFavoured, kHits, kTriangles, kTakeLook, kHitFromLayers, kFootprint, kShadowSpan,
-      kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kHardShadow, kSoftShadow,
-      kImprovedShadow, kSignedShadow, kOcclusionTaps, kOcclusionSteps, kLightSettings, kLights, kGlossy, kRadiance,
+      kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kVisible, kHardShadow, kSoftShadow,
+      kImprovedShadow, kSignedShadow, kArriving, kArrivingSized, kBayer, kChosen, kOcclusionTaps,
+      kOcclusionSteps, kLightAround, kLightSettings, kLights, kGlossy, kLens, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
-      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kDither, kPicture, kResolve};
+      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kFilmic, kDither, kPicture, kResolve};
   // clang-format on
   std::set<std::string> used;
   for (const char* const part : kParts) used.merge(usedMacros(part));

@@ -98,7 +98,7 @@ vec3 shown(Ray ray, Hit hit) {
     vec3 l = way / far;
     if (light == 0.0) continue;
     asked += 1.0;
-    arrives += shadow(p, l, lightVector[i].w > 0.0 ? min(shadowReach, far) : shadowReach);
+    arrives += arriving(i, p, l, far);
   }
   return vec3(asked > 0.0 ? arrives / asked : 1.0);
 }

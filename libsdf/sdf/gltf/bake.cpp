@@ -10,6 +10,7 @@
 #include "sdf/gltf/emission.h"
 #include "sdf/march/ambient_occlusion.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/scene/background_light.h"
 #include "sdf/scene/fit.h"
 
 namespace sdf {
@@ -40,6 +41,14 @@ Result<MarchField> fieldOf(const Scene& scene, const std::optional<Box>& clip) {
 
 /// A vertex without a normal sees all there is.
 bool hasNormal(const Mesh& mesh, std::size_t vertex) { return isUnit(glm::dvec3(mesh.normals[vertex])); }
+
+/// What the background gives to each vertex; to one without a normal the mean of all around.
+std::vector<glm::vec3> lightAround(const BackgroundLight& light, const Mesh& mesh) {
+  std::vector<glm::vec3> around;
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+    around.emplace_back(hasNormal(mesh, i) ? light.at(glm::dvec3(mesh.normals[i])) : light.parts[0]);
+  return around;
+}
 
 Status occlude(const MarchField& field, const TapOptions& taps, const Mesh& mesh, std::size_t first,
                std::vector<float>& occlusion) {
@@ -79,8 +88,11 @@ Status bakeAmbient(const Scene& scene, const std::optional<Box>& clip, std::span
                    Progress& progress) {
   AmbientLight light;
   light.color = glm::max(valueOf(scene.ambient), glm::vec3(0.0f));
+  const BackgroundLight background = backgroundLight(scene);
+  const bool isLitAround = background != BackgroundLight{};
+  const bool isLit = isLitAround || light.color != glm::vec3(0.0f);
   std::optional<MarchField> field;
-  if (scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Taps && light.color != glm::vec3(0.0f)) {
+  if (scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Taps && isLit) {
     Result<MarchField> made = fieldOf(scene, clip);
     if (!made) return made.error();
     field = std::move(*made);
@@ -88,6 +100,7 @@ Status bakeAmbient(const Scene& scene, const std::optional<Box>& clip, std::span
   const TapOptions taps = tapsOf(scene);
   for (ExportPart& part : parts) {
     part.ambient = light;
+    if (isLitAround) part.ambient->around = lightAround(background, part.mesh);
     if (field) {
       progress.beginStage("occlusion");
       if (Status s = keep(occlusionOf(*field, taps, part.mesh, progress), part.ambient->occlusion); !s)

@@ -62,7 +62,7 @@ BakedEmission bakedEmission(const Mesh& mesh, const Primitive& primitive, const 
   const auto occlusion = [&](std::uint32_t v) { return light.occlusion.empty() ? 1.0f : light.occlusion[v]; };
   std::vector<glm::vec3> answers, meant;
   for (const std::uint32_t v : primitive.vertices) {
-    answers.push_back(light.color * mesh.ambient[v]);
+    answers.push_back((light.around.empty() ? light.color : light.color + light.around[v]) * mesh.ambient[v]);
     meant.push_back(own + occlusion(v) * answers.back());
   }
   BakedEmission baked;

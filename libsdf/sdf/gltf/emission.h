@@ -25,7 +25,7 @@ struct BakedEmission {
   float error = 0.0f;
 };
 
-/// The material's emission plus light.color * (what the mesh answers to it) * occlusion.
+/// The material's emission plus (light.color + light.around) * (what the mesh answers to it) * occlusion.
 BakedEmission bakedEmission(const Mesh& mesh, const Primitive& primitive, const AmbientLight& light);
 
 }  // namespace sdf

@@ -16,6 +16,7 @@ struct AmbientLight {
   glm::vec3 color{0.0f};         ///< linear RGB
   std::vector<float> occlusion;  ///< by vertex, the share of it that arrives, 0 to 1; empty: all of it
   float error = 0.0f;            ///< largest difference of the written emission from it at a vertex, linear
+  std::vector<glm::vec3> around{};  ///< by vertex, what the background adds to the colour; empty: nothing
 };
 
 struct ExportPart {

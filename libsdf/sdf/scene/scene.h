@@ -12,7 +12,7 @@
 
 namespace sdf {
 
-/// Pinhole camera. Vectors may depend on parameters and time, not on position.
+/// A camera. Vectors and numbers may depend on parameters and time, not on position.
 struct Camera {
   /// None: the camera is fitted (scene/fit.h): it looks at the middle of the scene along the way from
   /// eye() to `to`, from where all of the scene is in view.
@@ -22,6 +22,9 @@ struct Camera {
   Expr fov = 45.0;  ///< vertical field of view, degrees
   /// Flips left and right, for scenes ported from shaders that build right = up x forward.
   bool mirrored = false;
+  Expr aperture = 0.0;  ///< radius of its thin lens, scene units; 0: a pinhole, which sees all sharply
+  /// How far along the way that it looks is seen sharply by a lens, scene units; none: as far as `to`.
+  std::optional<Expr> focus{};
 
   /// `from`, or {3.4, 2.6, 4.6} where there is none.
   Vec3E eye() const { return from.value_or(Vec3E(Expr(3.4), Expr(2.6), Expr(4.6))); }
@@ -34,6 +37,10 @@ struct Light {
   Vec3E color{Expr(1.0)};   ///< linear RGB
   Expr intensity = 1.0;     ///< no fall-off with distance (the seeds' and Phong's convention)
   bool castsShadow = true;
+  /// How large it is: Point, the radius of a ball, scene units; Directional, half the angle that it is seen
+  /// under, degrees below 90. Above 0 its shadows are those of all its points, whatever the shadows' kind;
+  /// what it gives where nothing is in the way, highlights included, stays that of its middle.
+  Expr radius = 0.0;
 };
 
 struct Shadow {
@@ -63,6 +70,13 @@ struct Part {
   Shape shape;
 };
 
+/// How a picture's light becomes colours that can be shown, each of red, green and blue by itself:
+///   Linear  as it is; what is above 1 is cut off
+///   Filmic  c (2.51 c + 0.03) / (c (2.43 c + 0.59) + 0.14), at most 1, which keeps differences far above 1
+///   and
+///           darkens shadows (Narkowicz, "ACES filmic tone mapping curve", 2015, without a factor before)
+enum class Tone { Linear, Filmic };
+
 /// The colour seen along a ray that hits nothing is an expression of the ray's unit direction, held in x, y
 /// and z.
 struct Scene {
@@ -76,14 +90,16 @@ struct Scene {
   std::vector<Light> lights;
   Vec3E ambient{Expr(0.1)};
   Vec3E background{Expr(0.05), Expr(0.05), Expr(0.08)};
+  Expr backgroundLight = 0.0;  ///< share of the background that lights surfaces (scene/background_light.h)
   Fog fog;
   Shadow shadow;
   AmbientOcclusion ambientOcclusion;
   int reflectionBounces = 1;
   bool glossyReflections = false;       ///< mirrored rays are spread over the lobe of Phong's highlight
   std::optional<double> maxDistance{};  ///< how far the camera sees; none: see viewLengths
-  std::optional<double> gamma;          ///< none: sRGB output; 1: raw values
-  std::vector<std::string> notes;       ///< what its author should know of it, a line each
+  Tone tone = Tone::Linear;
+  std::optional<double> gamma;     ///< none: sRGB output; 1: raw values. After the tone
+  std::vector<std::string> notes;  ///< what its author should know of it, a line each
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);

@@ -167,7 +167,9 @@ const std::vector<Setting<Scene>>& sceneSettings() {
         field<&Scene::camera, &Camera::to>("to", Kind::Vector, "the point in the middle of the picture"),
         field<&Scene::camera, &Camera::up>("up", Kind::Vector, "what is up"),
         field<&Scene::camera, &Camera::fov>("fov", Kind::Number, "vertical field of view, below 180 degrees", Rule::Positive),
-        field<&Scene::camera, &Camera::mirrored>("mirrored", Kind::Flag, "swaps left and right")},
+        field<&Scene::camera, &Camera::mirrored>("mirrored", Kind::Flag, "swaps left and right"),
+        field<&Scene::camera, &Camera::aperture>("aperture", Kind::Number, "radius of the lens, scene units: blurs what is nearer or farther than the focus; it takes many samples a pixel", Rule::NotNegative),
+        field<&Scene::camera, &Camera::focus>("focus", Kind::Number, "how far along the way that it looks a lens sees sharply", Rule::Positive, "as far as `to`")},
        false, [](Scene& s) { s.camera.from = s.camera.eye(); },
        [](const Scene& s) -> std::string {
          if (uniformValue(s.camera.fov) >= 180.0) return ": 'fov' must be below 180 degrees";
@@ -179,6 +181,9 @@ const std::vector<Setting<Scene>>& sceneSettings() {
       {"background", "background(color)",
        "what a ray sees that hits nothing; in a function, x, y, z are the ray's unit direction",
        {field<&Scene::background>("color", Kind::SurfaceColor, "")}, true},
+      {"background_light", "background_light(1)",
+       "lets the background light the scene: ambient light by the direction that a surface faces, in the place of `ambient` or, where that is called too, beside it; a factor",
+       {field<&Scene::backgroundLight>("strength", Kind::Number, "", Rule::NotNegative)}, true},
       {"fog", "fog{color = c, density = 0.1}",
        "mixes far surfaces into a colour; the share that is kept is exp(-density * distance)",
        {field<&Scene::fog, &Fog::color>("color", Kind::Color, "colour of the fog"),
@@ -204,6 +209,8 @@ const std::vector<Setting<Scene>>& sceneSettings() {
        [](const Scene& s) -> std::string {  // the squares of more are beyond a GPU's floats
          return s.maxDistance > 1e15 ? " must be at most 1e15, got " + shown(*s.maxDistance) : "";
        }},
+      {"tone", "tone(\"filmic\")", "how the picture shows light: \"linear\" cuts off what is above 1, \"filmic\" bends it so that bright places keep their differences",
+       {field<&Scene::tone>("curve", Kind::Choice, "", Rule::Any, "", {"linear", "filmic"})}, true},
       {"gamma", "gamma(2.2)", "exponent of the picture's tone curve; 1 for raw values",
        {field<&Scene::gamma>("exponent", Kind::PlainNumber, "", Rule::Positive, "sRGB")}, true},
       {"bounds", "bounds({x0, y0, z0}, {x1, y1, z1})",
@@ -213,19 +220,23 @@ const std::vector<Setting<Scene>>& sceneSettings() {
 }
 
 const std::vector<Setting<Light>>& lightSettings() {
-  static const auto fields = [](const char* vector, const char* doc, Rule rule) {
+  static const auto fields = [](const char* vector, const char* doc, Rule rule, const char* radius) {
     return std::vector{field<&Light::vector>(vector, Kind::Vector, doc, rule),
                        field<&Light::color>("color", Kind::Color, "linear RGB"),
                        field<&Light::intensity>("intensity", Kind::Number, "factor of the colour; does not fall off with distance", Rule::NotNegative),
-                       field<&Light::castsShadow>("shadow", Kind::Flag, "whether it casts shadows")};
+                       field<&Light::castsShadow>("shadow", Kind::Flag, "whether it casts shadows"),
+                       field<&Light::radius>("radius", Kind::Number, radius, Rule::NotNegative)};
   };
   static const std::vector<Setting<Light>> settings{
       {"directional_light", "directional_light{direction = {1, 1, 1}}",
-       "adds a light from far away; a scene that has no light and does not call `ambient` gets a warm one from above that casts a soft shadow, unless `shadows` says which, a weak one from the right, and a grey background if it names none",
-       fields("direction", "towards the light", Rule::NotZero), false,
-       [](Light& light) { light.kind = Light::Kind::Directional; }},
+       "adds a light from far away; a scene that has no light and calls neither `ambient` nor `background_light` gets a warm one from above that casts a soft shadow, unless `shadows` says which, a weak one from the right, and a grey background if it names none",
+       fields("direction", "towards the light", Rule::NotZero, "half the angle that it is seen under, degrees below 90 (the sun's is 0.27): blurs its shadows, whatever their kind; it takes many samples a pixel"), false,
+       [](Light& light) { light.kind = Light::Kind::Directional; },
+       [](const Light& light) -> std::string {
+         return uniformValue(light.radius) >= 90.0 ? ": 'radius' must be below 90 degrees" : "";
+       }},
       {"point_light", "point_light{position = {1, 1, 1}}", "adds a light at a point",
-       fields("position", "where it is", Rule::Any), false,
+       fields("position", "where it is", Rule::Any, "of a ball, scene units: blurs its shadows, whatever their kind; what is in the ball casts none; it takes many samples a pixel"), false,
        [](Light& light) { light.kind = Light::Kind::Point; }}};
   return settings;
 }

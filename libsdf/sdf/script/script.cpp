@@ -52,10 +52,12 @@ Result<Scene> runScene(const std::string& text, const std::string& name, const S
   if (const Status known = checkOverrides(context.scene, options, name); !known) return known.error();
   if (context.scene.parts.empty())
     return sceneError(name, "the scene is empty; add a shape with part(name, shape) or return one");
-  if (context.scene.lights.empty() && !context.settingLines.contains("ambient")) {
+  const auto isSet = [&](const char* name) { return context.settingLines.contains(name); };
+  if (isSet("background_light") && !isSet("ambient")) context.scene.ambient = Vec3E(0.0);
+  if (context.scene.lights.empty() && !isSet("ambient") && !isSet("background_light")) {
     context.scene.lights = standardLights();  // else shapes are flat spots of their colour
-    if (!context.settingLines.contains("shadows")) context.scene.shadow = standardShadow();
-    if (!context.settingLines.contains("background")) context.scene.background = standardBackground();
+    if (!isSet("shadows")) context.scene.shadow = standardShadow();
+    if (!isSet("background")) context.scene.background = standardBackground();
   }
   Result<Scene> scene = checked(std::move(context.scene));
   if (!scene) return sceneError(name, scene.error().message);

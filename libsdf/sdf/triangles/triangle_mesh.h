@@ -16,7 +16,7 @@ struct TextureImage {
 
 /// How triangles look, by glTF's metallic-roughness model.
 struct TriangleMaterial {
-  std::string name;
+  std::string name{};
   glm::vec3 color{0.8f};  ///< linear RGB, multiplied by colours of vertices and by the texture
   float metallic = 0.0f, roughness = 1.0f;
   glm::vec3 emission{0.0f};  ///< linear RGB
