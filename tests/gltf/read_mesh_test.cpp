@@ -98,7 +98,7 @@ TEST(ReadMesh, RefusesMoreTrianglesThanItTakes) {
 TEST(ReadMesh, ShowsWhatAFileSaysOnOneLine) {
   const Folder folder;
   EXPECT_EQ(whyNot(written(folder / "a.obj", "v 0 0 \x01\xff" + std::string(100, 'x') + "\n")),
-            "line 1: '?\xEF\xBF\xBD" + std::string(58, 'x') + "…' is no number");
+            "line 1: '?\xEF\xBF\xBD" + std::string(78, 'x') + "…' is no number");
 }
 
 TEST(ReadMesh, KeepsWarningsFew) {
