@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "mesh_files.h"
+#include "sdf/gltf/export.h"
 #include "sdf/gltf/glb.h"
+#include "synthetic.h"
 
 namespace sdf {
 namespace {
@@ -93,6 +95,20 @@ TEST(ReadMesh, RefusesMoreTrianglesThanItTakes) {
   EXPECT_EQ(read.error().kind, ErrorKind::Limits);
   EXPECT_EQ(read.error().message, "cannot read '" + (folder / "a.glb").string() +
                                       "': it has more than 50000000 triangles; simplify it or split it up");
+}
+
+// Only what ends a file in vain may be missing: the last line's end, or an STL's endsolid.
+TEST(ReadMesh, NoticesFilesThatAreCutOffAnywhere) {
+  const Folder folder;
+  for (const char* name : {"a.glb", "a.gltf", "a.stl", "a.ply"}) {
+    ASSERT_TRUE(writeMeshes(folder / name, Scene{}, {part("a", sphere(2, 3))}));
+    const std::string whole = contents(folder / name);
+    for (std::size_t length = 1; length + 1 < whole.size(); ++length) {
+      const Result<ReadMesh> read = readMesh(written(folder / name, whole.substr(0, length)));
+      ASSERT_FALSE(read) << name << ", " << length << " of " << whole.size() << " bytes";
+      ASSERT_EQ(read.error().kind, ErrorKind::Files);
+    }
+  }
 }
 
 TEST(ReadMesh, ShowsWhatAFileSaysOnOneLine) {
