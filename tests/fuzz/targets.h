@@ -20,7 +20,8 @@ void graph(Input input);
 /// A tree of catalog entries: its mesh is sound, and each format reads back.
 void meshed(Input input);
 
-/// The extension and the bytes of a mesh file: its mesh is sound, or an error of one line says why there is none.
+/// The extension and the bytes of a mesh file: its mesh is sound, or an error of one line says why there is
+/// none.
 void files(Input input);
 
 /// Prints what went wrong and aborts.

@@ -272,7 +272,7 @@ TEST(ReadGltf, SaysWhichAccessorIsWrong) {
   EXPECT_EQ(why({{"type", "MAT2"}}), "its accessor 0 is of a type that no vertex has");
   EXPECT_EQ(why({{"type", "VEC2"}}), "its accessor 0 is of no type for POSITION");
   EXPECT_EQ(why({{"type", "VEC9"}}),
-            "it is no valid glTF: 'Unsupported `type` for accessor object. Got \"VEC9\"'");
+            "it is no valid glTF: Unsupported `type` for accessor object. Got \"VEC9\"");
 }
 
 TEST(ReadGltf, SaysWhichViewIsWrong) {

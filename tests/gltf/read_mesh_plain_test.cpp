@@ -189,7 +189,9 @@ TEST(ReadStl, SaysWhatIsWrong) {
   EXPECT_EQ(why(textStl("vertex 0 0 0\nvertex 1 0 0\n")), "line 6: a facet of 2 corners");
   EXPECT_EQ(why(textStl("corner 0 0 0\n")), "line 4: 'corner' is no word of an STL");
   const std::string whole = textStl("vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n");
-  EXPECT_EQ(why(whole.substr(0, whole.find("endsolid"))), "it is cut off: its solid does not end");
+  EXPECT_EQ(why(whole.substr(0, whole.find("endfacet"))), "it is cut off within a facet");
+  EXPECT_EQ(readWell(written(folder / "b.stl", whole.substr(0, whole.find("endsolid")))).warnings,
+            std::vector<std::string>{"its solid does not end, so it may be cut off"});
   EXPECT_EQ(why("solid\nendsolid\n"), "it has no triangles");
 }
 

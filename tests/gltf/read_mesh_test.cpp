@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "mesh_files.h"
+#include "sdf/gltf/export.h"
 #include "sdf/gltf/glb.h"
+#include "synthetic.h"
 
 namespace sdf {
 namespace {
@@ -95,10 +97,24 @@ TEST(ReadMesh, RefusesMoreTrianglesThanItTakes) {
                                       "': it has more than 50000000 triangles; simplify it or split it up");
 }
 
+// Only what ends a file in vain may be missing: the last line's end, or an STL's endsolid.
+TEST(ReadMesh, NoticesFilesThatAreCutOffAnywhere) {
+  const Folder folder;
+  for (const char* name : {"a.glb", "a.gltf", "a.stl", "a.ply"}) {
+    ASSERT_TRUE(writeMeshes(folder / name, Scene{}, {part("a", sphere(2, 3))}));
+    const std::string whole = contents(folder / name);
+    for (std::size_t length = 1; length + 1 < whole.size(); ++length) {
+      const Result<ReadMesh> read = readMesh(written(folder / name, whole.substr(0, length)));
+      ASSERT_FALSE(read) << name << ", " << length << " of " << whole.size() << " bytes";
+      ASSERT_EQ(read.error().kind, ErrorKind::Files);
+    }
+  }
+}
+
 TEST(ReadMesh, ShowsWhatAFileSaysOnOneLine) {
   const Folder folder;
   EXPECT_EQ(whyNot(written(folder / "a.obj", "v 0 0 \x01\xff" + std::string(100, 'x') + "\n")),
-            "line 1: '?\xEF\xBF\xBD" + std::string(58, 'x') + "…' is no number");
+            "line 1: '?\xEF\xBF\xBD" + std::string(78, 'x') + "…' is no number");
 }
 
 TEST(ReadMesh, KeepsWarningsFew) {

@@ -213,7 +213,7 @@ class GltfOpener {
     const bool loaded = loader.LoadASCIIFromString(&out_.model_, &error, &warning, text.data(),
                                                    static_cast<unsigned>(text.size()), "", kAnySections);
     if (!loaded || !error.empty())
-      return bad("it is no valid glTF: " + inQuotes(error.substr(0, error.find('\n'))));
+      return bad("it is no valid glTF: " + onOneLine(error.substr(0, error.find('\n'))));
     return okStatus();
   }
 

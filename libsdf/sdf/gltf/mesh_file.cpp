@@ -35,13 +35,15 @@ Error tooManyTriangles(const fs::path& file) {
                                  .message};
 }
 
-std::string inQuotes(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
+std::string onOneLine(std::string_view text) {
+  constexpr std::size_t kLongest = 80;
   std::string shown = utf8(std::string(text.substr(0, kLongest)));
   std::ranges::replace_if(
       shown, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
-  return "'" + shown + (text.size() > kLongest ? "…'" : "'");
+  return text.size() > kLongest ? shown + "…" : shown;
 }
+
+std::string inQuotes(std::string_view text) { return "'" + onOneLine(text) + "'"; }
 
 void warn(std::vector<std::string>& warnings, const std::string& warning) {
   constexpr std::size_t kMost = 20;

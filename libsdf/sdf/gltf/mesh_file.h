@@ -19,7 +19,9 @@ Error unreadable(const std::filesystem::path& file, const std::string& why);
 /// The error for a file with more triangles than readMesh takes.
 Error tooManyTriangles(const std::filesystem::path& file);
 
-/// A file's own words as a message can show them: quoted, on one line, not long.
+/// The words of a file, or of a library, as a message can show them: UTF-8, on one line, not long.
+std::string onOneLine(std::string_view text);
+/// The same in quotes.
 std::string inQuotes(std::string_view text);
 
 /// Adds a warning unless it is there already; of many, the last says that there are more.

@@ -57,7 +57,7 @@ Result<ReadMesh> readMesh(const MeshFile& file) {
     const std::string why = "it needs more memory than there is; simplify it";
     return Error{ErrorKind::Limits, unreadable(file.path, why).message};
   } catch (const std::exception& broken) {
-    return unreadable(file.path, "it is broken: " + inQuotes(broken.what()));
+    return unreadable(file.path, "it is broken: " + onOneLine(broken.what()));
   }
 }
 

@@ -67,16 +67,17 @@ class StlReader {
 
   Status readText() {
     TextScan text(file_.bytes);
-    bool open = false;  // between a solid and its end
+    bool inSolid = false, inFacet = false;
     std::vector<std::uint32_t> corners;
     const auto wrong = [&](const std::string& what) {
       return unreadable(file_.path, "line " + std::to_string(text.line()) + ": " + what);
     };
     for (std::string_view word = text.wordAnywhere(); !word.empty(); word = text.wordAnywhere()) {
       if (isWord(word, "solid") || isWord(word, "endsolid")) {
-        open = isWord(word, "solid");
+        inSolid = isWord(word, "solid");
         text.nextLine();  // names are any words
       } else if (isWord(word, "facet")) {
+        inFacet = true;
         text.nextLine();  // its normal follows from the corners
       } else if (isWord(word, "outer")) {
         text.word();
@@ -93,11 +94,14 @@ class StlReader {
       } else if (isWord(word, "endloop")) {
         if (corners.size() != 3) return wrong("a facet of " + std::to_string(corners.size()) + " corners");
         if (!addPolygon(corners, 0, read_.mesh)) return tooManyTriangles(file_.path);
-      } else if (!isWord(word, "endfacet")) {
+      } else if (isWord(word, "endfacet")) {
+        inFacet = false;
+      } else {
         return wrong(inQuotes(word) + " is no word of an STL");
       }
     }
-    if (open) return unreadable(file_.path, "it is cut off: its solid does not end");
+    if (inFacet) return unreadable(file_.path, "it is cut off within a facet");
+    if (inSolid) warn(read_.warnings, "its solid does not end, so it may be cut off");
     return okStatus();
   }
 
