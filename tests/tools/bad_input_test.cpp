@@ -240,6 +240,34 @@ TEST_F(BadInput, FoldersThatMayNotBeWrittenToAreRefused) {
   expectRefusal(outcome, kFiles, {"Permission denied", "choose a folder that you may write to"});
 }
 
+// Of a scene's meshes: what is not there, is broken, or lies elsewhere.
+TEST_F(BadInput, MeshesThatCannotBeReadAreRefused) {
+  const auto refuse = [&](const std::string& name, int status, const std::vector<std::string>& words) {
+    expectRefusal(run({scene("return mesh('" + name + "')"), "-o", out("a.glb")}), status, words);
+  };
+  refuse("nowhere.glb", kScene, {":1: ", "nowhere.glb"});
+  std::ofstream(folder / "broken.glb") << "glTF and no more";
+  refuse("broken.glb", kScene, {":1: ", "broken.glb"});
+  std::ofstream(folder / "flat.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  refuse("flat.obj", kScene, {"flat.obj: the triangles of this mesh enclose nothing"});
+  refuse("flat.xyz", kScene, {"flat.xyz", ".glb"});
+  refuse("/etc/passwd.obj", kScene, {"lies outside of the scene's folder", "--allow-dir /etc"});
+}
+
+TEST_F(BadInput, AllowedFoldersAreReadToo) {
+  std::filesystem::create_directory(folder / "models");
+  std::ofstream(folder / "models" / "tip.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+  std::filesystem::create_directory(folder / "scenes");
+  const std::string file = (folder / "scenes/a.lua").string(), models = (folder / "models").string();
+  std::ofstream(file) << "return mesh('../models/tip.obj')";
+  expectRefusal(run({file, "-o", out("a.glb")}), kScene, {"--allow-dir"});
+  const Outcome allowed = run({file, "-o", out("a.glb"), "--allow-dir", models, "--voxel-size", "0.05"});
+  EXPECT_EQ(allowed.status, 0) << allowed.err;
+  EXPECT_NE(allowed.err.find("warning: ../models/tip.obj: 1 hole was closed"), std::string::npos)
+      << allowed.err;
+}
+
 TEST_F(BadInput, AFullDiskLeavesNothing) {
   const std::string disk = out("");
   if (::mount("none", disk.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "mounting needs root";

@@ -194,6 +194,21 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAScene) {
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
 }
 
+TEST_F(Sdfview, ReadsMeshesFromFoldersThatAreAllowed) {
+  std::filesystem::create_directory(folder / "models");
+  std::ofstream(folder / "models" / "tip.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+  std::filesystem::create_directory(folder / "scenes");
+  const std::string file = at("scenes/a.lua"), png = at("a.png");
+  std::ofstream(file) << "return mesh('../models/tip.obj')";
+  expectRefused(kScene, "--allow-dir", {file, "--render", png});
+  const Outcome outcome = run({file, "--render", png, "--size", "32x24", "--allow-dir", at("models")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "sdfview: warning: ../models/tip.obj: 1 hole was closed\n");
+  std::filesystem::remove_all(folder / "models");
+  std::filesystem::remove_all(folder / "scenes");
+}
+
 TEST_F(Sdfview, DrawsAFieldWithBoundsBesideWhatHasNone) {
   const std::string ball =
       "field(function(x, y, z) return x * x + y * y + z * z - 1 end, "

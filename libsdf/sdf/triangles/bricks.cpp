@@ -160,10 +160,11 @@ Bricks bricksOf(const TriangleDistance& distance, int voxels) {
   return out;
 }
 
-// A distance lies below any plane through its values plus |x|^2 / (2 D) where it is D or more: so
-// interpolation between corners of cells of side s is too large by no more than 3 s^2 / (8 D) (Jensen's
-// inequality). Outside of the grid's box, whose nearest point is c, the surface is sqrt(|p - c|^2 + f(c)^2)
-// away or more, for the box is convex and has it inside.
+// The interpolated values: a distance less |x|^2 / (2 D) is concave where it is D or more, and so no less
+// than interpolation between corners makes of it (Jensen's inequality); of |x|^2 that is too large by 3 s^2 /
+// 4 at most. Nothing is subtracted for that: blends would show a step where bricks end. Outside of the grid's
+// box, whose nearest point is c, the surface is sqrt(|p - c|^2 + f(c)^2) away or more, for the box is convex
+// and has it inside.
 std::string Bricks::glsl(const std::string& name) const {
   std::string text = R"(
 uniform sampler3D NAMEGrid, NAMEBricks;
@@ -174,7 +175,6 @@ float NAME(vec3 p) {
   float brick = texelFetch(NAMEGrid, ivec3(low), 0).y, f;
   if (brick < 0.0) {
     f = textureLod(NAMEGrid, (c + 0.5) / (CELLS + 1.0), 0.0).x;
-    f -= sign(f) * 0.375 * CELL * CELL / max(abs(f) - 1.7320508 * CELL, CELL);
   } else {
     int i = int(brick);
     vec3 column = vec3(i % COLUMNS, i / COLUMNS % COLUMNS, i / (COLUMNS * COLUMNS));

@@ -11,7 +11,8 @@ namespace sdf {
 
 /// The solid's box, and somewhat more, is divided into cells of 4 voxels a side. Cells within a cell's side
 /// of the surface have a brick of 5³ samples, a voxel apart; in all others the distance is interpolated
-/// between their corners, less what that may be too large by.
+/// between their corners. There it is too large by 3 s^2 / (8 D) at most, where s is a cell's side and D >= s
+/// the least distance in the cell: no ray that goes so far passes a wall of more than 1.5 voxels.
 struct Bricks {
   double voxel = 0.0;      ///< scene units
   glm::dvec3 origin{0.0};  ///< the first cell's least corner
