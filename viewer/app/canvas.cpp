@@ -12,10 +12,6 @@ namespace {
 
 constexpr int kRgba = 4, kRgb = 3;
 
-double secondsNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 /// A side.
 int samplesAtRestOf(const Session& session) {
   return std::max(session.controls.samples, usefulSamples(session.renderer().shaders().plan));
@@ -56,6 +52,10 @@ int Pieces::rows(int rays, double seconds) const {
   return static_cast<int>(std::clamp(seconds / (*ray_ * rays), 1.0, double(kMost)));
 }
 
+double Canvas::secondsNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 Result<bool> Canvas::update(Session& session, int width, int height, double now) {
   if (width < 1 || height < 1) return false;
   const Shown wanted{session.controls, session.compilations(), width, height};
@@ -72,8 +72,8 @@ Result<bool> Canvas::update(Session& session, int width, int height, double now)
   else if (!drawing_ && !whole_ && isStill)
     begin(session, 1.0, session.controls.samples);
   constexpr double kLeast = 0.25 * Pieces::kBudget;  // that a piece is worth beginning for
-  const double start = secondsNow();
-  const auto left = [&](double budget) { return budget - (secondsNow() - start); };
+  const double start = clock_();
+  const auto left = [&](double budget) { return budget - (clock_() - start); };
   if (drawing_) {
     do
       if (const Status drawn = draw(session, left(Pieces::kBudget)); !drawn) return drawn.error();
@@ -115,13 +115,13 @@ Status Canvas::draw(Session& session, double seconds) {
   Drawing& d = *drawing_;
   if (const Status made = ensure(next_, d.width, d.height, {PixelFormat::Rgba8}); !made) return made;
   const Rows rows{d.row, std::min(pieces_.rows(d.width, seconds), d.height - d.row)};
-  const double start = secondsNow();
+  const double start = clock_();
   Renderer& renderer = session.renderer();
   const Status drawn = d.frame.samples == 1 ? renderer.draw(d.frame, *next_, rows)
                                             : renderer.refine(d.frame, d.sample, *next_, rows);
   if (!drawn) return drawn;
   viewer::finish();
-  const double took = secondsNow() - start;
+  const double took = clock_() - start;
   pieces_.drew(double(d.width) * rows.count, took);
   d.seconds += took;
   d.row += rows.count;
@@ -156,11 +156,11 @@ Status Canvas::refine(Session& session, double seconds) {
   Frame frame = session.frame();
   frame.samples = samplesAtRestOf(session);
   const Rows rows{row_, std::min(pieces_.rows(width, seconds), height - row_)};
-  const double start = secondsNow();
+  const double start = clock_();
   if (const Status drawn = session.renderer().refine(frame, statistics_.refined, *next_, rows); !drawn)
     return drawn;
   viewer::finish();
-  pieces_.drew(double(width) * rows.count, secondsNow() - start);
+  pieces_.drew(double(width) * rows.count, clock_() - start);
   row_ += rows.count;
   if (row_ < height) return okStatus();
   row_ = 0;

@@ -1,6 +1,7 @@
 // The picture in the window: drawn when something changed, coarsely while it keeps changing, and refined
 // while nothing does.
 #pragma once
+#include <functional>
 #include <optional>
 
 #include "viewer/app/session.h"
@@ -68,6 +69,10 @@ class Canvas {
   /// The seconds after which a coarse picture is drawn first, where there is none yet.
   static constexpr double kFirst = 0.5;
 
+  /// The clock, in seconds, tells how long drawing takes.
+  explicit Canvas(std::function<double()> clock = secondsNow) : clock_(std::move(clock)) {}
+  static double secondsNow();
+
   /// Draws the settled session for a window of this size if the picture is not what it should be at this time
   /// (of any clock, seconds), or refines it if it is, for about Pieces::kBudget, and returns whether the
   /// picture is another one now. What takes longer is gone on with by the next update: a whole picture unless
@@ -122,6 +127,7 @@ class Canvas {
   Status finish(const Session& session);
   Status refine(Session& session, double seconds);  // by a piece of one sample
 
+  std::function<double()> clock_;
   std::optional<Shown> asked_, begun_;  // last; what was begun last
   std::optional<Drawing> drawing_;
   std::optional<Target> target_, next_;  // shown; being drawn
