@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include "sdf/eval/targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sdf/eval/proof_reading.cpp"
 #include <hwy/aligned_allocator.h>
