@@ -18,6 +18,7 @@ constexpr std::array kViews{"picture",  "normals",  "steps",     "slice",
                             "gradient", "material", "occlusion", "shadow"};
 static_assert(kViews.size() == static_cast<std::size_t>(View::Count));
 constexpr std::array kMethods{"auto", "plain"};
+constexpr std::array kStarts{"raster", "cone", "plain"};
 
 /// The place of a word in a list of names.
 template <class Enum, std::size_t n>
@@ -111,6 +112,8 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
       [&](const std::string& word) { return choose("--view", word, kViews, options.shader.view); });
   add("--method", "NAME", "how rays are marched: auto (auto-relaxed) or plain",
       [&](const std::string& word) { return choose("--method", word, kMethods, options.shader.method); });
+  add("--start", "NAME", "where rays start: raster (where they enter a hull), cone or plain (at the eye)",
+      [&](const std::string& word) { return choose("--start", word, kStarts, options.shader.start); });
   app.add_option("-D", parameterWords, "set a parameter of the scene; may be repeated")
       ->type_name("name=value")
       ->allow_extra_args(false);

@@ -83,7 +83,7 @@ TEST_F(Sdfview, SaysWhatItCanDo) {
   EXPECT_EQ(help.status, 0);
   for (const char* word :
        {"SCENE", "--render", "--size", "--time", "--samples", "--seconds", "--steps", "--view", "--method",
-        "-D", "--camera", "--fit", "--frames", "--fps", "--bench", "--glsl", "--version",
+        "--start", "-D", "--camera", "--fit", "--frames", "--fps", "--bench", "--glsl", "--version",
         "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.status, 0);
@@ -124,6 +124,7 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
       {{"--view", "front"},
        "--view needs picture, normals, steps, slice, gradient, material, occlusion or shadow"},
       {{"--method", "fast"}, "--method needs auto or plain, got 'fast'"},
+      {{"--start", "mesh"}, "--start needs raster, cone or plain, got 'mesh'"},
       {{"--camera", "0,0,5"}, "--camera needs six numbers x,y,z,x,y,z, or seven with the field of view"},
       {{"--camera", "0,0,5,0,0,0,"}, "got '0,0,5,0,0,0,'"},
       {{"--camera", "0,0,5,0,0,up"}, "got '0,0,5,0,0,up'"},

@@ -186,6 +186,12 @@ DrawingMode sumOfAll() {
   return DrawingMode([] { glDisable(GL_BLEND); });
 }
 
+DrawingMode leastOfAll() {
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_MIN);
+  return DrawingMode([] { glDisable(GL_BLEND); });
+}
+
 DrawingMode firstLayers(int count) {
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   for (int i = 0; i < count; ++i) glColorMaski(GLuint(i), GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

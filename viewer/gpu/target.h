@@ -88,6 +88,8 @@ class [[nodiscard]] DrawingMode {
 DrawingMode nearestWins();
 /// Adds up the values of all fragments.
 DrawingMode sumOfAll();
+/// Keeps the least value of all fragments, component by component.
+DrawingMode leastOfAll();
 /// Lets fragments into the first layers only; the others stay as they are.
 DrawingMode firstLayers(int count);
 /// Lets fragments and clears into these rows only, counted from the bottom, of targets of this width; the

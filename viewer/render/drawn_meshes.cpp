@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "viewer/gpu/context.h"
+#include "viewer/render/place_triangles.h"
 #include "viewer/shaders/triangle_parts.h"
 
 namespace sdf::viewer {
@@ -124,26 +125,10 @@ void DrawnMeshes::draw(const Shot& shot) const {
   shot.set(program_, {});
   program_.set("colorTexture", kColorUnit);
   program_.set("emissionTexture", kEmissionUnit);
-  const auto [axes, from] = shot.view();
-  const double focal = glm::length(axes.forward), width = shot.width(), height = shot.height();
-  const glm::dvec3 forward = axes.forward / focal;
-  const glm::dvec2 shift = glm::dvec2(0.5) - glm::dvec2(shot.within());
-  program_.set("lens", std::vector{glm::vec4(2.0 * focal * height / width, 2.0 * focal, 2.0 * shift.x / width,
-                                             2.0 * shift.y / height)});
-  program_.set("nearest", 1e-4 * shot.lengths().unit);
   glEnable(GL_DEPTH_TEST);
   for (const Drawn& drawn : drawn_) {
     const Model& model = models_[drawn.model];
-    std::vector<glm::vec4> toEye, toNormal;
-    for (const glm::dvec3& axis : {axes.right, axes.up, forward})
-      toEye.emplace_back(axis * drawn.toScene, glm::dot(axis, drawn.origin - from));
-    const glm::dmat3 normals = glm::transpose(glm::inverse(drawn.toScene));
-    for (int row = 0; row < 3; ++row)
-      toNormal.emplace_back(normals[0][row], normals[1][row], normals[2][row], 0.0);
-    program_.set("toEye", toEye);
-    program_.set("toNormal", toNormal);
-    const bool mirrored = glm::dot(glm::cross(axes.right, axes.up), forward) > 0.0;
-    glFrontFace((glm::determinant(drawn.toScene) < 0.0) == mirrored ? GL_CCW : GL_CW);
+    placeTriangles(program_, shot, drawn.toScene, drawn.origin);
     constexpr float kHit = 1.0f, kDrawn = 3.0f;
     program_.set("identity", glm::vec2(drawn.operand, drawn.own ? kDrawn : kHit));
     for (const Range& range : model.ranges) {

@@ -13,6 +13,8 @@ constexpr int kTile = 16;       // side of the larger tiles, pixels: smaller one
 constexpr int kFine = 4;        // side of the smaller tiles
 constexpr int kStartsUnit = 7;  // the texture unit of a tile's starts, beyond those that the programs read
 
+const glm::vec4 kNoStart(1e30f, 0.0f, -1e30f, 1e30f);
+
 /// How many tiles of this side cover so many pixels.
 int tiles(int pixels, int side) { return (pixels + side - 1) / side; }
 
@@ -55,6 +57,8 @@ Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders, Volumes& volu
   }
   if (!shaders.plan.drawn.empty())
     if (auto s = keep(DrawnMeshes::make(shaders), made.meshes_); !s) return s.error();
+  if (shaders.plan.hull)
+    if (auto s = keep(HullStarts::make(shaders), made.hull_); !s) return s.error();
   made.looks_ = shaders.plan.looks;
   made.grouped_ = shaders.plan.grouped;
   made.columns_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(made.cells_))));
@@ -66,6 +70,8 @@ glm::ivec2 PrimaryHits::cornerOf(int cell, const Shot& shot) const {
                     cell / columns_ * tiles(shot.height(), kTile));
 }
 
+int PrimaryHits::fineSide() const { return hull_ ? 1 : kFine; }
+
 int PrimaryHits::firstLook() const { return kCounts + (counted_ ? 1 : 0); }
 
 Status PrimaryHits::makeTargets(const Shot& shot) {
@@ -76,7 +82,7 @@ Status PrimaryHits::makeTargets(const Shot& shot) {
   if (cells_ > 0)
     if (auto s = starts(coarse_, columns_, (cells_ + columns_ - 1) / columns_, kTile); !s) return s;
   if (isFine())
-    if (auto s = starts(fine_, 1, 1, kFine); !s) return s;
+    if (auto s = starts(fine_, 1, 1, fineSide()); !s) return s;
   if (!hasHits()) return okStatus();
   std::vector<PixelFormat> formats;
   for (const Layer& layer : kLayers) formats.push_back(layer.format);
@@ -86,8 +92,7 @@ Status PrimaryHits::makeTargets(const Shot& shot) {
 }
 
 void PrimaryHits::drawStarts(const Shot& shot) const {
-  const glm::vec4 nothing(1e30f, 0.0f, 1e30f, 0.0f);
-  if (cells_ > 0) coarse_->clear(0, nothing);
+  if (cells_ > 0) coarse_->clear(0, kNoStart);
   for (const Pass& pass : passes_) {
     if (pass.firstCell < 0) continue;
     const bool byBoxes = !pass.boxes.empty();
@@ -110,9 +115,9 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
       cones.draw();
     }
   }
-  if (!isFine()) return;
+  if (!isFine() || hull_) return;
   const Program& cones = *passes_.front().cones;
-  fine_->clear(0, nothing);
+  fine_->clear(0, kNoStart);
   coarse_->bindTexture(0);
   cones.set("first", 0);
   cones.set("tile", static_cast<double>(kFine));
@@ -129,7 +134,7 @@ void PrimaryHits::chooseRow(const Pass& pass, const Program& program, int i) con
 void PrimaryHits::giveStarts(const Program& program, int cell, const Shot& shot) const {
   (isFine() ? fine_ : coarse_)->bindTexture(0);
   program.set("starts", 0);
-  program.set("tile", static_cast<double>(isFine() ? kFine : kTile));
+  program.set("tile", static_cast<double>(isFine() ? fineSide() : kTile));
   program.set("corner", glm::vec2(cornerOf(cell, shot)));
 }
 
@@ -175,6 +180,7 @@ void PrimaryHits::drawHits(const Shot& shot) const {
 void PrimaryHits::prepare(const Frame& frame) {
   for (Pass& pass : passes_) pass.values.move(frame.parameters);
   if (meshes_) meshes_->prepare(frame);
+  if (hull_) hull_->prepare(frame);
 }
 
 Status PrimaryHits::begin(const Shot& shot, std::span<const glm::vec4> rows) {
@@ -186,6 +192,8 @@ Status PrimaryHits::begin(const Shot& shot, std::span<const glm::vec4> rows) {
 }
 
 Status PrimaryHits::drawSample(const Shot& shot) {
+  if (hull_)
+    if (auto s = hull_->draw(shot, *fine_, kNoStart); !s) return s;
   if (!hasHits()) return okStatus();
   for (int i = 0; i < kCounts; ++i) hits_->clear(i, kLayers[i].nothing);
   hits_->clearDepth();

@@ -9,6 +9,7 @@
 #include "viewer/gpu/target.h"
 #include "viewer/render/drawn_meshes.h"
 #include "viewer/render/frame.h"
+#include "viewer/render/hull_starts.h"
 #include "viewer/render/volumes.h"
 #include "viewer/shaders/assemble.h"
 
@@ -58,9 +59,10 @@ class PrimaryHits {
   void drawHits(const Shot& shot) const;
   /// The corner of a cell.
   glm::ivec2 cornerOf(int cell, const Shot& shot) const;
-  /// A cell that is alone has smaller tiles, too.
+  /// A cell that is alone has smaller tiles, too, or pixels.
   bool isFine() const { return cells_ == 1 && passes_.front().cones; }
   bool hasHits() const { return grouped_; }
+  int fineSide() const;
   int firstLook() const;
   /// Chooses what a pass is drawn with, the i-th time.
   void chooseRow(const Pass& pass, const Program& program, int i) const;
@@ -69,8 +71,9 @@ class PrimaryHits {
 
   std::vector<Pass> passes_;
   std::optional<DrawnMeshes> meshes_;
-  bool looks_ = false;    // the picture shows how their triangles look
-  bool grouped_ = false;  // the passes draw hits
+  std::optional<HullStarts> hull_;  // where rays start, if there is one
+  bool looks_ = false;              // the picture shows how their triangles look
+  bool grouped_ = false;            // the passes draw hits
   std::optional<Program> boxCones_;
   int cells_ = 0, columns_ = 0;  // of the starts
   bool counted_ = false;

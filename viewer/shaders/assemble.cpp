@@ -240,11 +240,12 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
     return assemble(scene, apart);
   }
   std::vector<HitShaders> hits;
-  std::string boxes, triangles;
+  std::string boxes, triangles, hull;
   if (plan->grouped) hits = groupShaders(*plan, rows);
   if (std::ranges::any_of(hits, [](const HitShaders& pass) { return !pass.boxes.empty(); }))
     boxes = boxCones(*plan);
   if (!plan->drawn.empty()) triangles = triangleShader(*plan);
+  if (plan->hull) hull = hullShader(*plan);
   if (startsHere(*plan)) hits = {startShaders(*plan, rows)};
   Shader shown = picture(scene, *plan, rows, labelled(scene));
   std::optional<Shader> tiles;
@@ -252,8 +253,9 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
   const char* const dithers = options.view == View::Picture ? parts::kBayer : "";
   std::string resolved = resolve.compose(dithers + encoder(scene, *plan) + parts::kResolve);
-  return SceneShaders{std::move(*plan), std::move(hits),  std::move(boxes), std::move(triangles),
-                      rows.numbers(),   std::move(shown), std::move(tiles), std::move(resolved)};
+  return SceneShaders{std::move(*plan),     std::move(hits),  std::move(boxes),
+                      std::move(triangles), std::move(hull),  rows.numbers(),
+                      std::move(shown),     std::move(tiles), std::move(resolved)};
 }
 
 }  // namespace sdf::viewer

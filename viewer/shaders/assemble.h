@@ -47,6 +47,7 @@ struct SceneShaders {
   std::vector<HitShaders> hits;
   std::string boxCones;   ///< the starts at boxes, if a pass has some
   std::string triangles;  ///< draws the plan's meshes, if there are some
+  std::string hull;       ///< draws where rays enter the rest's hull, if the plan says so
   Function rows;          ///< what the texture sdfRows holds: four numbers a texel, kRowTexels of these a row
   Shader picture;
   std::optional<Shader> background;  ///< what tiles show where there are no hits, if the plan is tiled

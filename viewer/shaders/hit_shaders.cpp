@@ -246,6 +246,11 @@ std::string triangleShader(const Plan& plan) {
   return composer.compose(std::string(parts::kCamera) + parts::kHit + parts::kFavoured + parts::kTriangles);
 }
 
+std::string hullShader(const Plan& plan) {
+  Composer composer(plan.options.es, {}, {}, {});
+  return composer.compose(std::string(parts::kCamera) + parts::kHullStarts);
+}
+
 std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
   const auto operations = [](const Expr& e) { return static_cast<double>(operationsOf({&e, 1})); };
   const auto& [many, others] = *plan.kinds;

@@ -45,6 +45,9 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows);
 /// Writes the fragment shader of the pass that draws the plan's meshes.
 std::string triangleShader(const Plan& plan);
 
+/// Writes the fragment shader of the pass that draws the hull of the plan's rest.
+std::string hullShader(const Plan& plan);
+
 /// Returns the parts that define the distance and the nearest operand of all, by loops over the groups of the
 /// plan's kinds, whose rows are the first ones and can be taken.
 std::string sharing(const Plan& plan, const RowWriter& rows);

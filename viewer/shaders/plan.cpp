@@ -140,7 +140,8 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   } else if (!parts.others.empty()) {
     if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
   }
-  plan.cones = options.method == Method::AutoRelaxed && !stepsCount && !plan.lens;
+  plan.cones =
+      options.method == Method::AutoRelaxed && options.start != Start::Plain && !stepsCount && !plan.lens;
   plan.tiled = plan.cones && isPicture && plan.planes.empty() && plan.drawn.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
@@ -155,6 +156,8 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
       plan.kinds = std::move(kinds);
   plan.looks = !plan.drawn.empty() && (isPicture || view == View::Material);
   plan.grouped = plan.kinds && showsHits && (plan.cones || !plan.drawn.empty());
+  plan.hull = options.start == Start::Raster && plan.cones && !plan.grouped && view != View::Slice &&
+              plan.rest && plan.rest->bounds.finite();
   return plan;
 }
 

@@ -27,10 +27,15 @@ enum class View {
 /// A Method is how rays are marched: by steps as long as is safe to guess, or by plain ones.
 enum class Method { AutoRelaxed, Plain };
 
+/// A Start is where primary rays start: where a hull of what they march is entered, where cones of tiles say,
+/// or at the eye.
+enum class Start { Raster, Cone, Plain };
+
 /// ShaderOptions say which shaders of a scene are wanted.
 struct ShaderOptions {
   View view = View::Picture;
   Method method = Method::AutoRelaxed;
+  Start start = Start::Cone;
   bool countReadings = false;  ///< a second output: readings by primary rays, shadows, occlusion, reflections
   bool es = false;             ///< GLSL ES 3.00 instead of 3.30 core
   bool sharing = true;         ///< like operands may share their code; else all of it is written out
@@ -77,6 +82,7 @@ struct Plan {
   bool grouped = false;       ///< each group of the kinds is drawn by itself
   bool plain = false;         ///< rays take plain steps
   bool cones = false;         ///< rays start where the cone pass says
+  bool hull = false;          ///< or where they enter the rest's hull
   bool tiled = false;         ///< where the cones saw nothing there is only background
   bool lights = false;        ///< light is shown, and there is some
   bool around = false;        ///< the background lights surfaces

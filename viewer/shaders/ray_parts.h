@@ -194,16 +194,17 @@ Hit meet(Ray ray) {
 }
 )";
 
-/// Defines startRay(ray), which lets a primary ray start and end where the cone pass says.
+/// Defines startRay(ray), which lets a primary ray start and end where the cone pass says, or a hull: t where
+/// it enters, readings that this took, -t where it ends, and t where it leaves, if a ray begins within.
 inline constexpr const char* kStarts = R"(
 uniform sampler2D starts;
 uniform vec2 corner;  // of this pass's starts, in their texture
 uniform float tile;   // that has one start, pixels
 
 void startRay(inout Ray ray) {
-  vec2 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0).rb;
-  ray.start = span.x;
-  ray.end = span.y;
+  vec4 span = texelFetch(starts, ivec2(corner + floor(gl_FragCoord.xy / tile)), 0);
+  ray.start = span.a < span.r ? 0.0 : span.r;
+  ray.end = -span.b;
 }
 )";
 
@@ -234,7 +235,7 @@ void main() {
   Ray ray = rayThrough((floor(gl_FragCoord.xy - corner) + 0.5) * tile);
   float spread = 0.7072 * tile / size.y, widening = spread / length(forward);
   vec3 span = first ? vec3(0.0, 0.0, farEnd(ray, spread, widening)) : texelFetch(coarser, ivec2(gl_FragCoord.xy) / 4, 0).rgb;
-  float t = span.x, end = span.z;
+  float t = span.x, end = first ? span.z : -span.z;
   bool back = false;  // from the end
   int readings = 0;
   while (readings < 64) {
@@ -256,7 +257,7 @@ void main() {
     }
   }
   LEAVE_NOTHING
-  start = vec4(t, SHARE * float(readings), end, 0.0);
+  start = vec4(t, SHARE * float(readings), -end, 1e30);
 }
 )";
 

@@ -59,6 +59,19 @@ void main() {
 }
 )";
 
+/// Defines main() of the pass that draws where rays enter and leave a hull (march/hull.h), in the terms of
+/// kStarts' texels, of which the least are kept.
+inline constexpr const char* kHullStarts = R"(
+layout(location = 0) out vec4 start;
+in vec3 seen, facing, tint;
+in vec2 textureAt;
+
+void main() {
+  float far = length(seen), hair = 1e-5 * far, t = far - rayThrough(floor(gl_FragCoord.xy) + within).before;
+  start = gl_FrontFacing ? vec4(t - hair, 0.0, -t - hair, 1e30) : vec4(1e30, 0.0, -t - hair, t - hair);
+}
+)";
+
 /// Defines takeLook(hit, s), which gives a surface's attributes the look of triangles that were drawn: as
 /// meanMaterial() does (shape/triangle_solid.h).
 inline constexpr const char* kTakeLook = R"(
