@@ -140,8 +140,8 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   } else if (!parts.others.empty()) {
     if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
   }
-  plan.cones =
-      options.method == Method::AutoRelaxed && options.start != Start::Plain && !stepsCount && !plan.lens;
+  plan.cones = plan.rest && options.method == Method::AutoRelaxed && options.start != Start::Plain &&
+               !stepsCount && !plan.lens;
   plan.tiled = plan.cones && isPicture && plan.planes.empty() && plan.drawn.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
