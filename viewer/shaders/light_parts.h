@@ -40,19 +40,20 @@ vec3 around(vec3 axis, float cosine, float sine, float turn) {
 
 /// Either defines clip(p, l, widening, t, reach), which leaves the part of the way to a light that can be
 /// dimmed.
-/// Only what is nearer to the ray than t / k dims the light: within the rest's bounds grown by the most of
-/// that, and within a ball around them that grows with t, |p + t l - c| < R + t / k.
+/// Only what is nearer to the ray than t / k dims the light: within a ball around the rest's bounds that grows
+/// with t, |p + t l - c| < R + t / k, and within these bounds grown by the most of that.
 inline constexpr const char* kShadowSpan = R"(
 void clip(vec3 p, vec3 l, float widening, inout float t, inout float reach) {
-  float grown = reach * widening;
-  vec3 low = (BOX_MIN - grown - p) / l, high = (BOX_MAX + grown - p) / l;
-  vec3 enter = min(low, high), leave = max(low, high);
   vec3 away = p - 0.5 * (BOX_MIN + BOX_MAX);
   float radius = 0.5 * length(BOX_MAX - BOX_MIN);
   float a = 1.0 - widening * widening, b = dot(away, l) - radius * widening;
-  float root = b * b - a * (dot(away, away) - radius * radius);
-  reach = root > 0.0 ? min(min(reach, (sqrt(root) - b) / a), min(leave.x, min(leave.y, leave.z))) : 0.0;
-  t = max(max(t, (-sqrt(max(root, 0.0)) - b) / a), max(enter.x, max(enter.y, enter.z)));
+  float root = b * b - a * (dot(away, away) - radius * radius), deep = sqrt(max(root, 0.0));
+  reach = root > 0.0 ? min(reach, (deep - b) / a) : 0.0;
+  float grown = max(reach, 0.0) * widening;
+  vec3 low = (BOX_MIN - grown - p) / l, high = (BOX_MAX + grown - p) / l;
+  vec3 enter = min(low, high), leave = max(low, high);
+  reach = min(reach, min(leave.x, min(leave.y, leave.z)));
+  t = max(max(t, (-deep - b) / a), max(enter.x, max(enter.y, enter.z)));
 }
 )";
 
