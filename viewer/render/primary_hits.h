@@ -23,6 +23,9 @@ class PrimaryHits {
   /// Compiles the passes. Errors: Graphics with the driver's log; those of Volumes::giveTo.
   static Result<PrimaryHits> make(const SceneShaders& shaders, Volumes& volumes);
 
+  /// Shows this mesh in the place of what rays would hit, of a plan that is `meshed`. Errors: Limits.
+  Status showMesh(const ShownMesh& mesh) { return meshes_->show(mesh); }
+
   /// Computes the passes' uniforms of a frame. It calls no OpenGL.
   void prepare(const Frame& frame);
   /// Makes the targets of the shot's size, and draws where the rays of each tile start. `rows` is what the
@@ -70,6 +73,7 @@ class PrimaryHits {
   std::vector<Pass> passes_;
   std::optional<DrawnMeshes> meshes_;
   bool looks_ = false;    // the picture shows how their triangles look
+  bool meshed_ = false;   // they are one that is shown as a whole
   bool grouped_ = false;  // the passes draw hits
   std::optional<Program> boxCones_;
   int cells_ = 0, columns_ = 0;  // of the starts

@@ -301,6 +301,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     if (hit.status == BUDGET) spent = true;
     float t = hit.t;
     vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = hit.normal;
+    LIFT
     float s[ATTRIBUTES];
     FOOTPRINT
     TAKE_OPERAND
@@ -309,6 +310,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     vec3 local = AMBIENT * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;
+    local = EDGED(local);
     float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t));
     vec3 mirror = vec3(0.0);
 #if BOUNCES > 0
