@@ -11,7 +11,8 @@
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/picture.h"
 #include "viewer/render/in_view.h"
-#include "viewer/render/renderer.h"
+#include "viewer/render/legend.h"
+#include "viewer/render/mesh_view.h"
 
 namespace sdf::viewer {
 namespace {
@@ -23,6 +24,8 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 SceneFile sceneFileOf(const Options& options) { return {options.scene, options.folders}; }
+
+bool isClock(const ParameterInfo& parameter) { return parameter.name == "time"; }
 
 Result<Scene> loadAt(double time, const Options& options) {
   return sceneFileOf(options).load({.values = options.parameters, .time = time});
@@ -38,17 +41,20 @@ class Headless {
     const int count = options_.frames.value_or(1);
     for (int i = 0; i < count; ++i)
       if (auto s = checkWritable(nameOf(i)); !s) return s;
-    auto renderer = Renderer::make(scene_, options_.shader);
+    auto renderer = rendererAt(options_.time, options_.shader);
     if (!renderer) return renderer.error();
     auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8});
     if (!target) return target.error();
     const bool scriptReadsTheClock = scene_.valuesRead.contains("time");
+    const bool meshMoves = showsMesh(options_.shader.view) && std::ranges::any_of(scene_.parameters, isClock);
     for (int i = 0; i < count; ++i) {
       const double time = options_.time + i / options_.framesPerSecond;
       if (i > 0 && scriptReadsTheClock) {
         if (auto s = keep(loadAt(time, options_), scene_); !s) return s;
         look_ = LookFunction(scene_, look_.inView());
-        renderer = Renderer::make(scene_, options_.shader);
+      }
+      if (i > 0 && (scriptReadsTheClock || meshMoves)) {
+        renderer = rendererAt(time, options_.shader);
         if (!renderer) return renderer.error();
       }
       if (auto s = draw(*renderer, frame(time), *target, nameOf(i)); !s) return s;
@@ -60,8 +66,8 @@ class Headless {
   Status bench(std::ostream& out, const std::string& driver) {
     ShaderOptions counting = options_.shader;
     counting.countReadings = true;
-    auto renderer = Renderer::make(scene_, options_.shader);
-    auto counter = Renderer::make(scene_, counting);
+    auto renderer = rendererAt(options_.time, options_.shader);
+    auto counter = rendererAt(options_.time, counting);
     for (const auto* made : {&renderer, &counter})
       if (!*made) return made->error();
     auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8, PixelFormat::Rgba32f});
@@ -122,6 +128,22 @@ class Headless {
     return options_.frames ? command_line::frameName(*options_.picture, i + 1) : *options_.picture;
   }
 
+  // With the mesh of that moment, if its view shows one.
+  Result<Renderer> rendererAt(double time, const ShaderOptions& shader) {
+    auto renderer = Renderer::make(scene_, shader);
+    if (!renderer || !showsMesh(shader.view)) return renderer;
+    auto fixed = sceneFileOf(options_).load({.values = options_.parameters, .time = time, .fixed = true});
+    if (!fixed) return fixed.error();
+    Progress progress;
+    const MeshRequest request{options_.mesh, options_.meshFile, shader.view == View::Error};
+    auto mesh = makeMeshView(std::move(*fixed), request, progress);
+    if (!mesh) return mesh.error();
+    for (const std::string& warning : mesh->warnings) std::cerr << "sdfview: warning: " << warning << '\n';
+    if (auto s = show(*mesh, *renderer); !s) return s.error();
+    if (mesh->errors) figures_ = mesh->errors->figures;
+    return renderer;
+  }
+
   Frame frame(double time) const {
     Values parameters = options_.parameters;
     parameters["time"] = time;
@@ -129,6 +151,7 @@ class Headless {
     Frame f = frameOf(look_, std::move(parameters), aspect);
     if (options_.eye) f.look.eye = *options_.eye;
     if (fitTo_) f.look.eye = fitted(f.look.eye, *fitTo_, aspect);
+    f.split = options_.split;
     f.samples = options_.samples;
     f.maxSteps = options_.maxSteps;
     return f;
@@ -182,6 +205,7 @@ class Headless {
                 << " pixels the ray of a shadow ran out of steps and is taken for dark; the scene has "
                    "shadows{steps = "
                 << scene_.shadow.steps << "}: give it more\n";
+    if (figures_) drawLegend(*figures_, *drawn);
     return writePng(file, *drawn);
   }
 
@@ -189,6 +213,7 @@ class Headless {
   Scene scene_;
   LookFunction look_;
   std::optional<Box> fitTo_;
+  std::optional<ErrorFigures> figures_;  // of the mesh, if its errors are shown
 };
 
 }  // namespace

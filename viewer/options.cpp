@@ -6,6 +6,7 @@
 
 #include "command_line/frames.h"
 #include "sdf/base/version.h"
+#include "sdf/gltf/read_mesh.h"
 #include "viewer/gpu/picture.h"
 
 namespace sdf::viewer {
@@ -14,8 +15,8 @@ using namespace command_line;  // NOLINT: this file is about nothing else
 
 namespace {
 
-constexpr std::array kViews{"picture",  "normals",  "steps",     "slice",
-                            "gradient", "material", "occlusion", "shadow"};
+constexpr std::array kViews{"picture",   "normals", "steps", "slice", "gradient", "material",
+                            "occlusion", "shadow",  "mesh",  "wire",  "split",    "error"};
 static_assert(kViews.size() == static_cast<std::size_t>(View::Count));
 constexpr std::array kMethods{"auto", "plain"};
 constexpr std::array kStarts{"raster", "cone", "plain"};
@@ -75,6 +76,57 @@ Status camera(const std::string& word, std::optional<Eye>& eye) {
   return okStatus();
 }
 
+Status tolerance(const std::string& word, MeshSettings& mesh) {
+  std::string number = word;
+  mesh.toleranceOfDiagonal = number.ends_with('%');
+  if (mesh.toleranceOfDiagonal) number.pop_back();
+  const auto value = positive("--tolerance", number);
+  if (!value)
+    return usage(
+        "--tolerance needs a number above 0, of scene units or with % of the diagonal of all that is meshed, "
+        "got '" +
+        word + "'");
+  mesh.tolerance = mesh.toleranceOfDiagonal ? 0.01 * *value : *value;
+  return okStatus();
+}
+
+Status split(const std::string& word, double& share) {
+  const auto value = number(word);
+  if (!(value && *value > 0.0 && *value < 1.0))
+    return usage("--split needs a share of the width between 0 and 1, got '" + word + "'");
+  share = *value;
+  return okStatus();
+}
+
+// What says how meshes are shown needs a view that shows one.
+Status checkMesh(const Options& options, bool hasSplit) {
+  const View view = options.shader.view;
+  const bool windowed = !options.picture && !options.bench && !options.glsl;
+  const char* const flag = options.mesh.tolerance   ? "--tolerance"
+                           : options.mesh.voxelSize ? "--voxel-size"
+                           : options.meshFile       ? "--mesh"
+                                                    : nullptr;
+  if (flag && !windowed && !showsMesh(view))
+    return usage(std::string(flag) + " is about a mesh, which --view " + kViews[static_cast<int>(view)] +
+                 " does not show; add --view mesh, wire, split or error, or leave " + flag + " out");
+  if (hasSplit && view != View::Split && !windowed)
+    return usage("--split says where --view split is divided; add that, or leave --split out");
+  if (options.meshFile && options.mesh.voxelSize)
+    return usage("--voxel-size is of the scene's own mesh, and --mesh shows a file's; leave one of them out");
+  if (options.meshFile && options.mesh.toleranceOfDiagonal)
+    return usage(
+        "--tolerance with % is of the scene's own mesh, and --mesh shows a file's; say it in scene units");
+  if (options.meshFile && options.mesh.tolerance && view != View::Error && !windowed)
+    return usage(
+        "--tolerance beside --mesh says what --view error compares the file with; add that, or leave "
+        "--tolerance out");
+  if (options.glsl && showsMesh(view))
+    return usage("--glsl writes a shader that marches the scene, which --view " +
+                 std::string(kViews[static_cast<int>(view)]) + " does not; leave one of them out");
+  if (options.meshFile) return checkReadable(*options.meshFile);
+  return okStatus();
+}
+
 Status checkSequence(const Options& options, bool hasRate) {
   if (options.frames) {
     if (!options.picture)
@@ -98,7 +150,8 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
         [flag, &place](const std::string& word) { return take<int>(flag, word, place, count); });
   };
   app.add_option("SCENE", options.scene, "scene file (Lua)")->required()->type_name("");
-  app.add_option("--render", options.picture, "draw into this file, without a window")->type_name("OUT.png");
+  app.add_option("-o,--render", options.picture, "draw into this file, without a window")
+      ->type_name("OUT.png");
   add("--size", "WxH", "of the picture in pixels [1280x720]",
       [&](const std::string& word) { return size(word, options); });
   add("-t,--time", "T", "the scene's time in seconds [0]",
@@ -108,8 +161,24 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
   add("--seconds", "S", "refine for S seconds, or until more samples are not seen to help",
       [&](const std::string& word) { return take<double>("--seconds", word, options.seconds, positive); });
   whole("--steps", options.maxSteps, "readings of the distance that a ray may take [1024]");
-  add("--view", "NAME", "picture, normals, steps, slice, gradient, material, occlusion or shadow",
+  add("--view", "NAME",
+      "picture, normals, steps, slice, gradient, material, occlusion, shadow; or with a mesh, as sdf2gltf "
+      "exports it: mesh, wire (its edges), split (beside the picture) or error (distances to the surface)",
       [&](const std::string& word) { return choose("--view", word, kViews, options.shader.view); });
+  add("--tolerance", "E",
+      "distance from the surface that the mesh keeps, in scene units or, as E%, in hundredths of the "
+      "diagonal "
+      "[0.05%, where it can be kept]",
+      [&](const std::string& word) { return tolerance(word, options.mesh); });
+  add("--voxel-size", "H",
+      "sampling distance of the mesh; without --tolerance, triangles are as large everywhere",
+      [&](const std::string& word) {
+        return take<double>("--voxel-size", word, options.mesh.voxelSize, positive);
+      });
+  app.add_option("--mesh", options.meshFile, "show this mesh (.glb .gltf .stl .ply .obj) against the scene")
+      ->type_name("FILE");
+  add("--split", "S", "share of the width at which --view split begins to show the mesh [0.5]",
+      [&](const std::string& word) { return split(word, options.split); });
   add("--method", "NAME", "how rays are marched: auto (auto-relaxed) or plain",
       [&](const std::string& word) { return choose("--method", word, kMethods, options.shader.method); });
   add("--start", "NAME", "where rays start: raster (where they enter a hull), cone or plain (at the eye)",
@@ -153,6 +222,7 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   if (sound && options.seconds && !options.picture)
     sound = usage("--seconds says how long --render OUT.png refines; add --render or leave --seconds out");
   if (sound) sound = checkSequence(options, app.count("--fps") > 0);
+  if (sound) sound = checkMesh(options, app.count("--split") > 0);
   if (!sound) return sound.error();
   if (auto s = keep(parameters(parameterWords), options.parameters); !s) return s.error();
   return Parsed(std::move(options));

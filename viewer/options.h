@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "command_line/values.h"
-#include "viewer/render/look.h"
+#include "viewer/render/frame.h"
+#include "viewer/render/scene_mesh.h"
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::viewer {
@@ -26,6 +27,9 @@ struct Options {
   std::optional<int> frames;
   double framesPerSecond = 24.0;
   ShaderOptions shader;
+  MeshSettings mesh;
+  std::optional<std::filesystem::path> meshFile;  ///< shown in the place of the scene's own mesh
+  double split = Frame{}.split;
   std::optional<Eye> eye;
   bool fit = false;  ///< moves the eye, the scene's or this one, to where all is in view
   Values parameters;

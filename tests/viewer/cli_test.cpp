@@ -81,10 +81,29 @@ class Sdfview : public testing::Test {
 TEST_F(Sdfview, SaysWhatItCanDo) {
   const Outcome help = run({"--help"}), version = run({"--version"});
   EXPECT_EQ(help.status, 0);
-  for (const char* word :
-       {"SCENE", "--render", "--size", "--time", "--samples", "--seconds", "--steps", "--view", "--method",
-        "--start", "-D", "--camera", "--fit", "--frames", "--fps", "--bench", "--glsl", "--version",
-        "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
+  for (const char* word : {"SCENE",
+                           "--render",
+                           "--size",
+                           "--time",
+                           "--samples",
+                           "--seconds",
+                           "--steps",
+                           "--view",
+                           "--method",
+                           "--start",
+                           "-D",
+                           "--camera",
+                           "--fit",
+                           "--frames",
+                           "--fps",
+                           "--bench",
+                           "--glsl",
+                           "--version",
+                           "--tolerance",
+                           "--voxel-size",
+                           "--mesh",
+                           "--split",
+                           "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(version.out.rfind("sdfview ", 0), 0u) << version.out;
@@ -122,7 +141,29 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
       {{"--fps", "24"}, "--fps says how fast --frames N go by; add --frames or leave --fps out"},
       {{"--bench", "0"}, "--bench needs a whole number from 1 to 100000, got '0'"},
       {{"--view", "front"},
-       "--view needs picture, normals, steps, slice, gradient, material, occlusion or shadow"},
+       "--view needs picture, normals, steps, slice, gradient, material, occlusion, shadow, mesh, wire, "
+       "split "
+       "or error"},
+      {{"--tolerance", "0"}, "--tolerance needs a number above 0, of scene units or with % of the diagonal"},
+      {{"--view", "mesh", "--tolerance", "much%"}, "got 'much%'"},
+      {{"--view", "mesh", "--voxel-size", "-1"}, "--voxel-size needs a number above 0, got '-1'"},
+      {{"--view", "split", "--split", "1"}, "--split needs a share of the width between 0 and 1, got '1'"},
+      {{"--view", "split", "--split", "left"}, "got 'left'"},
+      {{"--tolerance", "0.01"},
+       "--tolerance is about a mesh, which --view picture does not show; add --view mesh, wire, split or "
+       "error, or leave --tolerance out"},
+      {{"--view", "normals", "--voxel-size", "0.1"}, "--voxel-size is about a mesh, which --view normals"},
+      {{"--view", "steps", "--mesh", "a.glb"}, "--mesh is about a mesh, which --view steps does not show"},
+      {{"--view", "mesh", "--split", "0.3"},
+       "--split says where --view split is divided; add that, or leave --split out"},
+      {{"--view", "mesh", "--mesh", "a.glb", "--voxel-size", "0.1"},
+       "--voxel-size is of the scene's own mesh, and --mesh shows a file's; leave one of them out"},
+      {{"--view", "error", "--mesh", "a.glb", "--tolerance", "1%"}, "say it in scene units"},
+      {{"--view", "wire", "--mesh", "a.glb", "--tolerance", "0.1"},
+       "--tolerance beside --mesh says what --view error compares the file with"},
+      {{"--view", "mesh", "--mesh", "a.fbx"}, "'a.fbx' has the unknown extension '.fbx'"},
+      {{"--view", "error", "--glsl", "a.glsl"},
+       "--glsl writes a shader that marches the scene, which --view error does not; leave one of them out"},
       {{"--method", "fast"}, "--method needs auto or plain, got 'fast'"},
       {{"--start", "mesh"}, "--start needs raster, cone or plain, got 'mesh'"},
       {{"--camera", "0,0,5"}, "--camera needs six numbers x,y,z,x,y,z, or seven with the field of view"},
@@ -160,6 +201,70 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
   expectRefused(kUsage, "more than one place for the frame's number",
                 {s, "--frames", "2", "--render", at("%d_%d.png")});
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
+}
+
+TEST_F(Sdfview, DrawsMeshes) {
+  const std::string camera = "camera{from = {0, 0, 5}, to = {0, 0, 0}}\n";
+  const std::string ball = camera + kBall;
+  const Picture picture = drawn(ball, {}), mesh = drawn(ball, {"--view", "mesh"});
+  const auto column = [](const Picture& p, int x) {
+    std::vector<std::uint8_t> bytes;
+    for (int y = 0; y < p.height; ++y)
+      for (int k = 0; k < p.channels; ++k)
+        bytes.push_back(p.bytes[static_cast<std::size_t>(p.channels * (y * p.width + x) + k)]);
+    return bytes;
+  };
+  const Picture coarse = drawn(ball, {"--view", "mesh", "--voxel-size", "0.5"}),
+                tolerant = drawn(ball, {"--view", "mesh", "--tolerance", "5%"});
+  EXPECT_NE(coarse.bytes, mesh.bytes);
+  EXPECT_NE(tolerant.bytes, mesh.bytes);
+  EXPECT_NE(drawn(ball, {"--view", "wire", "--voxel-size", "0.5"}).bytes, coarse.bytes);
+  const Picture split = drawn(ball, {"--view", "split", "--voxel-size", "0.5", "--split", "0.25"});
+  for (int x = 0; x < split.width; ++x)
+    EXPECT_EQ(column(split, x), column(4 * x < split.width ? picture : coarse, x)) << x;
+  EXPECT_EQ(drawn(ball, {"--view", "split", "--voxel-size", "0.5"}).bytes,
+            drawn(ball, {"--view", "split", "--voxel-size", "0.5", "--split", "0.5"}).bytes);
+}
+
+TEST_F(Sdfview, DrawsErrorsWithALegend) {
+  const Picture error = drawn(kBall, {"--view", "error", "--tolerance", "0.01"}, "480x360");
+  // The colour of what is beyond the tolerance is in the legend only: the mesh keeps it.
+  int beyond = 0;
+  for (std::size_t i = 0; i < error.bytes.size(); i += 4)
+    beyond += error.bytes[i] == 255 && error.bytes[i + 1] == 217 && error.bytes[i + 2] == 0;
+  EXPECT_GE(beyond, 20);
+  EXPECT_LE(beyond, 200);
+}
+
+TEST_F(Sdfview, ShowsAMeshFromAFileAgainstTheScene) {
+  std::ofstream(folder / "tip.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string tip = at("tip.obj");
+  const Picture own = drawn(kBall, {"--view", "mesh"});
+  EXPECT_NE(drawn(kBall, {"--view", "mesh", "--mesh", tip}).bytes, own.bytes);
+  drawn(kBall, {"--view", "error", "--mesh", tip, "--tolerance", "0.5"});
+  // A scene that has no end cannot be meshed, but a file can be held against it.
+  drawn("return plane()", {"--view", "error", "--mesh", tip});
+  const auto refuse = [&](int status, const std::string& words, const std::string& text,
+                          std::vector<std::string> options) {
+    options.insert(options.begin(), {scene(text), "--render", at("a.png"), "--size", "32x24"});
+    expectRefused(status, words, options);
+  };
+  refuse(kFiles, "none.glb", kBall, {"--view", "mesh", "--mesh", at("none.glb")});
+  std::ofstream(folder / "broken.glb") << "no mesh";
+  refuse(kFiles, "broken.glb", kBall, {"--view", "error", "--mesh", at("broken.glb")});
+  refuse(kScene, "part 'part 1': unbounded in x, y and z; give bounds(", "return plane()",
+         {"--view", "mesh"});
+  refuse(kScene, "surface", "return sphere(1) - sphere(2)", {"--view", "error"});
+}
+
+TEST_F(Sdfview, MeshesEveryFrameOfASceneThatMoves) {
+  const std::string png = at("f.png");
+  const Outcome outcome =
+      run({scene("camera{from = {0, 0, 5}, to = {0, 0, 0}}\nreturn sphere(1 - 0.5 * time)"), "--render", png,
+           "--size", "32x24", "--view", "mesh", "--frames", "2", "--fps", "1"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(read(at("f_0001.png")).bytes, read(at("f_0002.png")).bytes);
 }
 
 TEST_F(Sdfview, NamesWhatIsWrongWithAScene) {

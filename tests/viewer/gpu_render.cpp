@@ -40,6 +40,10 @@ Drawn draw(const Scene& scene, const GpuRenderOptions& options) {
   frame.maxSteps = options.maxSteps;
   frame.epsilon = options.epsilon;
   frame.threshold = options.threshold;
+  frame.split = options.split;
+  if (options.mesh)
+    if (const Status s = renderer.showMesh(*options.mesh, options.errorLimit); !s)
+      throw std::runtime_error(s.error().message);
   if (const Status s = renderer.draw(frame, target); !s) throw std::runtime_error(s.error().message);
   return {std::move(renderer), std::move(target)};
 }

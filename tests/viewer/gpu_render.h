@@ -17,6 +17,9 @@ struct GpuRenderOptions {
   double epsilon = viewer::Frame{}.epsilon;
   double threshold = viewer::Frame{}.threshold;
   viewer::PixelFormat format = viewer::PixelFormat::Rgba32f;  ///< of what is drawn into
+  const viewer::ShownMesh* mesh = nullptr;                    ///< that a view of one shows
+  double errorLimit = 1.0;                                    ///< of its colours
+  double split = viewer::Frame{}.split;
   Values parameters;  ///< those that do not stand at their present values
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -18,9 +17,6 @@
 namespace sdf::exporter {
 namespace {
 
-/// Voxels along the longest side, unless told otherwise: a side of a thousand pixels then has five to a
-/// voxel.
-constexpr double kDefaultVoxels = 200.0;
 /// With --triangles: the first try has this share of the diagonal for its tolerance; each aims at this share
 /// of the budget, and what is above the other will do. The tolerance changes by so much at most: a mesh of a
 /// few triangles says little of others.
@@ -77,21 +73,10 @@ Status FrameExport::loadParts(double time) {
 // Also refuses parts that are unbounded, by their own names.
 Status FrameExport::chooseVoxelSize(std::optional<double>& voxelSize) {
   progress_.beginStage("bounds");
-  Box all;
-  for (const Part& part : scene.parts) {
-    Box box = stage(report.total, "bounds", [&] { return findBounds(part.shape); });
-    if (clip) box = intersect(box, *clip);
-    if (Status s = interrupted(); !s) return s;
-    if (box.empty()) continue;
-    // Rather now than after the other parts: the mesher knows best how to word why it cannot be meshed.
-    if (!box.finite()) {
-      Result<MeshedShape> refused = meshShape(part.shape, part.name, meshOptions(0.0, 0.0), progress_);
-      if (!refused) return refused.error();
-    }
-    all = unite(all, box);
-  }
-  diagonal_ = all.finite() ? glm::length(all.size()) : 0.0;
-  if (!voxelSize) voxelSize = all.finite() ? all.longestSide() / kDefaultVoxels : 0.0;
+  const auto size = stage(report.total, "bounds", [&] { return exportSize(scene.parts, clip, progress_); });
+  if (!size) return size.error();
+  diagonal_ = size->diagonal;
+  if (!voxelSize) voxelSize = size->voxelSize;
   return okStatus();
 }
 

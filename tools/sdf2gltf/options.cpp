@@ -38,9 +38,6 @@ Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
                *text + "'");
 }
 
-/// Of the diagonal, unless told otherwise.
-constexpr double kDefaultTolerance = 1.0 / 2000;
-
 Status tolerance(const Words& words, Options& options) {
   const std::optional<std::string>& text = words.tolerance;
   if (!text) {

@@ -16,8 +16,9 @@ namespace {
 
 constexpr float kMargin = 8.0f, kPanelWidth = 320.0f;
 constexpr float kLabelWidth = 8.0f;  // of a slider, in heights of the font
-constexpr const char* kViews[] = {"Picture",  "Normals",  "Steps",     "Distance slice",
-                                  "Gradient", "Material", "Occlusion", "Shadow"};
+constexpr const char* kViews[] = {"Picture",  "Normals",        "Steps",          "Distance slice",
+                                  "Gradient", "Material",       "Occlusion",      "Shadow",
+                                  "Mesh",     "Mesh and edges", "Picture | mesh", "Mesh error"};
 static_assert(std::size(kViews) == static_cast<std::size_t>(View::Count));
 constexpr const char* kMethods[] = {"Auto-relaxed", "Plain"};
 constexpr int kMostSamples = 6, kFewestSteps = 8, kMostSteps = 4096;

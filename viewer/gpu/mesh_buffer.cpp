@@ -38,6 +38,8 @@ Result<MeshBuffer> MeshBuffer::make(const std::vector<BufferVertex>& vertices,
   describe(1, 3, offsetof(BufferVertex, normal));
   describe(2, 3, offsetof(BufferVertex, color));
   describe(3, 2, offsetof(BufferVertex, textureAt));
+  describe(4, 3, offsetof(BufferVertex, ambient));
+  describe(5, 1, offsetof(BufferVertex, distance));
   glBindVertexArray(0);
   if (auto s = check("keep a mesh of " + std::to_string(triangles.size()) + " triangles"); !s)
     return s.error();

@@ -11,10 +11,12 @@
 
 namespace sdf::viewer {
 
-/// A corner of triangles, as a vertex shader's inputs 0 to 3 have it.
+/// A corner of triangles, as a vertex shader's inputs 0 to 5 have it.
 struct BufferVertex {
   glm::vec3 position, normal{0.0f}, color{1.0f};
   glm::vec2 textureAt{0.0f};
+  glm::vec3 ambient{1.0f};  ///< the answer to ambient light
+  float distance = 0.0f;    ///< to the scene's surface
 };
 
 /// A MeshBuffer is triangles by their corners.

@@ -198,9 +198,9 @@ DrawingMode firstLayers(int count) {
   return DrawingMode([] { glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE); });
 }
 
-DrawingMode someRows(int first, int count, int width) {
+DrawingMode somePixels(int firstRow, int rows, int firstColumn, int columns) {
   glEnable(GL_SCISSOR_TEST);
-  glScissor(0, first, width, count);
+  glScissor(firstColumn, firstRow, columns, rows);
   return DrawingMode([] { glDisable(GL_SCISSOR_TEST); });
 }
 

@@ -92,9 +92,9 @@ DrawingMode sumOfAll();
 DrawingMode leastOfAll();
 /// Lets fragments into the first layers only; the others stay as they are.
 DrawingMode firstLayers(int count);
-/// Lets fragments and clears into these rows only, counted from the bottom, of targets of this width; the
-/// others stay as they are.
-DrawingMode someRows(int first, int count, int width);
+/// Lets fragments and clears into these rows and columns only, counted from the lower left corner; the others
+/// stay as they are.
+DrawingMode somePixels(int firstRow, int rows, int firstColumn, int columns);
 /// Lets fragments into one layer only; the others stay as they are.
 DrawingMode oneLayer(int layer);
 

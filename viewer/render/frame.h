@@ -14,9 +14,10 @@ namespace sdf::viewer {
 struct Frame {
   Values parameters;
   Look look;
-  int samples = 1;          ///< a side: a pixel takes its square
-  bool filter = true;       ///< patterns are averaged over what a sample covers; see shaders/filter.h
-  int maxSteps = 1024;      ///< readings that a ray may take
+  double split = 0.5;   ///< share of the picture's width at which View::Split begins to show the mesh, 0 to 1
+  int samples = 1;      ///< a side: a pixel takes its square
+  bool filter = true;   ///< patterns are averaged over what a sample covers; see shaders/filter.h
+  int maxSteps = 1024;  ///< readings that a ray may take
   double epsilon = 1e-5;    ///< least distance that counts as a hit, in the view's units (ViewLengths)
   double threshold = 0.25;  ///< share of the pixel's cone that counts as a hit, half of it for loose scenes
 };

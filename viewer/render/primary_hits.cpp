@@ -31,8 +31,9 @@ constexpr Layer kLayers[] = {
 };
 constexpr int kCounts = std::size(kLayers);  // the number of the layer of readings
 
-// How drawn triangles look, in layers after these.
-constexpr const char* kLooks[] = {"hitLook", "hitGlow"};
+// How drawn triangles look, in layers after these; the last one is of a mesh that is shown as a whole.
+constexpr const char* kLooks[] = {"hitLook", "hitGlow", "hitMark"};
+constexpr int kMark = 2, kMaterialsUnit = kCounts + static_cast<int>(std::size(kLooks));
 
 }  // namespace
 
@@ -55,11 +56,12 @@ Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders, Volumes& volu
     if (started) pass.firstCell = std::exchange(made.cells_, made.cells_ + pass.draws());
     made.passes_.push_back(std::move(pass));
   }
-  if (!shaders.plan.drawn.empty())
+  if (!shaders.triangles.empty())
     if (auto s = keep(DrawnMeshes::make(shaders), made.meshes_); !s) return s.error();
   if (shaders.plan.hull)
     if (auto s = keep(HullStarts::make(shaders), made.hull_); !s) return s.error();
   made.looks_ = shaders.plan.looks;
+  made.meshed_ = shaders.plan.meshed;
   made.grouped_ = shaders.plan.grouped;
   made.columns_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(made.cells_))));
   return made;
@@ -87,7 +89,7 @@ Status PrimaryHits::makeTargets(const Shot& shot) {
   std::vector<PixelFormat> formats;
   for (const Layer& layer : kLayers) formats.push_back(layer.format);
   if (counted_) formats.push_back(PixelFormat::Rgba32f);
-  if (meshes_) formats.resize(formats.size() + std::size(kLooks), PixelFormat::Rgba32f);
+  if (meshes_) formats.resize(formats.size() + kMark + (meshed_ ? 1 : 0), PixelFormat::Rgba32f);
   return ensure(hits_, shot.width(), shot.height(), formats, true);
 }
 
@@ -144,12 +146,12 @@ void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
     hits_->bindTexture(i, i);
     picture.set(kLayers[i].name, i);
   }
-  if (!looks_) return;
-  for (int i = 0; i < static_cast<int>(std::size(kLooks)); ++i) {
+  for (int i = looks_ ? 0 : kMark; i < kMark + (meshed_ ? 1 : 0); ++i) {
     const int unit = kCounts + i;
     hits_->bindTexture(unit, firstLook() + i);
     picture.set(kLooks[i], unit);
   }
+  if (looks_ && meshed_) meshes_->giveMaterials(picture, kMaterialsUnit);
 }
 
 void PrimaryHits::drawTiles(const Program& program, const Shot& shot, std::optional<int> cell) const {

@@ -24,6 +24,9 @@ class PrimaryHits {
   /// Compiles the passes. Errors: Graphics with the driver's log; those of Volumes::giveTo.
   static Result<PrimaryHits> make(const SceneShaders& shaders, Volumes& volumes);
 
+  /// Shows this mesh in the place of what rays would hit, of a plan that is `meshed`. Errors: Limits.
+  Status showMesh(const ShownMesh& mesh) { return meshes_->show(mesh); }
+
   /// Computes the passes' uniforms of a frame. It calls no OpenGL.
   void prepare(const Frame& frame);
   /// Makes the targets of the shot's size, and draws where the rays of each tile start. `rows` is what the
@@ -73,6 +76,7 @@ class PrimaryHits {
   std::optional<DrawnMeshes> meshes_;
   std::optional<HullStarts> hull_;  // where rays start, if there is one
   bool looks_ = false;              // the picture shows how their triangles look
+  bool meshed_ = false;             // they are one that is shown as a whole
   bool grouped_ = false;            // the passes draw hits
   std::optional<Program> boxCones_;
   int cells_ = 0, columns_ = 0;  // of the starts

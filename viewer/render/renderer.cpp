@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "viewer/gpu/context.h"
+#include "viewer/shaders/error_colors.h"
 
 namespace sdf::viewer {
 namespace {
@@ -60,6 +61,13 @@ Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options
   if (!shaders) return shaders.error();
   Renderer renderer(scene, std::move(*shaders));
   if (auto s = renderer.compile(); !s) return s.error();
+  if (options.view == View::Split) {
+    ShaderOptions picture = options;
+    picture.view = View::Picture;
+    auto marched = make(scene, picture);
+    if (!marched) return marched.error();
+    renderer.marched_ = std::make_unique<Renderer>(std::move(*marched));
+  }
   renderer.compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return renderer;
 }
@@ -101,7 +109,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
     program.set("lightVector", vectors);
     program.set("lightColor", colors);
   }
-  if (view == View::Picture) {
+  if (isLit(view)) {
     program.set("grain", grain_);
     program.set("ambient", look.ambient);
     program.set("fogColor", look.fogColor);
@@ -129,6 +137,12 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
     program.set("aperture", look.eye.aperture);
     program.set("focus", look.eye.focus.value_or(glm::length(look.eye.to - look.eye.from)));
     program.set("lensPlace", shot.lensPlace());
+  }
+  if (view == View::Error) {
+    std::vector<glm::vec4> colors;
+    for (const glm::vec3& color : kErrorColors) colors.emplace_back(color, 1.0f);
+    program.set("errorColors", colors);
+    program.set("errorLimit", errorLimit_);
   }
   if (view == View::Slice) {
     program.set("slicePoint", glm::vec3(look.eye.to));
@@ -184,9 +198,14 @@ Status Renderer::resolve(const Shot& shot, const Target& target, double drawn) {
   resolve_->set("sums", 0);
   resolve_->set("weight", shot.weight());
   resolve_->set("drawn", drawn);
-  if (shaders_.plan.options.view == View::Picture) resolve_->set("grain", grain_);
+  if (isLit(shaders_.plan.options.view)) resolve_->set("grain", grain_);
   resolve_->draw();
   return okStatus();
+}
+
+Status Renderer::showMesh(const ShownMesh& mesh, double limit) {
+  errorLimit_ = limit;
+  return hits_->showMesh(shaders_.plan.options.view == View::Wire ? unshared(mesh) : mesh);
 }
 
 void Renderer::prepare(const Frame& frame) {
@@ -195,6 +214,7 @@ void Renderer::prepare(const Frame& frame) {
   if (backgroundValues_) backgroundValues_->move(frame.parameters);
   if (around_) around_->move(frame.parameters);
   if (hits_) hits_->prepare(frame);
+  if (marched_) marched_->prepare(frame);
 }
 
 void Renderer::giveRows() {
@@ -218,10 +238,34 @@ Status Renderer::draw(const Frame& frame, const Target& target) {
   return draw(frame, target, {0, target.height()});
 }
 
+// The picture is left of the column at `split`, if there are two sides.
+template <class Draw>
+Status Renderer::drawSides(const Frame& frame, const Target& target, const Draw& draw) {
+  const int width = target.width();
+  if (!marched_) return draw(*this, Columns{0, width});
+  const int left = std::clamp(static_cast<int>(std::lround(frame.split * width)), 0, width);
+  if (left > 0)
+    if (auto s = draw(*marched_, Columns{0, left}); !s) return s;
+  return left < width ? draw(*this, Columns{left, width - left}) : okStatus();
+}
+
 Status Renderer::draw(const Frame& frame, const Target& target, const Rows& rows) {
+  return drawSides(frame, target, [&](Renderer& side, const Columns& columns) {
+    return side.drawColumns(frame, target, rows, columns);
+  });
+}
+
+Status Renderer::refine(const Frame& frame, int drawn, const Target& target, const Rows& rows) {
+  return drawSides(frame, target, [&](Renderer& side, const Columns& columns) {
+    return side.refineColumns(frame, drawn, target, rows, columns);
+  });
+}
+
+Status Renderer::drawColumns(const Frame& frame, const Target& target, const Rows& rows,
+                             const Columns& columns) {
   Shot shot(frame, target.width(), target.height(), extent_);
   if (auto s = begin(frame, shot, target, rows); !s) return s;
-  const DrawingMode some = someRows(rows.first, rows.count, target.width());
+  const DrawingMode some = somePixels(rows.first, rows.count, columns.first, columns.count);
   if (samples_ > 1) {
     if (auto s = clearSums(shot); !s) return s;
     for (int i = 0; i < samples_; ++i)
@@ -241,10 +285,11 @@ Status Renderer::refine(const Frame& frame, int drawn, const Target& target) {
   return refine(frame, drawn, target, {0, target.height()});
 }
 
-Status Renderer::refine(const Frame& frame, int drawn, const Target& target, const Rows& rows) {
+Status Renderer::refineColumns(const Frame& frame, int drawn, const Target& target, const Rows& rows,
+                               const Columns& columns) {
   Shot shot(frame, target.width(), target.height(), extent_);
   if (auto s = begin(frame, shot, target, rows); !s) return s;
-  const DrawingMode some = someRows(rows.first, rows.count, target.width());
+  const DrawingMode some = somePixels(rows.first, rows.count, columns.first, columns.count);
   if (drawn == 0)
     if (auto s = clearSums(shot); !s) return s;
   if (auto s = addSample(frame, shot, scattered(drawn, samples_)); !s) return s;
@@ -252,14 +297,31 @@ Status Renderer::refine(const Frame& frame, int drawn, const Target& target, con
   return check("refine the scene's picture");
 }
 
-Result<Readings> Renderer::readings(const Target& target) const {
-  const auto counts = (samples_ > 1 ? *sums_ : target).sum(1);
+// Those of either side add up.
+Result<glm::dvec4> Renderer::counts(const Target& target) const {
+  if (samples_ == 1) return target.sum(1);
+  auto sum = sums_->sum(1);
+  if (!sum || !marched_ || !marched_->sums_) return sum;
+  const auto marched = marched_->sums_->sum(1);
+  if (!marched) return marched;
+  return *sum + *marched;
+}
+
+Result<double> Renderer::primaryReadings() const {
   const Result<double> cones = hits_ ? hits_->coneReadings() : 0.0;
-  if (!counts) return counts.error();
-  if (!cones) return cones.error();
-  const double primary = counts->x + (hits_ ? hits_->readings() : 0.0) + *cones / samples_;
+  if (!cones) return cones;
+  const Result<double> marched = marched_ ? marched_->primaryReadings() : 0.0;
+  if (!marched) return marched;
+  return *marched + (hits_ ? hits_->readings() : 0.0) + *cones / samples_;
+}
+
+Result<Readings> Renderer::readings(const Target& target) const {
+  const auto sums = counts(target);
+  const auto primary = primaryReadings();
+  if (!sums) return sums.error();
+  if (!primary) return primary.error();
   const double pixels = static_cast<double>(target.width()) * target.height();
-  return Readings{primary / pixels, counts->y / pixels, counts->z / pixels, counts->w / pixels};
+  return Readings{(sums->x + *primary) / pixels, sums->y / pixels, sums->z / pixels, sums->w / pixels};
 }
 
 }  // namespace sdf::viewer

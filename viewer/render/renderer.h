@@ -1,5 +1,6 @@
 // Draws a scene with OpenGL, in the current context.
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "viewer/gpu/program.h"
@@ -30,11 +31,15 @@ struct Rows {
   int first, count;
 };
 
-/// A Renderer draws one scene.
+/// A Renderer draws one scene; in View::Split its picture left of Frame::split, and its mesh from there on.
 class Renderer {
  public:
   /// Compiles the scene's shaders. Errors: Scene as assemble; Graphics with the driver's log.
   static Result<Renderer> make(const Scene& scene, const ShaderOptions& options = {});
+
+  /// Hands over the mesh that a view of one shows (showsMesh); before there is none in its pictures. Colours
+  /// of errors are those of distances up to `limit` to either side, scene units, above 0. Errors: Limits.
+  Status showMesh(const ShownMesh& mesh, double limit = 1.0);
 
   /// Computes the uniforms of a frame, which draw() does too, unless they are those of the frame before. It
   /// compiles nothing and calls no OpenGL.
@@ -62,7 +67,18 @@ class Renderer {
   double compileSeconds() const { return compileSeconds_; }
 
  private:
+  /// Columns are some of a picture's, counted from the left.
+  struct Columns {
+    int first, count;
+  };
   Renderer(const Scene& scene, SceneShaders shaders);
+  template <class Draw>
+  Status drawSides(const Frame& frame, const Target& target, const Draw& draw);
+  Status drawColumns(const Frame& frame, const Target& target, const Rows& rows, const Columns& columns);
+  Status refineColumns(const Frame& frame, int drawn, const Target& target, const Rows& rows,
+                       const Columns& columns);
+  Result<glm::dvec4> counts(const Target& target) const;
+  Result<double> primaryReadings() const;
   Status compile();
   void setLook(const Program& program, const Frame& frame, const Shot& shot) const;
   void giveRows();  // those of the frame, to all shaders
@@ -73,6 +89,7 @@ class Renderer {
   Status addSample(const Frame& frame, Shot& shot, int i);
   Status resolve(const Shot& shot, const Target& target, double drawn);
 
+  std::unique_ptr<Renderer> marched_;  // draws the picture's side of a split view
   SceneShaders shaders_;
   Volumes volumes_;
   std::optional<PrimaryHits> hits_;
@@ -85,6 +102,7 @@ class Renderer {
   std::optional<UniformValues> backgroundValues_;
   std::optional<BackgroundValues> around_;  // what lights surfaces of the background, if that does
   UniformValues rowValues_;
+  double errorLimit_ = 1.0;     // of the mesh, if one is shown
   bool rowsMoved_ = false;      // and rows_ have not been filled since
   std::optional<Texels> rows_;  // the texture sdfRows, if there are any
   Extent extent_;

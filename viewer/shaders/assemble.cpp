@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "viewer/shaders/error_colors.h"
 #include "viewer/shaders/filter.h"
 #include "viewer/shaders/hit_shaders.h"
 #include "viewer/shaders/light_parts.h"
@@ -36,8 +37,8 @@ GlslWriter labelled(const Scene& scene) {
 
 // What is shown of a linear colour c, by debug views as it is.
 std::string encoding(const Scene& scene, const Plan& plan) {
-  if (plan.options.view != View::Picture && plan.options.view != View::Material) return "(c)";
-  const bool isPicture = plan.options.view == View::Picture;
+  if (!isLit(plan.options.view) && plan.options.view != View::Material) return "(c)";
+  const bool isPicture = isLit(plan.options.view);
   const std::string toned = isPicture && scene.tone == Tone::Filmic ? "filmic(c)" : "c";
   const std::string curve = !scene.gamma ? "encode(" + toned + ")"
                             : *scene.gamma == 1.0
@@ -47,7 +48,7 @@ std::string encoding(const Scene& scene, const Plan& plan) {
 }
 
 std::string encoder(const Scene& scene, const Plan& plan) {
-  const bool isPicture = plan.options.view == View::Picture;
+  const bool isPicture = isLit(plan.options.view);
   const bool isSrgb = !scene.gamma && (isPicture || plan.options.view == View::Material);
   return std::string(isSrgb ? parts::kSrgb : "") +
          (isPicture && scene.tone == Tone::Filmic ? parts::kFilmic : "") + (isPicture ? parts::kDither : "");
@@ -56,7 +57,7 @@ std::string encoder(const Scene& scene, const Plan& plan) {
 // Those that later parts choose by, pixel by pixel.
 std::string choosing(const Plan& plan) {
   const bool chooses = plan.sized || plan.glossy || plan.lens;
-  return std::string(chooses || plan.options.view == View::Picture ? parts::kBayer : "") +
+  return std::string(chooses || isLit(plan.options.view) ? parts::kBayer : "") +
          (chooses ? parts::kChosen : "");
 }
 
@@ -93,9 +94,10 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
                        : plan.bounces == 0 ? "hit = primaryHit();"
                                            : "if (bounce == 0) hit = primaryHit(); else hit = meet(ray);";
   macros["TAKE_OPERAND"] = plan.operands.empty() ? "" : "operand = hit.operand;" + takeSurface;
-  macros["TAKE_LOOK"] = !plan.looks        ? ""
-                        : plan.bounces > 0 ? "if (bounce == 0) takeLook(hit, s);"
-                                           : "takeLook(hit, s);";
+  const std::string take = plan.meshed ? "takeMeshLook(hit, s);" : "takeLook(hit, s);";
+  macros["TAKE_LOOK"] = !plan.looks ? "" : (plan.bounces > 0 ? "if (bounce == 0) " : "") + take;
+  macros["LIFT"] = plan.meshed ? "if (bounce == 0) p -= min(field(p).y, 0.0) * n;" : "";
+  macros["EDGED(c)"] = plan.options.view == View::Wire ? "(bounce == 0 ? edged(c) : c)" : "(c)";
   macros["FOOTPRINT"] = plan.filters ? "setFootprint(n, d, ray.before + t);" : "";
   macros["LEAVE_BACKGROUND"] = leavesBackground(plan) ? "discard;" : "";
   macros["LIGHTS"] = std::to_string(scene.lights.size());
@@ -109,6 +111,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["SHADE_LIGHT"] =
       plan.shadow == ShadowKind::None ? "" : "if (lightColor[i].w > 0.0) light *= arriving(i, p, l, far);";
   macros["SHADOW_SPENT"] = plan.shadow == ShadowKind::None ? "false" : "shadowSpent";
+  macros["ERROR_COLORS"] = std::to_string(kErrorColors.size());
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);
   for (int i = 0; i + 1 < kAttributeCount; ++i) macros[kAttributeNames[i]] = std::to_string(i);
   return macros;
@@ -129,7 +132,7 @@ std::string shadowParts(const Plan& plan) {
 
 // Those that define colorOf(ray, spent), beside what it calls.
 std::string colorParts(const Plan& plan) {
-  if (plan.options.view == View::Picture)
+  if (isLit(plan.options.view))
     return (plan.lights ? parts::kLights : "") + std::string(plan.glossy ? parts::kGlossy : "") +
            (plan.lens ? parts::kLens : "") + (plan.around ? parts::kLightAround : "") + parts::kRadiance;
   const char* const shadows = plan.shadow == ShadowKind::None ? parts::kHitsView : parts::kShadowView;
@@ -141,19 +144,22 @@ std::string colorParts(const Plan& plan) {
                                parts::kMaterialView,
                                parts::kOcclusionView,
                                shadows};
-  const std::string view = views[static_cast<int>(plan.options.view)];
+  const View shown = plan.options.view;
+  const std::string view = shown == View::Error ? parts::kErrorView : views[static_cast<int>(shown)];
   return parts::kNothing + view + (plan.options.view == View::Slice ? "" : parts::kHitColor);
 }
 
 std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& rows) {
   const bool meets = (!plan.grouped && plan.options.view != View::Slice) || plan.bounces > 0;
   const bool readsField = plan.occlusion == OcclusionKind::Taps || plan.shadow == ShadowKind::Improved ||
-                          plan.shadow == ShadowKind::Signed;
+                          plan.shadow == ShadowKind::Signed || (plan.meshed && isLit(plan.options.view));
   std::string text = std::string(parts::kCamera) + parts::kHit;
   if (plan.options.countReadings) text += parts::kPictureCounts;
   if (startsHere(plan)) text += parts::kStarts;
   if (plan.grouped) text += parts::kHitFromLayers;
   if (plan.looks) text += parts::kTakeLook;
+  if (plan.looks && plan.meshed) text += parts::kTakeMeshLook;
+  if (plan.options.view == View::Wire) text += parts::kEdged;
   if (plan.kinds && (meets || readsRest(plan) || readsField || plan.options.view == View::Slice))
     text += sharing(plan, rows);
   if (meets)
@@ -241,17 +247,17 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   }
   std::vector<HitShaders> hits;
   std::string boxes, triangles, hull;
-  if (plan->grouped) hits = groupShaders(*plan, rows);
+  if (plan->grouped && !plan->meshed) hits = groupShaders(*plan, rows);
   if (std::ranges::any_of(hits, [](const HitShaders& pass) { return !pass.boxes.empty(); }))
     boxes = boxCones(*plan);
-  if (!plan->drawn.empty()) triangles = triangleShader(*plan);
+  if (plan->meshed || !plan->drawn.empty()) triangles = triangleShader(*plan);
   if (plan->hull) hull = hullShader(*plan);
   if (startsHere(*plan)) hits = {startShaders(*plan, rows)};
   Shader shown = picture(scene, *plan, rows, labelled(scene));
   std::optional<Shader> tiles;
   if (plan->tiled) tiles = background(scene, *plan);
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
-  const char* const dithers = options.view == View::Picture ? parts::kBayer : "";
+  const char* const dithers = isLit(options.view) ? parts::kBayer : "";
   std::string resolved = resolve.compose(dithers + encoder(scene, *plan) + parts::kResolve);
   return SceneShaders{std::move(*plan),     std::move(hits),  std::move(boxes),
                       std::move(triangles), std::move(hull),  rows.numbers(),

@@ -240,10 +240,14 @@ std::string boxCones(const Plan& plan) {
 
 std::string triangleShader(const Plan& plan) {
   const int first = plan.options.countReadings ? 3 : 2;
-  const Macros macros{
-      {"OPERANDS", operandCount(plan)}, {"LOOK", std::to_string(first)}, {"GLOW", std::to_string(first + 1)}};
+  const Macros macros{{"OPERANDS", operandCount(plan)},
+                      {"LOOK", std::to_string(first)},
+                      {"GLOW", std::to_string(first + 1)},
+                      {"MARK", std::to_string(first + 2)},
+                      {"STORE_MARKS", plan.meshed ? "storeMarks(hitGlow);" : ""}};
   Composer composer(plan.options.es, macros, {}, {});
-  return composer.compose(std::string(parts::kCamera) + parts::kHit + parts::kFavoured + parts::kTriangles);
+  return composer.compose(std::string(parts::kCamera) + parts::kHit + parts::kFavoured +
+                          (plan.meshed ? parts::kMarks : "") + parts::kTriangles);
 }
 
 std::string hullShader(const Plan& plan) {

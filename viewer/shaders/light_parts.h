@@ -40,8 +40,8 @@ vec3 around(vec3 axis, float cosine, float sine, float turn) {
 
 /// Either defines clip(p, l, widening, t, reach), which leaves the part of the way to a light that can be
 /// dimmed.
-/// Only what is nearer to the ray than t / k dims the light: within a ball around the rest's bounds that grows
-/// with t, |p + t l - c| < R + t / k, and within these bounds grown by the most of that.
+/// Only what is nearer to the ray than t / k dims the light: within a ball around the rest's bounds that
+/// grows with t, |p + t l - c| < R + t / k, and within these bounds grown by the most of that.
 inline constexpr const char* kShadowSpan = R"(
 void clip(vec3 p, vec3 l, float widening, inout float t, inout float reach) {
   vec3 away = p - 0.5 * (BOX_MIN + BOX_MAX);
@@ -302,6 +302,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     if (hit.status == BUDGET) spent = true;
     float t = hit.t;
     vec3 p = ray.origin + t * ray.direction, d = ray.direction, n = hit.normal;
+    LIFT
     float s[ATTRIBUTES];
     FOOTPRINT
     TAKE_OPERAND
@@ -310,6 +311,7 @@ vec3 colorOf(Ray ray, out bool spent) {
     vec3 local = AMBIENT * vec3(s[AMBIENT_RED], s[AMBIENT_GREEN], s[AMBIENT_BLUE]) * OCCLUSION;
     local += DIRECT + vec3(s[EMISSION_RED], s[EMISSION_GREEN], s[EMISSION_BLUE]);
     local *= STEP_OCCLUSION;
+    local = EDGED(local);
     float clear = exp(-fogDensity * (bounce == 0 ? ray.before + t : t));
     vec3 mirror = vec3(0.0);
 #if BOUNCES > 0

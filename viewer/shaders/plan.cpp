@@ -121,7 +121,8 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   // Occlusion by steps counts the readings of the whole.
   const bool stepsCount = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps;
   const View view = options.view;
-  const bool isPicture = view == View::Picture;
+  const bool isPicture = isLit(view);
+  plan.meshed = showsMesh(view);
   const bool mirrors = !whole.surface[static_cast<int>(Attribute::Reflectivity)].isConstant(0.0);
   // Counts of steps, gradients and slices are the whole's.
   const bool showsHits = isPicture || view == View::Normals || view == View::Material ||
@@ -129,9 +130,9 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   // A group is read without what marchable() adds where a slope is known near the bounds only.
   const bool mayGroup = options.sharing && slopeOf(whole) < kInfinity;
   // Each pixel's rays through a lens are others.
-  plan.lens = isPicture && !scene.camera.aperture.isConstant(0.0);
-  Split parts =
-      split(scene, !stepsCount, options.drawing && mayGroup && showsHits && !stepsCount && !plan.lens);
+  plan.lens = view == View::Picture && !scene.camera.aperture.isConstant(0.0);
+  const bool draws = options.drawing && mayGroup && showsHits && !stepsCount && !plan.lens && !plan.meshed;
+  Split parts = split(scene, !stepsCount, draws);
   plan.planes = std::move(parts.planes);
   plan.drawn = std::move(parts.drawn);
   const Shape rest = plan.planes.empty() || parts.others.empty() ? whole : unite(parts.others);
@@ -141,21 +142,23 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
     if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
   }
   plan.cones = plan.rest && options.method == Method::AutoRelaxed && options.start != Start::Plain &&
-               !stepsCount && !plan.lens;
+               !stepsCount && !plan.lens && !plan.meshed;
   plan.tiled = plan.cones && isPicture && plan.planes.empty() && plan.drawn.empty();
   plan.plain = options.method == Method::Plain || stepsCount;
   plan.lights = (isPicture || view == View::Shadow) && !scene.lights.empty();
   if (plan.lights && scene.shadow.kind != Shadow::Kind::None) planShadows(scene, plan);
   plan.around = isPicture && !scene.backgroundLight.isConstant(0.0);
-  if (isPicture || view == View::Occlusion) plan.occlusion = scene.ambientOcclusion.kind;
+  // To a triangle there are no steps.
+  if ((isPicture || view == View::Occlusion) && !(plan.meshed && stepsCount))
+    plan.occlusion = scene.ambientOcclusion.kind;
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;
   if (isPicture || view == View::Material) planSurface(whole, plan);
   if (mayGroup)
     if (Kinds kinds = kindsOf(parts.operands); !kinds.many.empty() || !plan.drawn.empty())
       plan.kinds = std::move(kinds);
-  plan.looks = !plan.drawn.empty() && (isPicture || view == View::Material);
-  plan.grouped = plan.kinds && showsHits && (plan.cones || !plan.drawn.empty());
+  plan.looks = (plan.meshed || !plan.drawn.empty()) && (isPicture || view == View::Material);
+  plan.grouped = plan.meshed || (plan.kinds && showsHits && (plan.cones || !plan.drawn.empty()));
   plan.hull = options.start == Start::Raster && plan.cones && !plan.grouped && view != View::Slice &&
               plan.rest && plan.rest->bounds.finite();
   return plan;

@@ -21,8 +21,17 @@ enum class View {
   Material,   ///< diffuse colour, unlit
   Occlusion,  ///< ambient occlusion alone
   Shadow,     ///< share of the lights that arrives, the mean over those that cast shadows
+  Mesh,       ///< a mesh of the scene, under the scene's lights
+  Wire,       ///< the same with its triangles' edges
+  Split,      ///< the picture, and beside it the mesh: shaders of this view draw the mesh's side
+  Error,      ///< a mesh by its distance to the scene's surface
   Count
 };
+
+/// Is a mesh shown, which a renderer is given (Renderer::showMesh), in the place of what rays meet?
+constexpr bool showsMesh(View view) { return view >= View::Mesh && view < View::Count; }
+/// Is light shown, and what it falls on?
+constexpr bool isLit(View view) { return view == View::Picture || (showsMesh(view) && view != View::Error); }
 
 /// A Method is how rays are marched: by steps as long as is safe to guess, or by plain ones.
 enum class Method { AutoRelaxed, Plain };
@@ -79,7 +88,8 @@ struct Plan {
   std::vector<Expr> surface;  ///< the attributes of a hit, if they are shown
   Rows surfaceRows;           ///< the numbers in them, by operand; without parameters if there are none
   bool looks = false;         ///< what is shown may look as the triangles of a drawn mesh do
-  bool grouped = false;       ///< each group of the kinds is drawn by itself
+  bool meshed = false;        ///< primary rays meet triangles that the renderer is given, and nothing else
+  bool grouped = false;       ///< hits are in layers: that mesh's, or those of each group of the kinds
   bool plain = false;         ///< rays take plain steps
   bool cones = false;         ///< rays start where the cone pass says
   bool hull = false;          ///< or where they enter the rest's hull

@@ -30,7 +30,8 @@ struct Ray {
 };
 
 const int MISS = 0, HIT = 1, BUDGET = 2;  // what becomes of a ray
-const int DRAWN = 3;                      // or a hit that looks as hitLook and hitGlow say
+const int DRAWN = 3;                      // or a hit that looks as hitLook and hitGlow say,
+const int MESHED = 4;                     // or as they and the mesh's materials do
 
 Ray rayThrough(vec2 pixel) {
   vec2 uv = (pixel - 0.5 * size) / size.y;

@@ -87,12 +87,12 @@ std::vector<std::string> deadMacros(const Macros& macros) {
   // clang-format off
   static constexpr const char* kParts[] = {
       kCamera, kHit, kField, kRest, kRestByBox, kPlanes, kNoPlanes, kMarch, kGradient, kGradientByTaps, kNormal, kMeet,
-      kStarts, kHitCounts, kPictureCounts, kCones, kFavoured, kHits, kTriangles, kTakeLook, kHitFromLayers, kFootprint, kShadowSpan,
+      kStarts, kHitCounts, kPictureCounts, kCones, kFavoured, kHits, kMarks, kTriangles, kTakeLook, kHitFromLayers, kFootprint, kShadowSpan,
       kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kVisible, kHardShadow, kSoftShadow,
       kImprovedShadow, kSignedShadow, kArriving, kArrivingSized, kBayer, kChosen, kOcclusionTaps,
       kOcclusionSteps, kLightAround, kLightSettings, kLights, kGlossy, kLens, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
-      kMaterialView, kOcclusionView, kShadowView, kNothing, kSrgb, kFilmic, kDither, kPicture, kResolve};
+      kMaterialView, kOcclusionView, kShadowView, kErrorView, kTakeMeshLook, kEdged, kNothing, kSrgb, kFilmic, kDither, kPicture, kResolve};
   // clang-format on
   std::set<std::string> used;
   for (const char* const part : kParts) used.merge(usedMacros(part));

@@ -104,4 +104,23 @@ vec3 shown(Ray ray, Hit hit) {
 }
 )";
 
+/// The colours lie evenly between errorLimit on the inner side and on the outer one; the first and the last
+/// are those of what is beyond.
+inline constexpr const char* kErrorView = R"(
+uniform sampler2D hitMark;
+uniform vec4 errorColors[ERROR_COLORS];
+uniform float errorLimit;
+
+vec3 shown(Ray ray, Hit hit) {
+  if (hit.status == MISS) return NOTHING;
+  float share = texelFetch(hitMark, ivec2(gl_FragCoord.xy), 0).y / errorLimit;
+  float place = 1.0 + 0.5 * (clamp(share, -1.0, 1.0) + 1.0) * float(ERROR_COLORS - 3);
+  int below = min(int(place), ERROR_COLORS - 3);
+  vec3 color = mix(errorColors[below].rgb, errorColors[below + 1].rgb, place - float(below));
+  if (share < -1.0) color = errorColors[0].rgb;
+  if (share > 1.0) color = errorColors[ERROR_COLORS - 1].rgb;
+  return color * (0.55 + 0.45 * abs(dot(hit.normal, ray.direction)));
+}
+)";
+
 }  // namespace sdf::viewer::parts

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sdf/base/progress.h"
 #include "sdf/base/result.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/scene/scene.h"
@@ -45,6 +46,19 @@ bool isGltf(const std::filesystem::path& target);
 /// parts; in .stl, .ply and .obj, which know no parts, their union as one, by the name "all parts united".
 /// Precondition: checkExtension(target).
 std::vector<Part> exportedParts(const Scene& scene, const std::filesystem::path& target);
+
+/// How large all that is exported is, scene units; 0 where nothing is.
+struct ExportSize {
+  double diagonal = 0.0;   ///< of the box around all parts
+  double voxelSize = 0.0;  ///< where none is asked for: 1/200 of that box's longest side
+};
+/// Where neither a tolerance nor a voxel size is asked for: this share of the diagonal is the tolerance that
+/// is tried for (MeshOptions::strict is false).
+inline constexpr double kDefaultTolerance = 1.0 / 2000;
+/// Finds it for these parts, cut to `clip` if there is one. Errors: Scene, those of meshShape for a part that
+/// is unbounded; Interrupted.
+Result<ExportSize> exportSize(const std::vector<Part>& parts, const std::optional<Box>& clip,
+                              Progress& progress);
 
 /// Writes all parts to `target`, whose extension picks the format. The file appears under its name only when
 /// complete.

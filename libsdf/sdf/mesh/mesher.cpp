@@ -230,7 +230,7 @@ class Mesher {
       return sceneError(
           name_,
           "unbounded in " + unboundedAxes(bounds) +
-              "; give bounds({x0,y0,z0}, {x1,y1,z1}) in the scene, --bounds, or intersect it with a box");
+              "; give bounds({x0,y0,z0}, {x1,y1,z1}) in the scene (sdf2gltf: or --bounds), or intersect it with a box");
     return bounds;
   }
 
