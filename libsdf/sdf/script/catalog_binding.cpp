@@ -299,9 +299,11 @@ int importedMesh(lua_State* L) {
   if (!file) raise(L, file.error().message);
   const auto read = meshField(*file, valueOr(given, "voxels", 128), c.options.readMesh);
   if (!read) raise(L, read.error().message);
-  const std::string note = name + ": " + read->note;
-  if (!read->note.empty() && std::ranges::find(c.scene.notes, note) == c.scene.notes.end())
-    c.scene.notes.push_back(note);
+  const auto addOnce = [](std::vector<std::string>& all, const std::string& one) {
+    if (std::ranges::find(all, one) == all.end()) all.push_back(one);
+  };
+  addOnce(c.scene.files, file->string());
+  if (!read->note.empty()) addOnce(c.scene.notes, name + ": " + read->note);
   return pushGood(L, triangleSolid(read->field));
 }
 
