@@ -227,10 +227,9 @@ class Mesher {
     if (bounds.empty())
       return sceneError(name_, "nothing inside the bounds; enlarge the bounds or move the shape");
     if (!bounds.finite())
-      return sceneError(
-          name_,
-          "unbounded in " + unboundedAxes(bounds) +
-              "; give bounds({x0,y0,z0}, {x1,y1,z1}) in the scene (sdf2gltf: or --bounds), or intersect it with a box");
+      return sceneError(name_, "unbounded in " + unboundedAxes(bounds) +
+                                   "; give bounds({x0,y0,z0}, {x1,y1,z1}) in the scene (sdf2gltf: or "
+                                   "--bounds), or intersect it with a box");
     return bounds;
   }
 
