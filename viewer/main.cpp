@@ -20,6 +20,9 @@ sdf::Status run(const sdf::viewer::Options& o) {
   controls.time = o.time;
   controls.view = o.shader.view;
   controls.method = o.shader.method;
+  controls.mesh = o.mesh;
+  controls.meshFile = o.meshFile;
+  controls.split = o.split;
   controls.samples = o.samples;
   controls.maxSteps = o.maxSteps;
   return sdf::viewer::runWindow({{o.scene, o.folders}, controls, o.width, o.height, o.fit});

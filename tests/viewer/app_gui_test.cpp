@@ -45,6 +45,7 @@ class GuiTest : public testing::Test {
     ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
     ImGui::NewFrame();
     Requests requests;
+    gui.mesh.overPicture(session);
     gui.panels(session, canvas, requests);
     gui.overlay(session);
     ImGui::Render();
@@ -52,15 +53,21 @@ class GuiTest : public testing::Test {
   }
 
   /// Presses and lets go at a place, with the frames that Dear ImGui needs to notice.
-  void click(Session& session, float x, float y) {
+  void click(Session& session, float x, float y) { clickRequests(session, x, y); }
+
+  /// The same, and whether it asked for the mesh to be exported.
+  Requests clickRequests(Session& session, float x, float y) {
     ImGuiIO& io = ImGui::GetIO();
+    Requests all;
+    const auto next = [&] { all.exportMesh |= frame(session).exportMesh; };
     io.MousePos = {x, y};
-    frame(session);
+    next();
     for (const bool down : {true, false}) {
       io.MouseDown[0] = down;
-      frame(session);
+      next();
     }
-    frame(session);
+    next();
+    return all;
   }
 
   const Folder folder;
@@ -94,6 +101,31 @@ part("%s##", sphere(1 + a + c):translate(d + b, 0, 0))
     EXPECT_GE(session.value(p), p.min) << p.name;
     EXPECT_LE(session.value(p), p.max) << p.name;
   }
+}
+
+TEST_F(GuiTest, MeshControlsMoveTheMesh) {
+  Session session = openText("return sphere(1)");
+  bool uniform = false, tolerance = false, exports = false, voxels = false;
+  for (const float x : {40.0f, 120.0f})
+    for (float y = 0.0f; y < 400.0f; y += 5.0f) {
+      session.controls = {};
+      session.controls.view = View::Mesh;
+      const Requests requests = clickRequests(session, x, y);
+      const MeshSettings& mesh = session.controls.mesh;
+      uniform = uniform || (mesh.voxelSize && !mesh.tolerance);
+      tolerance = tolerance || (mesh.tolerance && !mesh.voxelSize);
+      voxels = voxels || (mesh.tolerance && mesh.voxelSize);
+      exports = exports || requests.exportMesh;
+      for (const auto& length : {mesh.tolerance, mesh.voxelSize})
+        if (length) {
+          EXPECT_GE(*length, 0.9e-5 * session.extent());
+          EXPECT_LE(*length, 0.11 * session.extent());
+        }
+    }
+  EXPECT_TRUE(uniform);
+  EXPECT_TRUE(tolerance);
+  EXPECT_TRUE(voxels);
+  EXPECT_TRUE(exports);
 }
 
 TEST_F(GuiTest, NoClicksBreakAnything) {

@@ -193,6 +193,38 @@ TEST_F(BareWindowTest, DragsAndTheWheelMoveTheCamera) {
   EXPECT_GT(screenshot().share(isRed), before);
 }
 
+TEST_F(BareWindowTest, DragsTheDividerOfASplitView) {
+  Session& session = window->session();
+  session.controls.mesh.voxelSize = 0.2;
+  session.controls.view = View::Split;
+  session.controls.split = 300.0 / kWidth;  // where drags begin
+  ASSERT_TRUE(until([&] { return session.mesh() && !session.meshing(); }));
+  settle();
+  drag(1, 100, 0);
+  EXPECT_NEAR(session.controls.split, 400.0 / kWidth, 2.0 / kWidth);
+  EXPECT_FALSE(session.controls.eye) << "the camera stays";
+  const Screenshot shot = screenshot();
+  int white = 0;  // the line itself
+  for (int x = 395; x < 405; ++x) white += shot.pixel(x, 20).y > 200;
+  EXPECT_GE(white, 1);
+  drag(1, 0, 40);  // not at the divider any more
+  EXPECT_TRUE(session.controls.eye);
+}
+
+TEST_F(BareWindowTest, ShowsErrorsWithTheirLegendAndGoesOnWhileItMeshes) {
+  Session& session = window->session();
+  session.controls.view = View::Error;
+  session.controls.mesh.tolerance = 1e-5;  // takes a while
+  settle();                                // turns go on
+  EXPECT_TRUE(session.meshing());
+  EXPECT_EQ(screenshot().at(0.5, 0.5), kRed) << "the picture, until there is a mesh";
+  session.controls.mesh.tolerance = 0.01;
+  ASSERT_TRUE(until([&] { return session.errors() && !session.meshing(); }));
+  settle();
+  const auto isBeyond = [](glm::ivec3 c) { return c == glm::ivec3(255, 217, 0); };
+  EXPECT_GT(screenshot().share(isBeyond), 1e-4) << "no legend";
+}
+
 TEST_F(BareWindowTest, KeysLookFlyPlayAndShowViews) {
   keys("4");
   ASSERT_TRUE(until([&] { return window->session().eye().from.x > 5.9; }));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "viewer/gpu/context.h"
+#include "viewer/render/legend.h"
 
 namespace sdf::viewer {
 namespace {
@@ -58,8 +59,9 @@ double Canvas::secondsNow() {
 
 Result<bool> Canvas::update(Session& session, int width, int height, double now) {
   if (width < 1 || height < 1) return false;
-  const Shown wanted{session.controls, session.compilations(), width, height};
-  const bool isAnother = !asked_ || asked_->compilations != wanted.compilations || asked_->width != width ||
+  const Shown wanted{session.controls, session.compilations(), session.meshes(), width, height};
+  const bool isAnother = !asked_ || asked_->compilations != wanted.compilations ||
+                         asked_->meshes != wanted.meshes || asked_->width != width ||
                          asked_->height != height;
   if (asked_ != wanted) {
     lastChange_ = now;
@@ -183,7 +185,9 @@ Result<Picture> Canvas::picture(Session& session) {
     if (const Status refined = refine(session, kAllDay); !refined) return refined.error();
   const auto picture = target_->picture();
   if (!picture) return picture.error();
-  return withoutAlpha(*picture);
+  Picture shown = withoutAlpha(*picture);
+  if (const ErrorFigures* errors = session.errors()) drawLegend(*errors, shown);
+  return shown;
 }
 
 }  // namespace sdf::viewer

@@ -107,7 +107,7 @@ class Canvas {
  private:
   struct Shown {
     Controls controls;
-    int compilations, width, height;  // of the window
+    int compilations, meshes, width, height;  // of the window
     bool operator==(const Shown&) const = default;
   };
   /// A picture that is part way drawn.

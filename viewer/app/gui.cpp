@@ -258,6 +258,7 @@ void Gui::panels(Session& session, const Canvas& canvas, Requests& requests) {
     if (section("Parameters", true)) parameterSliders(session);
     if (section("Time", true)) clock(session);
     if (section("View", true)) marching(session.controls);
+    if (section("Mesh", showsMesh(session.controls.view))) mesh.controls(session, requests);
     if (section("Statistics", true)) statistics(session, canvas, requests);
     if (section("Light", false)) lightPanel(session);
     if (section("Materials", false)) materialPanel(session);

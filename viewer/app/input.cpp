@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "viewer/app/orbit.h"
@@ -49,13 +51,21 @@ void Input::button(int button, int action, int modifiers) {
     return;
   }
   const bool pans = button == GLFW_MOUSE_BUTTON_MIDDLE || (modifiers & GLFW_MOD_SHIFT) != 0;
-  drag_ = button == GLFW_MOUSE_BUTTON_RIGHT ? Drag::Turn : pans ? Drag::Pan : Drag::Orbit;
+  drag_ = button == GLFW_MOUSE_BUTTON_RIGHT ? Drag::Turn
+          : pans                            ? Drag::Pan
+          : onDivider_                      ? Drag::Divide
+                                            : Drag::Orbit;
   dragButton_ = button;
 }
 
 void Input::cursor(glm::dvec2 place, double windowHeight, Session& session) {
   const glm::dvec2 pixels = place - last_, drag = glm::dvec2(pixels.x, -pixels.y) / windowHeight;
   last_ = place;
+  constexpr double kReach = 8.0, kLeast = 0.02;  // of the divider, to either side; of the width
+  const double width = session.aspect * windowHeight;
+  double& split = session.controls.split;
+  if (drag_ == Drag::Divide) split = std::clamp(place.x / width, kLeast, 1.0 - kLeast);
+  onDivider_ = session.controls.view == View::Split && std::abs(place.x - split * width) <= kReach;
   if (drag_ == Drag::Orbit) session.controls.eye = orbited(session.eye(), drag);
   if (drag_ == Drag::Pan) session.controls.eye = panned(session.eye(), drag);
   if (drag_ == Drag::Turn) session.controls.eye = turned(session.eye(), drag);

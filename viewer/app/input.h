@@ -7,11 +7,12 @@
 
 namespace sdf::viewer {
 
-/// Input turns keys, buttons and the pointer into changes of a session. Drags: left orbits, middle or shift
-/// and left pans, right turns the camera; the wheel goes nearer. Keys: W A S D E Q fly, 1 to 6 look from the
-/// sides, 0 through the scene's camera, F moves to where all is in view, space plays and pauses, V shows the
-/// next view, Tab hides the panels, P saves the picture, C copies the camera, M counts readings, Escape ends.
-/// Keys, buttons, actions and modifiers are GLFW's numbers.
+/// Input turns keys, buttons and the pointer into changes of a session. Drags: left moves the divider of a
+/// split view, else orbits, middle or shift and left pans, right turns the camera; the wheel goes nearer.
+/// Keys: W A S D E Q fly, 1 to 6 look from the sides, 0 through the scene's camera, F moves to where all is
+/// in view, space plays and pauses, V shows the next view, Tab hides the panels, P saves the picture, C
+/// copies the camera, M counts readings, Escape ends. Keys, buttons, actions and modifiers are GLFW's
+/// numbers.
 class Input {
  public:
   void key(int key, int action, Session& session, Requests& requests);
@@ -28,13 +29,14 @@ class Input {
   bool panelsHidden() const { return panelsHidden_; }
 
  private:
-  enum class Drag { None, Orbit, Pan, Turn };
+  enum class Drag { None, Orbit, Pan, Turn, Divide };
 
   Drag drag_ = Drag::None;
   int dragButton_ = 0;
   glm::dvec2 last_{0.0};
   std::set<int> held_;  // keys that fly
   bool panelsHidden_ = false;
+  bool onDivider_ = false;  // the pointer is at that of a split view
 };
 
 }  // namespace sdf::viewer

@@ -40,7 +40,8 @@ Result<Session> Session::open(const SceneFile& file, Controls controls) {
   auto scene = file.load({.values = controls.parameters, .time = controls.time});
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file, controls.parameters);
-  auto renderer = build(*scene, {controls.view, controls.method, {}});
+  const View view = showsMesh(controls.view) ? View::Picture : controls.view;  // until there is a mesh
+  auto renderer = build(*scene, {view, controls.method, {}});
   if (!renderer) return renderer.error();
   return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer));
 }
@@ -52,7 +53,7 @@ Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look,
       scene_(std::move(scene)),
       look_(std::move(look)),
       renderer_(std::move(renderer)),
-      built_{controls.view, controls.method, {}},
+      built_{showsMesh(controls.view) ? View::Picture : controls.view, controls.method, {}},
       ran_(read()) {}
 
 Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool countReadings) {
@@ -69,8 +70,11 @@ Status Session::fit() {
 
 void Session::settle() {
   if (read() != ran_) run(controls.editedMaterials);
+  followMesh();
   if (wanted() == built_) return;
   auto made = build(scene_, wanted());
+  const Status shown = made ? showMesh(*made) : okStatus();
+  if (made && !shown) made = shown.error();
   if (!made) {
     buildMessage_ = made.error().message;
     controls.view = built_.view;
@@ -90,6 +94,7 @@ Status Session::load(const Built& wanted) {
   LookFunction look = lookOf(*scene, file_, controls.parameters);
   auto made = build(*scene, wanted);
   if (!made) return made.error();
+  if (auto s = showMesh(*made); !s) return s;
 
   scene_ = std::move(*scene);
   look_ = std::move(look);
@@ -102,7 +107,7 @@ Status Session::load(const Built& wanted) {
 }
 
 bool Session::run(const std::set<std::string>& editedMaterials) {
-  const Status loaded = load({controls.view, controls.method, editedMaterials});
+  const Status loaded = load(wanted(editedMaterials));
   fileMessage_ = loaded ? "" : loaded.error().message;
   ran_ = read();
   return loaded.ok();
@@ -113,6 +118,7 @@ void Session::followFile() {
 }
 
 void Session::reload() {
+  ++edition_;
   if (!run({})) return;
   controls.editedMaterials.clear();
   controls.materials.clear();
@@ -165,6 +171,7 @@ Frame Session::frame() const {
   Frame frame;
   frame.parameters = values();
   frame.look = look();
+  frame.split = controls.split;
   frame.samples = controls.samples;
   frame.maxSteps = controls.maxSteps;
   return frame;
@@ -173,6 +180,7 @@ Frame Session::frame() const {
 Result<Readings> Session::measure(int width, int height) const {
   auto counting = build(scene_, built_, true);
   if (!counting) return counting.error();
+  if (auto s = showMesh(*counting); !s) return s.error();
   const auto target = Target::create(width, height, {PixelFormat::Rgba8, PixelFormat::Rgba32f});
   if (!target) return target.error();
   if (const Status drawn = counting->draw(frame(), *target); !drawn) return drawn.error();

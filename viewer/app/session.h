@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "viewer/app/mesh_job.h"
 #include "viewer/render/renderer.h"
 #include "viewer/render/scene_file.h"
 
@@ -47,6 +48,9 @@ struct Controls {
   LookEdits look;
   std::optional<Eye> eye;  ///< none: the scene's camera
   double time = 0.0;
+  MeshSettings mesh;
+  std::optional<std::filesystem::path> meshFile;  ///< shown in the place of the scene's own mesh
+  double split = Frame{}.split;
   View view = View::Picture;
   Method method = Method::AutoRelaxed;
   int samples = 1;
@@ -60,6 +64,7 @@ struct Requests {
   bool savePicture = false;  ///< as the file that the panel names
   bool copyCamera = false;   ///< as scene text, to the clipboard
   bool measure = false;      ///< readings a pixel
+  bool exportMesh = false;   ///< as the file that the panel names
   bool close = false;
 };
 
@@ -84,9 +89,12 @@ class Session {
   /// where the scene is unbounded or its file has become wrong; the camera stays then.
   Status fit();
 
-  /// Makes the renderer fit the controls. Only another view, method or set of materials to edit compiles; if
-  /// that fails, they go back to what is shown, and message() says why. Where a parameter moved whose value
-  /// the script had read (Scene::valuesRead), the script runs again; edits of the look and of materials stay.
+  /// Makes the renderer fit the controls, and hands it the mesh that was made meanwhile; until a view of one
+  /// has its mesh the picture is shown. Another mesh is ordered where what it follows from has changed; while
+  /// the clock runs, once the last one is done. Only another view, method or set of materials to edit
+  /// compiles; if that fails, they go back to what is shown, and message() says why. Where a parameter moved
+  /// whose value the script had read (Scene::valuesRead), the script runs again; edits of the look and of
+  /// materials stay.
   void settle();
 
   /// Loads the scene again if its file was written: parameters that are still there keep their values, the
@@ -98,9 +106,29 @@ class Session {
   /// Gives all parameters the values that the file has.
   void resetParameters();
 
+  /// Returns the mesh that is shown or was last, if there is one.
+  const MeshView* mesh() const { return mesh_.get(); }
+  /// Returns the figures of the errors that are shown, if they are.
+  const ErrorFigures* errors() const;
+  /// Counts the meshes that were handed over: a picture drawn at another count is of another one.
+  int meshes() const { return meshes_; }
+  /// Whether a mesh is being made, and at what stage that is.
+  bool meshing() const { return job_ && job_->working(); }
+  std::string meshStage() const { return job_ ? job_->stage() : ""; }
+  /// Gives up the mesh that is being made; the one that is shown stays. meshAgain begins once more.
+  void cancelMesh();
+  void meshAgain();
+  /// Returns the size of the scene that sliders of lengths go by, scene units.
+  double extent() const;
+  /// Writes the mesh that is shown, as sdf2gltf does. Errors: Limits where there is none of the scene's own;
+  /// those of writeMeshes.
+  Status exportMesh(const std::filesystem::path& target) const;
+
   const Scene& scene() const { return scene_; }
   /// Says what is wrong with the file or else with what the controls last asked for; "" if all is well.
-  const std::string& message() const { return fileMessage_.empty() ? buildMessage_ : fileMessage_; }
+  const std::string& message() const {
+    return !fileMessage_.empty() ? fileMessage_ : !buildMessage_.empty() ? buildMessage_ : meshMessage_;
+  }
   Renderer& renderer() { return renderer_; }
   const Renderer& renderer() const { return renderer_; }
   /// Counts how often shaders were compiled: a picture drawn at another count is of another scene.
@@ -130,7 +158,13 @@ class Session {
   Status load(const Built& wanted);
   /// Loads the scene with these materials to edit and keeps the message; whether it could.
   bool run(const std::set<std::string>& editedMaterials);
-  Built wanted() const { return {controls.view, controls.method, controls.editedMaterials}; }
+  Built wanted() const { return wanted(controls.editedMaterials); }
+  Built wanted(const std::set<std::string>& materials) const;
+  /// Orders the mesh that is wanted, and takes the one that is done.
+  void followMesh();
+  /// Hands the renderer the mesh that its view shows.
+  Status showMesh(Renderer& renderer) const;
+  MeshOrder meshOrder() const;
   Values values() const;
   /// The present values of what the script has read.
   Values read() const;
@@ -142,8 +176,10 @@ class Session {
   Renderer renderer_;
   Built built_;
   Values ran_;  ///< what read() was when the script was last run
-  std::string fileMessage_, buildMessage_;
-  int compilations_ = 1;
+  std::string fileMessage_, buildMessage_, meshMessage_;
+  int compilations_ = 1, meshes_ = 0, edition_ = 0;  // the last: of the file
+  std::shared_ptr<const MeshView> mesh_;
+  std::unique_ptr<MeshJob> job_;  // from the first mesh on
 };
 
 }  // namespace sdf::viewer

@@ -16,8 +16,9 @@
 namespace sdf::viewer {
 namespace {
 
-constexpr double kLookEvery = 0.25;   // seconds between looks at the file
-constexpr double kLongestStep = 0.1;  // seconds that the clock moves at once, however long a frame took
+constexpr double kLookEvery = 0.25;     // seconds between looks at the file
+constexpr double kProgressEvery = 0.1;  // seconds between looks at the mesh that is being made
+constexpr double kLongestStep = 0.1;    // seconds that the clock moves at once, however long a frame took
 // Dear ImGui answers an event one frame later, and shows what came of it in the next.
 constexpr int kRepaints = 3;
 
@@ -68,13 +69,13 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   if (options.fit)
     if (const Status s = session->fit(); !s) return s.error();
   return std::unique_ptr<Window>(
-      new Window(std::move(window), std::move(*session), options.scene.path.stem().string() + ".png"));
+      new Window(std::move(window), std::move(*session), options.scene.path.stem().string()));
 }
 
-Window::Window(Handle window, Session session, std::string pictureName)
+Window::Window(Handle window, Session session, const std::string& name)
     : window_(std::move(window)),
       session_(std::move(session)),
-      gui_(std::move(pictureName)),
+      gui_(name + ".png", name + ".glb"),
       lastTurn_(glfwGetTime()) {
   listen();
   startPanels(handle());
@@ -133,6 +134,8 @@ void Window::wait() const {
     glfwPollEvents();
   else if (visible && (refining_ || canvas_.working()))
     glfwPollEvents();
+  else if (session_.meshing())
+    glfwWaitEventsTimeout(kProgressEvery);
   else
     glfwWaitEventsTimeout(visible && !canvas_.resting() ? 0.5 * Canvas::kStill : kLookEvery);
 }
@@ -151,7 +154,9 @@ Result<bool> Window::turn() {
   if (size.x > 0 && size.y > 0) session_.aspect = static_cast<double>(size.x) / size.y;
   session_.advance(passed);
   input_.fly(passed, session_);
+  const bool wasMeshing = session_.meshing();
   session_.settle();
+  if (wasMeshing || session_.meshing()) repaints_ = std::max(repaints_, 1);
 
   const auto drawn = canvas_.update(session_, size.x, size.y, now);
   if (!drawn) return drawn.error();
@@ -172,6 +177,7 @@ Status Window::show() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
+  gui_.mesh.overPicture(session_);
   if (!input_.panelsHidden()) gui_.panels(session_, canvas_, requests_);
   gui_.overlay(session_);
   ImGui::Render();
@@ -192,6 +198,10 @@ void Window::answer(const Requests& requests) {
       saved = picture ? writePng(gui_.pictureName, *picture) : Status(picture.error());
     }
     tell(saved ? "saved " + gui_.pictureName : saved.error().message);
+  }
+  if (requests.exportMesh) {
+    const Status written = session_.exportMesh(gui_.mesh.exportName);
+    tell(written ? "exported " + gui_.mesh.exportName : written.error().message);
   }
   if (requests.fit) {
     const Status fitted = session_.fit();

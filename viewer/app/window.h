@@ -40,7 +40,7 @@ class Window {
 
  private:
   using Handle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
-  Window(Handle window, Session session, std::string pictureName);
+  Window(Handle window, Session session, const std::string& name);
   void listen();
   static Window& told(GLFWwindow* window);  // of an event, which the panels may answer
   void wait() const;

@@ -22,6 +22,7 @@ struct ErrorFigures {
   /// and beyond that.
   std::vector<double> histogram;
   std::size_t triangles = 0;  ///< of the mesh
+  bool operator==(const ErrorFigures&) const = default;
   double beyond() const { return histogram.front() + histogram.back(); }
 };
 

@@ -16,6 +16,8 @@ struct SceneFile {
   SceneFile(std::filesystem::path file, std::vector<std::filesystem::path> more = {})  // NOLINT: implicit
       : path(std::move(file)), folders(std::move(more)) {}
 
+  bool operator==(const SceneFile&) const = default;
+
   /// Runs the file with these options, and a reader of meshes. Errors: those of loadScene and readMesh.
   Result<Scene> load(ScriptOptions options) const;
 };

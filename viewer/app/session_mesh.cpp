@@ -1,0 +1,80 @@
+// What of a session is about meshes.
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "viewer/app/session.h"
+
+namespace sdf::viewer {
+
+Session::Built Session::wanted(const std::set<std::string>& materials) const {
+  const bool hasMesh = mesh_ && (controls.view != View::Error || mesh_->errors);
+  const View view = showsMesh(controls.view) && !hasMesh ? View::Picture : controls.view;
+  return {view, controls.method, materials};
+}
+
+MeshOrder Session::meshOrder() const {
+  return {.file = file_,
+          .edition = edition_,
+          .values = controls.parameters,
+          .time = hasClock() ? controls.time : 0.0,
+          .request = {controls.mesh, controls.meshFile, controls.view == View::Error}};
+}
+
+void Session::followMesh() {
+  if (!showsMesh(controls.view)) {
+    meshMessage_.clear();
+    return;
+  }
+  if (!job_) job_ = std::make_unique<MeshJob>();
+  if (!(playing && job_->working())) job_->order(meshOrder());
+  auto made = job_->take();
+  if (!made) return;
+  meshMessage_ = *made ? "" : made->error().message;
+  if (!*made) return;
+  const auto before = std::exchange(mesh_, **made);
+  if (!showsMesh(built_.view) || wanted() != built_) {
+    ++meshes_;
+    return;  // it is handed over to the renderer that is made now
+  }
+  const Status shown = showMesh(renderer_);
+  if (!shown) {
+    meshMessage_ = shown.error().message;
+    mesh_ = before;
+  }
+  ++meshes_;
+}
+
+Status Session::showMesh(Renderer& renderer) const {
+  if (!mesh_ || !showsMesh(renderer.shaders().plan.options.view)) return okStatus();
+  return show(*mesh_, renderer);
+}
+
+const ErrorFigures* Session::errors() const {
+  return built_.view == View::Error && mesh_->errors ? &mesh_->errors->figures : nullptr;
+}
+
+void Session::cancelMesh() {
+  if (job_) job_->cancel();
+}
+
+void Session::meshAgain() {
+  if (job_) job_->again();
+}
+
+double Session::extent() const {
+  if (mesh_ && mesh_->own) return mesh_->own->diagonal;
+  if (look_.inView()) return glm::length(look_.inView()->size());
+  const Eye seen = eye();
+  return glm::length(seen.to - seen.from);
+}
+
+Status Session::exportMesh(const std::filesystem::path& target) const {
+  if (Status s = checkExtension(target); !s) return s;
+  if (mesh_ && !mesh_->own)
+    return Error{ErrorKind::Limits, "what is shown is a file's mesh; show the scene's own to export it"};
+  if (!mesh_ || !showsMesh(built_.view))
+    return Error{ErrorKind::Limits, "there is no mesh yet to export; choose a view that shows one"};
+  return writeMeshes(target, mesh_->own->scene, mesh_->own->parts);
+}
+
+}  // namespace sdf::viewer
