@@ -1,6 +1,8 @@
 // What the window shows, without the window.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "support/folder.h"
 #include "viewer/app/canvas.h"
 #include "viewer/app/materials.h"
@@ -180,6 +182,43 @@ TEST_F(SessionTest, MovesTheCameraToWhereAllIsInView) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("unbounded"), std::string::npos) << refused.error().message;
   EXPECT_EQ(session.eye(), before);
+}
+
+// A tetrahedron around the origin, as large as this.
+void writeTetrahedron(const std::filesystem::path& file, int size) {
+  std::ofstream out(file);
+  for (const char* corner : {"1 1 1", "1 -1 -1", "-1 1 -1", "-1 -1 1"}) {
+    std::istringstream in(corner);
+    out << 'v';
+    for (int x = 0; in >> x;) out << ' ' << size * x;
+    out << '\n';
+  }
+  out << "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+}
+
+TEST_F(SessionTest, FollowsTheMeshesThatItsFileReads) {
+  const std::filesystem::path mesh = folder / "solid.obj";
+  writeTetrahedron(mesh, 1);
+  write(R"(part("solid", mesh("solid.obj", {voxels = 16}))
+camera{from = {0, 0, 60}, to = {0, 0, 0}})");
+  Session session = open();
+  session.followFile();
+  EXPECT_EQ(session.compilations(), 1) << "nothing was written";
+  EXPECT_EQ(session.scene().files, std::vector{std::filesystem::weakly_canonical(mesh).string()});
+  writeTetrahedron(mesh, 10);
+  session.followFile();
+  EXPECT_EQ(session.compilations(), 2);
+  EXPECT_EQ(session.message(), "");
+  EXPECT_NEAR(session.scene().whole().bounds.max.x, 10.0, 1e-6);
+
+  std::ofstream(mesh) << "no mesh";
+  session.followFile();
+  EXPECT_NE(session.message().find("solid.obj"), std::string::npos) << session.message();
+  EXPECT_NEAR(session.scene().whole().bounds.max.x, 10.0, 1e-6) << "the scene stays";
+  writeTetrahedron(mesh, 100);
+  session.followFile();
+  EXPECT_EQ(session.message(), "");
+  EXPECT_NEAR(session.scene().whole().bounds.max.x, 100.0, 1e-5);
 }
 
 // The camera of a scene that has none follows the window's shape and the file, and not the clock.

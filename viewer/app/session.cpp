@@ -54,7 +54,9 @@ Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look,
       look_(std::move(look)),
       renderer_(std::move(renderer)),
       built_{showsMesh(controls.view) ? View::Picture : controls.view, controls.method, {}},
-      ran_(read()) {}
+      ran_(read()) {
+  watchFiles();
+}
 
 Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool countReadings) {
   const ShaderOptions options{.view = wanted.view, .method = wanted.method, .countReadings = countReadings};
@@ -97,6 +99,7 @@ Status Session::load(const Built& wanted) {
   if (auto s = showMesh(*made); !s) return s;
 
   scene_ = std::move(*scene);
+  watchFiles();
   look_ = std::move(look);
   renderer_ = std::move(*made);
   built_ = wanted;
@@ -113,8 +116,19 @@ bool Session::run(const std::set<std::string>& editedMaterials) {
   return loaded.ok();
 }
 
+void Session::watchFiles() {
+  std::map<std::string, Watch> watched;
+  for (const std::string& file : scene_.files) {
+    const auto known = watched_.find(file);
+    watched.emplace(file, known == watched_.end() ? Watch(file) : known->second);
+  }
+  watched_ = std::move(watched);
+}
+
 void Session::followFile() {
-  if (watch_.written()) reload();
+  bool written = watch_.written();
+  for (auto& [file, watch] : watched_) written = watch.written() || written;
+  if (written) reload();
 }
 
 void Session::reload() {

@@ -97,9 +97,9 @@ class Session {
   /// materials stay.
   void settle();
 
-  /// Loads the scene again if its file was written: parameters that are still there keep their values, the
-  /// camera and the clock stay, edits of the look and of materials give way to what the file says. On an
-  /// error the scene stays, and message() says what is wrong, and in which line.
+  /// Loads the scene again if its file was written, or one that it reads: parameters that are still there
+  /// keep their values, the camera and the clock stay, edits of the look and of materials give way to what
+  /// the file says. On an error the scene stays, and message() says what is wrong, and in which line.
   void followFile();
   /// Loads the scene again like followFile, whether its file was written or not.
   void reload();
@@ -166,11 +166,14 @@ class Session {
   Status showMesh(Renderer& renderer) const;
   MeshOrder meshOrder() const;
   Values values() const;
+  /// Watches what the scene has read; what it read before counts as read then.
+  void watchFiles();
   /// The present values of what the script has read.
   Values read() const;
 
   SceneFile file_;
   Watch watch_;
+  std::map<std::string, Watch> watched_;  ///< the files that its script has read
   Scene scene_;
   LookFunction look_;
   Renderer renderer_;
