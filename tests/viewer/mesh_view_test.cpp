@@ -281,6 +281,19 @@ TEST(MeshErrors, DivideWhatIsNoDistanceByItsSlope) {
   }
 }
 
+// Its slope goes to 0 in the middle, where the first order knows no end.
+TEST(MeshErrors, OfASlopeThatVanishesAreTheWayOut) {
+  Shape round = sphere(1.0);
+  const Vec3E p = position();
+  round.distance = 0.5 * (dot(p, p) - 1.0);
+  round.claim = {ClaimKind::Field, 2.0};
+  TriangleMesh small = coarseBall(1);
+  for (glm::vec3& at : small.positions) at *= 0.2f;
+  const MeshErrors errors = errorsOf(small, round);
+  for (const viewer::BufferVertex& v : errors.shown.vertices)
+    EXPECT_NEAR(v.distance, glm::length(glm::dvec3(v.position)) - 1.0, 1e-6);
+}
+
 // The parts of a scene overlap; what lies within another is still on its own part's surface.
 TEST(MeshErrors, OfASceneAreThoseOfEachPartAndKeepItsTolerance) {
   Scene scene;

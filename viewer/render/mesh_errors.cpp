@@ -86,7 +86,8 @@ class Measuring {
     vertices_ = vertices.data();
     std::vector<std::uint32_t> all(body_.triangles.size());
     std::iota(all.begin(), all.end(), 0u);
-    if (!all.empty()) descend(std::make_shared<const Tape>(body_.shape.distance), all);
+    whole_ = std::make_shared<const Tape>(body_.shape.distance);
+    if (!all.empty()) descend(whole_, all);
   }
 
  private:
@@ -118,21 +119,38 @@ class Measuring {
     progress_.update(static_cast<double>(done_) / static_cast<double>(body_.triangles.size()));
   }
 
-  // What is no number is outside, as it is for the mesher.
+  // What is no number is as far away as the mesh is wide. Where the slope is far below its bound, as in the
+  // middle of a solid, the distance divided by it says nothing.
   double distance(const Tape& tape, const glm::dvec3& p) const {
-    if (body_.shape.claim.kind <= ClaimKind::ExactOutside) {
-      const double f = evaluate(tape, p);
-      return std::isnan(f) ? farthest_ : std::clamp(f, -farthest_, farthest_);
-    }
+    constexpr double kDoubtful = 0.5;
+    if (body_.shape.claim.kind <= ClaimKind::ExactOutside) return held(evaluate(tape, p));
     const ValueAndGradient f = evaluateGradient(tape, p);
-    const double slope = glm::length(f.gradient),
-                 first = slope > 0.0 && slope < kInfinity ? f.value / slope : f.value;
-    return std::isnan(first) ? farthest_ : std::clamp(first, -farthest_, farthest_);
+    const double slope = glm::length(f.gradient);
+    if (!(slope > 0.0 && slope < kInfinity)) return held(f.value);
+    if (slope >= kDoubtful * body_.shape.claim.lipschitz) return held(f.value / slope);
+    return held(std::copysign(wayOut(p, f.value, f.gradient / slope), f.value));
+  }
+
+  double held(double d) const { return std::isfinite(d) ? d : std::copysign(farthest_, d); }
+
+  // How far it is along the gradient to where the sign changes, by the whole tape, for it leads
+  // away from where others hold. There is the surface, which bounds the distance.
+  double wayOut(const glm::dvec3& p, double value, const glm::dvec3& up) const {
+    constexpr int kReadings = 128;
+    const double least = 1e-9 * farthest_;
+    double t = 0.0, f = std::abs(value);
+    for (int i = 0; i < kReadings && f > least; ++i) {
+      t += f / body_.shape.claim.lipschitz;
+      const double next = evaluate(*whole_, p - std::copysign(t, value) * up);
+      f = value < 0.0 ? -next : next;
+    }
+    return t;
   }
 
   const Body& body_;
   double farthest_;
   Progress& progress_;
+  TapePtr whole_;
   const std::size_t* first_ = nullptr;
   BufferVertex* vertices_ = nullptr;
   std::atomic<std::size_t> done_{0};

@@ -35,8 +35,8 @@ struct MeshErrors {
 
 /// Measures each part's mesh against the part, at its vertices and within its triangles: in the middle, of
 /// those that are longer than 1/300 of the diagonal at points as close as that. Each is the distance in
-/// double where the part's is exact, else it divided by its slope there, as far as the mesh is wide. Errors:
-/// Interrupted.
+/// double where the part's is exact, else it divided by its slope there, and where that is below half of its
+/// bound the way along the gradient to the surface. Errors: Interrupted.
 Result<MeshErrors> measureErrors(const SceneMesh& mesh, Progress& progress);
 /// The same of a mesh that stands for a scene's whole shape, compared with a tolerance (0: none). Errors:
 /// Interrupted.
