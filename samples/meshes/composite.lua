@@ -20,3 +20,4 @@ part("melting", union({creature:rotate(0, -20, 0), pool, sphere(0.3):translate(0
   :paint(candle):translate(2.2, 0, 0))
 
 part("ground", plane():paint{color = checkerboard("#7d8a6f", "#94a284", {scale = 0.8}), specular = 0.05})
+bounds({-5, -0.2, -3}, {5, 3, 4})  -- of what is meshed of the ground

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sdf/eval/targets.h"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sdf/eval/proof_reading.cpp"
 #include <hwy/aligned_allocator.h>
