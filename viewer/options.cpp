@@ -194,6 +194,8 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
       [&](const std::string& word) { return camera(word, options.eye); });
   app.add_flag("--fit", options.fit,
                "move the camera to where all of the scene is in view; its direction stays");
+  app.add_flag("!--no-culling", options.shader.culling,
+               "read all parts of a scene everywhere, not those alone that are near: to compare with");
   whole("--frames", options.frames, "draw N pictures, OUT_0001.png and so on, or wherever OUT has %04d");
   add("--fps", "F", "frames a second [24]", [&](const std::string& word) {
     return take<double>("--fps", word, options.framesPerSecond, positive);

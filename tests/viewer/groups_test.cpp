@@ -25,6 +25,7 @@
 #include "viewer/gpu_render.h"
 #include "viewer/psnr.h"
 #include "viewer/shaders/assemble.h"
+#include "viewer/truth.h"
 
 namespace sdf::test {
 namespace {
@@ -267,18 +268,20 @@ TEST(Winner, LeavesWhatOperandsAndMaterialsChoose) {
 }
 
 /// Pictures of a scene drawn in groups and by one shader.
-struct Both {
-  std::vector<glm::vec4> grouped, whole;
+struct Ways {
+  std::vector<glm::vec4> listed, grouped, whole;  // the first by lists of what is near, if there are any
 };
 
-Both drawn(const Scene& scene, GpuRenderOptions options) {
+Ways drawn(const Scene& scene, GpuRenderOptions options) {
+  Ways ways;
+  ways.listed = renderOnGpu(scene, options);
+  options.shader.culling = false;
   const auto shaders = viewer::assemble(scene, options.shader);
   EXPECT_TRUE(shaders && shaders->plan.grouped);
-  Both both;
-  both.grouped = renderOnGpu(scene, options);
+  ways.grouped = renderOnGpu(scene, options);
   options.shader.sharing = false;
-  both.whole = renderOnGpu(scene, options);
-  return both;
+  ways.whole = renderOnGpu(scene, options);
+  return ways;
 }
 
 // Both hit at one distance from the surface; see picture_test.cpp for the bar.
@@ -287,8 +290,9 @@ void expectSamePicture(const Scene& scene, int samples = 1) {
   GpuRenderOptions options;
   options.samples = samples;
   options.threshold = 0.0;
-  const Both both = drawn(scene, options);
-  EXPECT_GE(psnr(colors(both.grouped), colors(both.whole)), kBar);
+  const Ways ways = drawn(scene, options);
+  EXPECT_GE(psnr(colors(ways.grouped), colors(ways.whole)), kBar);
+  EXPECT_GE(psnr(colors(ways.listed), colors(ways.whole)), kBar);
 }
 
 Scene lit(const Shape& shape) {
@@ -353,11 +357,12 @@ TEST(GroupedPicture, ShowsTheLaterOfTwoCoincidentSurfaces) {
     return static_cast<double>(
         std::count_if(pixels.begin(), pixels.end(), [](const glm::vec4& p) { return p.r > p.b; }));
   };
-  const Both both = drawn(scene, options);
+  const Ways both = drawn(scene, options);
   EXPECT_GT(red(both.whole), 500.0);
   // Edges may be off by half the threshold: so much around 64 squares of this area.
   const double edges = 0.5 * options.threshold * 4.0 * std::sqrt(64.0 * red(both.whole));
   EXPECT_NEAR(red(both.grouped), red(both.whole), edges);
+  EXPECT_NEAR(red(both.listed), red(both.whole), edges);
 }
 
 TEST(GroupedPicture, KnowsItsOwnNamesFromTheScenes) {
@@ -389,9 +394,38 @@ TEST(GroupedPicture, FollowsParameters) {
   GpuRenderOptions options;
   options.threshold = 0.0;
   options.parameters = {{"time", 2.5}};
-  const auto picture = renderOnGpu(lit(moving), options);
-  EXPECT_GE(psnr(colors(picture), colors(drawn(lit(moved), options).whole)), 40.0);
-  EXPECT_LE(psnr(colors(picture), colors(drawn(lit(moving), {}).whole)), 25.0) << "it has moved";
+  const auto there = drawn(lit(moved), options).whole, before = drawn(lit(moving), {}).whole;
+  for (const bool culling : {false, true}) {
+    options.shader.culling = culling;
+    const auto picture = renderOnGpu(lit(moving), options);
+    EXPECT_GE(psnr(colors(picture), colors(there)), 40.0);
+    EXPECT_LE(psnr(colors(picture), colors(before)), 25.0) << "it has moved";
+  }
+}
+
+// What all parts in turn would show, floor, shadows, occlusion and all, by lists of those that are near.
+TEST(CulledPicture, IsThatOfAllParts) {
+  for (const int bounces : {0, 1}) {
+    Scene scene = lit(painted(balls(90), kRed, 0.3 * bounces) | painted(crates(40), kBlue));
+    scene.add("floor", plane(Vec3E(Expr(0.0), Expr(1.0), Expr(0.0)), -0.9));
+    scene.shadow.kind = Shadow::Kind::Soft;
+    scene.ambientOcclusion.kind = AmbientOcclusion::Kind::Taps;
+    scene.reflectionBounces = bounces;
+    GpuRenderOptions options;
+    options.threshold = 0.0;
+    const auto shaders = viewer::assemble(scene, options.shader);
+    ASSERT_TRUE(shaders && shaders->plan.cells && !shaders->plan.grouped);
+    const auto listed = renderOnGpu(scene, options);
+    options.shader.culling = false;
+    ASSERT_FALSE(viewer::assemble(scene, options.shader)->plan.cells);
+    // But for pixels at edges, which rays that start elsewhere may decide otherwise.
+    const auto others = colors(renderOnGpu(scene, options));
+    auto rest = colors(listed);
+    EXPECT_LE(shareApart(rest, others, 0.03), 0.005) << bounces << " bounces";
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      if (shareApart({rest[i]}, {others[i]}, 0.03) > 0.0) rest[i] = others[i];
+    EXPECT_GE(psnr(rest, others), 60.0) << bounces << " bounces";
+  }
 }
 
 // Of one kind, but of four slopes, beside balls of slope 1.
@@ -446,6 +480,7 @@ TEST(GroupedPicture, TakesFewReadings) {
     EXPECT_TRUE(scene) << scene.error().message;
     GpuRenderOptions options;
     options.shader.sharing = grouped;
+    options.shader.culling = false;
     return readingsOnGpu(*scene, options).primary;
   };
   EXPECT_LT(primary(100, true), 0.25 * primary(100, false));
@@ -503,8 +538,9 @@ void expectLitAlike(const Scene& scene) {
   GpuRenderOptions options;
   options.threshold = 0.0;
   options.samples = 2;
-  const Both both = drawn(scene, options);
+  const Ways both = drawn(scene, options);
   EXPECT_GE(psnr(colors(both.grouped), colors(both.whole)), kBar) << static_cast<int>(scene.shadow.kind);
+  EXPECT_GE(psnr(colors(both.listed), colors(both.whole)), kBar) << static_cast<int>(scene.shadow.kind);
 }
 
 // What is read of the whole: shadows of every kind, occlusion and mirrors.

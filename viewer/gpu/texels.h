@@ -4,6 +4,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 
+#include "sdf/base/result.h"
 #include "viewer/gpu/handle.h"
 
 namespace sdf::viewer {
@@ -21,6 +22,21 @@ class Texels {
  private:
   int width_;
   Handle texture_;
+};
+
+/// TexelRow is one long row of floats, four to a texel, for samplerBuffer: quicker to look up than a texture,
+/// since it has no levels.
+class TexelRow {
+ public:
+  TexelRow();
+
+  /// Replaces all of it. Errors: Limits if the driver has no room for so many.
+  Status fill(std::span<const glm::vec4> texels);
+  /// Makes it what samplers of this unit read by texelFetch.
+  void bind(int unit) const;
+
+ private:
+  Handle buffer_, texture_;
 };
 
 }  // namespace sdf::viewer

@@ -29,6 +29,7 @@ Frame frameOf(const LookFunction& look, Values parameters = {}, double aspect = 
 class OwnInputs {
  public:
   explicit OwnInputs(const Function& function);
+  explicit OwnInputs(std::vector<std::string> names) : names_(std::move(names)) {}
 
   /// Takes those of a frame, and returns whether they are others than those of the frame before.
   bool move(const Values& inputs);

@@ -79,6 +79,7 @@ Renderer::Renderer(const Scene& scene, SceneShaders shaders)
       extent_(scene),
       shadowSteps_(scene.shadow.steps) {
   if (shaders_.plan.around) around_.emplace(scene);
+  if (shaders_.plan.cells) cellValues_.emplace(*shaders_.plan.cells, shaders_.kindRows);
 }
 
 Status Renderer::compile() {
@@ -211,24 +212,30 @@ Status Renderer::showMesh(const ShownMesh& mesh, double limit) {
 void Renderer::prepare(const Frame& frame) {
   values_.move(frame.parameters);
   rowsMoved_ = rowValues_.move(frame.parameters) || rowsMoved_;
+  if (cellValues_) rowsMoved_ = cellValues_->move(frame.parameters) || rowsMoved_;
   if (backgroundValues_) backgroundValues_->move(frame.parameters);
   if (around_) around_->move(frame.parameters);
   if (hits_) hits_->prepare(frame);
   if (marched_) marched_->prepare(frame);
 }
 
-void Renderer::giveRows() {
-  if (rowValues_.vectors().empty()) return;
-  if (!rows_) rows_.emplace(kRowTexels);
-  if (std::exchange(rowsMoved_, false)) rows_->fill(rowValues_.vectors());
+Status Renderer::giveRows() {
+  if (rowValues_.vectors().empty()) return okStatus();
+  if (!rows_) rows_.emplace();
+  if (std::exchange(rowsMoved_, false)) {
+    std::vector<glm::vec4> all = rowValues_.vectors();
+    if (cellValues_) cellValues_->addTo(all);
+    if (auto s = rows_->fill(all); !s) return s;
+  }
   rows_->bind(kRowsUnit);
+  return okStatus();
 }
 
 // Where rays start is looked for once, before the first of a picture's pieces.
 Status Renderer::begin(const Frame& frame, const Shot& shot, const Target& target, const Rows& rows) {
   prepare(frame);
   samples_ = shot.samples();
-  giveRows();
+  if (auto s = giveRows(); !s) return s;
   volumes_.bind();
   grain_ = target.step();
   return hits_ && rows.first == 0 ? hits_->begin(shot, rowValues_.vectors()) : okStatus();

@@ -6,6 +6,7 @@
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
 #include "viewer/gpu/texels.h"
+#include "viewer/render/cell_values.h"
 #include "viewer/render/frame.h"
 #include "viewer/render/primary_hits.h"
 #include "viewer/render/volumes.h"
@@ -81,7 +82,7 @@ class Renderer {
   Result<double> primaryReadings() const;
   Status compile();
   void setLook(const Program& program, const Frame& frame, const Shot& shot) const;
-  void giveRows();  // those of the frame, to all shaders
+  Status giveRows();  // those of the frame, to all shaders
   void drawPicture(const Frame& frame, const Shot& shot) const;
   void drawBackground(const Shot& shot) const;
   Status begin(const Frame& frame, const Shot& shot, const Target& target, const Rows& rows);
@@ -102,9 +103,10 @@ class Renderer {
   std::optional<UniformValues> backgroundValues_;
   std::optional<BackgroundValues> around_;  // what lights surfaces of the background, if that does
   UniformValues rowValues_;
-  double errorLimit_ = 1.0;     // of the mesh, if one is shown
-  bool rowsMoved_ = false;      // and rows_ have not been filled since
-  std::optional<Texels> rows_;  // the texture sdfRows, if there are any
+  std::optional<CellValues> cellValues_;  // behind the rows, if the plan has cells
+  double errorLimit_ = 1.0;               // of the mesh, if one is shown
+  bool rowsMoved_ = false;                // and rows_ have not been filled since
+  std::optional<TexelRow> rows_;          // the texture sdfRows, if there are any
   Extent extent_;
   int shadowSteps_;
   double compileSeconds_ = 0.0;

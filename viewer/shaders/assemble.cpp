@@ -7,6 +7,7 @@
 #include "viewer/shaders/hit_shaders.h"
 #include "viewer/shaders/light_parts.h"
 #include "viewer/shaders/ray_parts.h"
+#include "viewer/shaders/sharing.h"
 #include "viewer/shaders/source.h"
 #include "viewer/shaders/triangle_parts.h"
 #include "viewer/shaders/view_parts.h"
@@ -177,7 +178,7 @@ std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& r
 
 // Those of the kinds, and then those of the surfaces.
 RowWriter rowsOf(const Plan& plan) {
-  RowWriter rows;
+  RowWriter rows(plan.options.es);
   if (plan.kinds)
     for (const OperandKind& kind : plan.kinds->many) rows.add(kind.groups);
   if (!plan.surfaceRows.parameters.empty()) rows.add(plan.surfaceRows);
@@ -192,7 +193,9 @@ Shader picture(const Scene& scene, const Plan& plan, const RowWriter& rows, Glsl
   std::string takeSurface;
   if (!plan.surfaceRows.parameters.empty()) {
     taken.push_back(taken.size());
-    takeSurface = " sdfTake" + std::to_string(taken.back()) + "(int(operand));";
+    takeSurface = " sdfTake" + std::to_string(taken.back()) + "(" +
+                  std::to_string(rows.firstOf(taken.back())) + " + " +
+                  std::to_string(rows.strideOf(taken.back())) + " * int(operand));";
   }
   Macros macros = pictureMacros(scene, plan, takeSurface);
   macros.merge(meetingMacros(obstacles, plan));
@@ -259,9 +262,12 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});
   const char* const dithers = isLit(options.view) ? parts::kBayer : "";
   std::string resolved = resolve.compose(dithers + encoder(scene, *plan) + parts::kResolve);
-  return SceneShaders{std::move(*plan),     std::move(hits),  std::move(boxes),
-                      std::move(triangles), std::move(hull),  rows.numbers(),
-                      std::move(shown),     std::move(tiles), std::move(resolved)};
+  std::vector<RowRange> kindRows;
+  for (std::size_t i = 0; plan->kinds && i < plan->kinds->many.size(); ++i)
+    kindRows.push_back({plan->kinds->many[i].groups.numbers.size(), rows.firstOf(i), rows.strideOf(i)});
+  return SceneShaders{std::move(*plan), std::move(hits),    std::move(boxes),    std::move(triangles),
+                      std::move(hull),  rows.numbers(),     std::move(kindRows), std::move(shown),
+                      std::move(tiles), std::move(resolved)};
 }
 
 }  // namespace sdf::viewer

@@ -21,6 +21,13 @@ struct Shader {
 /// The side of the texture sdfRows, in texels: what every driver has room for.
 inline constexpr int kRowShift = 10, kRowTexels = 1 << kRowShift;
 
+/// Behind the rows there are so many texels for each cell, with a list's begin and end for each of its kinds
+/// in turn; then the lists.
+constexpr std::size_t cellTexels(std::size_t kinds) { return (kinds + 1) / 2; }
+
+/// Lists hold rows that are no longer than this, else in a texel each where the row is.
+constexpr bool isInList(std::size_t stride) { return stride <= 3; }
+
 /// A RowRange is a part of the texture sdfRows.
 struct RowRange {
   std::size_t count = 0, first = 0, stride = 0;  ///< rows; the first one, and the length of each, in texels
@@ -49,6 +56,7 @@ struct SceneShaders {
   std::string triangles;  ///< draws the plan's meshes, if there are some
   std::string hull;       ///< draws where rays enter the rest's hull, if the plan says so
   Function rows;          ///< what the texture sdfRows holds: four numbers a texel, kRowTexels of these a row
+  std::vector<RowRange> kindRows;  ///< where those of the plan's kinds lie
   Shader picture;
   std::optional<Shader> background;  ///< what tiles show where there are no hits, if the plan is tiled
   std::string resolve;               ///< from the sums of several samples to the picture

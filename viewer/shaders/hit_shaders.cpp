@@ -9,6 +9,7 @@
 #include "sdf/expr/hoist.h"
 #include "sdf/model/model.h"
 #include "viewer/shaders/ray_parts.h"
+#include "viewer/shaders/sharing.h"
 #include "viewer/shaders/triangle_parts.h"
 
 namespace sdf::viewer {
@@ -24,23 +25,11 @@ std::size_t gradientSize(const Expr& distance) {
   return topologicalOrder(partsOf(gradientOf(distance))).size();
 }
 
-Marched marchedOf(const OperandKind& kind, const Box& bounds = Box::everything()) {
-  return {hoisted(kind.distance), hoisted(kind.step), bounds};
-}
-
 Obstacles obstaclesOf(const OperandKind& kind, const Plan& plan) {
   const Marched part = marchedOf(kind, plan.rest->bounds);
   Obstacles result{part, part, {}, {}};
   if (!plan.operands.empty()) result.operand = kind.nearest;
   return result;
-}
-
-Marched leastOf(const std::vector<NumberedOperand>& operands) {
-  std::vector<Steep> all;
-  for (const NumberedOperand& operand : operands)
-    all.push_back({operand.distance, operand.slope, operand.bounds});
-  const Marchable least = sdf::leastOf(all);
-  return {hoisted(least.distance), hoisted(least.step)};
 }
 
 Obstacles othersOf(const Plan& plan) {
@@ -49,12 +38,6 @@ Obstacles othersOf(const Plan& plan) {
   Obstacles result{part, part, {}, {}};
   if (!plan.operands.empty()) result.operand = numberOfNearest(plan.kinds->others);
   return result;
-}
-
-std::vector<NumberedOperand> operandsOf(const std::vector<HalfSpace>& planes) {
-  std::vector<NumberedOperand> operands;
-  for (const HalfSpace& plane : planes) operands.push_back(plane.operand);
-  return operands;
 }
 
 Obstacles planesOf(const Plan& plan) {
@@ -69,25 +52,6 @@ Box boundsOf(const std::vector<NumberedOperand>& operands) {
   for (const NumberedOperand& operand : operands) box = unite(box, operand.bounds);
   return box;
 }
-
-// What the loops over the kinds start from.
-std::vector<NumberedOperand> othersAndDrawn(const Plan& plan) {
-  std::vector<NumberedOperand> operands = plan.kinds->others;
-  for (const DrawnMesh& mesh : plan.drawn) operands.push_back(mesh.operand);
-  std::ranges::sort(operands, {}, &NumberedOperand::number);
-  return operands;
-}
-
-// And where the half spaces are to be read, too.
-std::vector<NumberedOperand> othersAndPlanes(const Plan& plan) {
-  std::vector<NumberedOperand> operands = othersAndDrawn(plan);
-  const std::vector<NumberedOperand> planes = operandsOf(plan.planes);
-  operands.insert(operands.end(), planes.begin(), planes.end());
-  std::ranges::sort(operands, {}, &NumberedOperand::number);
-  return operands;
-}
-
-Marched besideOf(const Plan& plan) { return leastOf(othersAndPlanes(plan)); }
 
 // Defines farEnd(ray, spread, widening): t where all rays of a cone leave a ball around the bounds, or the
 // end of sight where these are not finite.
@@ -106,25 +70,11 @@ std::string leaveNothing(const Plan& plan) {
   return plan.options.countReadings ? "" : "if (t >= maxDistance) discard;";
 }
 
-template <typename Read>
-bool isApart(const Read& m) {
-  return m.step != m.distance;
-}
-
-// Whether some of what the loops over the kinds read has a step that is not its distance.
-bool areApart(const Plan& plan) {
-  return std::ranges::any_of(plan.kinds->many, isApart<OperandKind>) ||
-         (!othersAndPlanes(plan).empty() && isApart(besideOf(plan)));
-}
-
 // A term for both at p, the step and the distance: of one function where they differ, so that what they have
 // in common is computed once.
 std::string bothOf(const Marched& m, const std::string& distance, const std::string& both) {
   return isApart(m) ? both + "(p, vec3(0.0)).xy" : "vec2(" + distance + "(p, vec3(0.0)))";
 }
-
-// Three outputs make a vec3.
-std::vector<Expr> partsOf(const Marched& m) { return {m.step, m.distance, Expr(0.0)}; }
 
 /// Which shaders of a pass there are, the share of one of the whole that one of its readings counts as, and
 /// the rows that it is drawn with.
@@ -190,13 +140,15 @@ std::string meeting(const Obstacles& obstacles) {
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
   const bool whole = obstacles.planes.empty();
   const auto& rest = obstacles.rest;
-  const auto both = [&](const Marched& m, const std::string& distance, const std::string& function) {
-    return obstacles.shared ? function + "(p)" : bothOf(m, distance, function);
+  const auto both = [&](const Marched& m, const std::string& distance, const std::string& function,
+                        const std::string& rough) {
+    return obstacles.shared ? function + "(p, " + rough + ")" : bothOf(m, distance, function);
   };
   return {{"REST", !rest   ? "vec2(1e30)"
-                   : whole ? both(*rest, "sdfDistance", "sdfBoth")
-                           : both(*rest, "sdfRest", "sdfBothOfRest")},
-          {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth")},
+                   : whole ? both(*rest, "sdfDistance", "sdfBoth", "rough")
+                           : both(*rest, "sdfRest", "sdfBothOfRest", "rough")},
+          {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "false")},
+          {"TAPPED(p)", obstacles.shared ? "sdfBoth(p, true).y" : "sdfDistance(p, vec3(0.0))"},
           {"OVER_SURFACE", isApart(obstacles.whole) ? "min(f, h)" : "f"},
           {"PLANES", std::to_string(2 * obstacles.planes.size())},
           {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
@@ -285,72 +237,6 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
   if (!plan.planes.empty())
     result.push_back(passOf(planesOf(plan), {.cones = false, .hits = true, .share = 0.0}, plan));
   return result;
-}
-
-// A group is read where its bounds are nearer than what has been found. The next one is looked for in a loop
-// of its own: pixels that are drawn together then read together, each a group of its own. What is least is a
-// float where the distance of all is their step, else a vec2 of the step and the distance.
-std::string sharing(const Plan& plan, const RowWriter& rows) {
-  const std::vector<OperandKind>& many = plan.kinds->many;
-  const std::vector<NumberedOperand> others = othersAndDrawn(plan);
-  const bool hasPlanes = !plan.planes.empty(), hasBeside = hasPlanes || !others.empty();
-  const bool apart = areApart(plan);
-  const std::string type = apart ? "vec2" : "float", distance = apart ? "least.y" : "least";
-  // A term for what a function gives, which is a vec3 if the two differ.
-  const auto read = [&](bool isVector, const std::string& function) {
-    return isVector ? function + "(p, n).xy" : type + "(" + function + "(p, n))";
-  };
-  std::string searches, loops;
-  for (std::size_t i = 0; i < many.size(); ++i) {
-    const std::string at = std::to_string(i), count = std::to_string(many[i].groups.numbers.size());
-    const auto share = [](double growth) { return number(growth < kInfinity ? 1.0 / growth : 0.0); };
-    std::string isFar = "gap * " + share(many[i].growth) + " >= " + distance;
-    if (apart) isFar += " && gap * " + share(many[i].stepGrowth) + " >= least.x";
-    searches += rows.takingFirst(i, many[i].gapNumbers, "Gap" + at) + "int sdfNext" + at +
-                "(vec3 p, int row, " + type + " least) {\n  for (; row < " + count +
-                "; ++row) {\n    sdfTakeGap" + at + "(row);\n    float gap = sdfGap" + at +
-                "(p, vec3(0.0));\n    if (!(gap > 0.0 && " + isFar + ")) break;\n  }\n  return row;\n}\n";
-    const std::string term = read(isApart(many[i]), "sdfKind" + at), d = apart ? "d.y" : "d";
-    loops += "  for (int row = sdfNext" + at + "(p, 0, least); row < " + count + "; row = sdfNext" + at +
-             "(p, row + 1, least)) {\n    sdfTake" + at + "(row);\n    " + type + " d = " + term +
-             ";\n    float i = sdfNearest" + at + "(p, n);\n    if (" + d + " < " + distance + " || (" + d +
-             " == " + distance + " && i > number)) number = i;\n    least = min(least, d);\n  }\n";
-  }
-  const auto from = [&](bool any, bool isVector, const std::string& function) {
-    return any ? read(isVector, function) : type + "(1e30)";
-  };
-  const std::string beside = from(hasBeside, hasBeside && isApart(besideOf(plan)), "sdfBeside");
-  const auto both = [&](const std::string& name, const std::string& start) {
-    return "vec2 " + name + "(vec3 p) {\n  vec3 n = vec3(0.0);\n  float number = 0.0;\n" +
-           "  return vec2(sdfLeast(p, " + start + ", number));\n}\n";
-  };
-  std::string text = searches + type + " sdfLeast(vec3 p, " + type +
-                     " least, inout float number) {\n  vec3 n = vec3(0.0);\n" + loops +
-                     "  return least;\n}\n" + both("sdfBoth", beside) +
-                     "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p).y; }\n";
-  if (hasPlanes)
-    text += both("sdfBothOfRest",
-                 from(!others.empty(), !others.empty() && isApart(leastOf(others)), "sdfOthers"));
-  if ((plan.bounces > 0 || !plan.grouped) && !plan.operands.empty())
-    text += "float sdfOperand(vec3 p, vec3 n) {\n  float number = " +
-            (hasBeside ? "sdfNearestBeside(p, n)" : std::string("0.0")) + ";\n  sdfLeast(p, " + beside +
-            ", number);\n  return number;\n}\n";
-  return text;
-}
-
-Functions sharedFunctions(const Plan& plan) {
-  const auto outputs = [](const Marched& m) { return isApart(m) ? partsOf(m) : std::vector{m.distance}; };
-  Functions functions{
-      {"sdfOthers", [&, outputs] { return outputs(leastOf(othersAndDrawn(plan))); }},
-      {"sdfBeside", [&, outputs] { return outputs(besideOf(plan)); }},
-      {"sdfNearestBeside", [&] { return std::vector{numberOfNearest(othersAndPlanes(plan))}; }}};
-  for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
-    const OperandKind& kind = plan.kinds->many[i];
-    functions["sdfKind" + std::to_string(i)] = [&, outputs] { return outputs(marchedOf(kind)); };
-    functions["sdfGap" + std::to_string(i)] = [&] { return std::vector{kind.gap}; };
-    functions["sdfNearest" + std::to_string(i)] = [&] { return std::vector{kind.nearest}; };
-  }
-  return functions;
 }
 
 }  // namespace sdf::viewer

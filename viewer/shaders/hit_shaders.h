@@ -48,11 +48,4 @@ std::string triangleShader(const Plan& plan);
 /// Writes the fragment shader of the pass that draws the hull of the plan's rest.
 std::string hullShader(const Plan& plan);
 
-/// Returns the parts that define the distance and the nearest operand of all, by loops over the groups of the
-/// plan's kinds, whose rows are the first ones and can be taken.
-std::string sharing(const Plan& plan, const RowWriter& rows);
-
-/// Returns the functions of the scene that these parts use.
-Functions sharedFunctions(const Plan& plan);
-
 }  // namespace sdf::viewer

@@ -106,6 +106,15 @@ void planShadows(const Scene& scene, Plan& plan) {
   plan.shadow = std::ranges::all_of(scene.lights, isSized) ? Shadow::Kind::Hard : scene.shadow.kind;
 }
 
+void planKinds(const std::vector<NumberedOperand>& operands, Plan& plan) {
+  Kinds kinds = kindsOf(operands, Grouping::Singles);
+  if (plan.options.culling && CellSorter::worthwhile(kinds.many))
+    plan.cells.emplace(kinds.many);
+  else
+    kinds = kindsOf(operands);
+  if (!kinds.many.empty() || !plan.drawn.empty()) plan.kinds = std::move(kinds);
+}
+
 }  // namespace
 
 int usefulSamples(const Plan& plan) {
@@ -154,11 +163,10 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;
   if (isPicture || view == View::Material) planSurface(whole, plan);
-  if (mayGroup)
-    if (Kinds kinds = kindsOf(parts.operands); !kinds.many.empty() || !plan.drawn.empty())
-      plan.kinds = std::move(kinds);
+  if (mayGroup) planKinds(parts.operands, plan);
   plan.looks = (plan.meshed || !plan.drawn.empty()) && (isPicture || view == View::Material);
-  plan.grouped = plan.meshed || (plan.kinds && showsHits && (plan.cones || !plan.drawn.empty()));
+  plan.grouped =
+      plan.meshed || (plan.kinds && showsHits && ((plan.cones && !plan.cells) || !plan.drawn.empty()));
   plan.hull = options.start == Start::Raster && plan.cones && !plan.grouped && view != View::Slice &&
               plan.rest && plan.rest->bounds.finite();
   return plan;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sdf/model/cells.h"
 #include "sdf/model/groups.h"
 #include "sdf/scene/scene.h"
 #include "sdf/shape/triangle_solid.h"
@@ -48,7 +49,8 @@ struct ShaderOptions {
   bool countReadings = false;  ///< a second output: readings by primary rays, shadows, occlusion, reflections
   bool es = false;             ///< GLSL ES 3.00 instead of 3.30 core
   bool sharing = true;         ///< like operands may share their code; else all of it is written out
-  bool drawing = true;         ///< meshes from files may be drawn as triangles; else they are marched
+  bool culling = true;  ///< many operands may be read by lists of those that are near; else all are looked at
+  bool drawing = true;  ///< meshes from files may be drawn as triangles; else they are marched
 };
 
 /// A Marched distance is one that rays can be marched through; see Marchable.
@@ -85,8 +87,11 @@ struct Plan {
   /// The operands of the rest but those that are drawn as triangles, if there are such, or some are of a kind
   /// whose formula they share: then the whole's distance is read by loops over the kinds' groups.
   std::optional<Kinds> kinds;
+  /// What names the groups that can be the nearest at a place, if there are so many that the loops are over
+  /// these alone.
+  std::optional<CellSorter> cells;
   std::vector<Expr> surface;  ///< the attributes of a hit, if they are shown
-  Rows surfaceRows;           ///< the numbers in them, by operand; without parameters if there are none
+  NumberRows surfaceRows;     ///< the numbers in them, by operand; without parameters if there are none
   bool looks = false;         ///< what is shown may look as the triangles of a drawn mesh do
   bool meshed = false;        ///< primary rays meet triangles that the renderer is given, and nothing else
   bool grouped = false;       ///< hits are in layers: that mesh's, or those of each group of the kinds

@@ -62,16 +62,17 @@ inline constexpr const char* kField = R"(
 vec2 field(vec3 p) { return FIELD; }
 )";
 
-/// Defines rest(p), the same for the scene without its half spaces.
+/// Defines rest(p, rough), the same for the scene without its half spaces; roughly, both may be too small
+/// where p is far from all of it.
 inline constexpr const char* kRest = R"(
-vec2 rest(vec3 p) { return REST; }
+vec2 rest(vec3 p, bool rough) { return REST; }
 )";
 
 /// The same of a box.
 inline constexpr const char* kRestByBox = R"(
 uniform vec3 boxMiddle, boxHalf;
 
-vec2 rest(vec3 p) {
+vec2 rest(vec3 p, bool rough) {
   vec3 gap = abs(p - boxMiddle) - boxHalf;
   return vec2(length(max(gap, 0.0)) + min(max(gap.x, max(gap.y, gap.z)), 0.0));
 }
@@ -118,7 +119,7 @@ float march(Ray ray, out int status, out int readings) {
     return tMax;
   }
   while (readings < maxSteps) {
-    vec2 both = rest(ray.origin + (t + z) * ray.direction);
+    vec2 both = rest(ray.origin + (t + z) * ray.direction, true);
     float next = both.x;
     ++readings;
     bool inside = step == BEHIND && next <= 0.0;
@@ -167,7 +168,7 @@ vec3 gradientAt(vec3 p) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     vec3 corner = vec3(float(((i + 3) >> 1) & 1), float((i >> 1) & 1), float(i & 1)) * 2.0 - 1.0;
-    sum += corner * sdfDistance(p + h * corner, vec3(0.0));
+    sum += corner * TAPPED(p + h * corner);
   }
   return 0.25 / h * sum;
 }
@@ -186,8 +187,9 @@ vec3 normalAt(vec3 p, vec3 d) {
 /// Defines meet(ray), the Hit of a ray that is marched.
 inline constexpr const char* kMeet = R"(
 Hit meet(Ray ray) {
-  Hit hit;
+  Hit hit = Hit(MISS, 0.0, vec3(0.0), 0.0, 0);
   hit.t = march(ray, hit.status, hit.readings);
+  if (hit.status == MISS) return hit;  // nothing is read there, which may take long
   vec3 p = ray.origin + hit.t * ray.direction;
   hit.normal = normalAt(p, ray.direction);
   hit.operand = OPERAND;
@@ -245,7 +247,7 @@ void main() {
       break;
     }
     float at = back ? end : t, wide = spread * ahead + widening * at;
-    float free = rest(ray.origin + at * ray.direction).x - wide;
+    float free = rest(ray.origin + at * ray.direction, true).x - wide;
     ++readings;
     if (free <= (1.0 + widening) * (0.25 * wide + epsilon)) {
       if (back || !first) break;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kNumbers = 4;  // of a texel
 constexpr const char* kComponents = "xyzw";
 
-std::size_t texels(std::size_t numbers) { return (numbers + kNumbers - 1) / kNumbers; }
+std::size_t texelsOf(std::size_t numbers) { return (numbers + kNumbers - 1) / kNumbers; }
 
 std::string variable(std::size_t place, std::size_t i) {
   return "row" + std::to_string(place) + "_" + std::to_string(i);
@@ -18,21 +18,19 @@ std::string variable(std::size_t place, std::size_t i) {
 
 }  // namespace
 
-void RowWriter::add(const Rows& rows) {
-  const std::size_t stride = texels(rows.parameters.size());
+void RowWriter::add(const NumberRows& rows) {
+  const std::size_t stride = texelsOf(rows.parameters.size());
   tables_.push_back({numbers_.size() / kNumbers, stride, rows.parameters});
   for (const std::vector<Expr>& row : rows.numbers) {
     numbers_.insert(numbers_.end(), row.begin(), row.end());
-    numbers_.resize(kNumbers * texels(numbers_.size()), Expr(0.0));
+    numbers_.resize(kNumbers * texelsOf(numbers_.size()), Expr(0.0));
   }
 }
 
-bool RowWriter::fits() const { return texels(numbers_.size()) <= std::size_t{kRowTexels} * kRowTexels; }
+bool RowWriter::fits() const { return texels() <= std::size_t{kRowTexels} * kRowTexels; }
 
 std::string RowWriter::takingFirst(std::size_t place, std::size_t count, const std::string& name) const {
-  const Table& table = tables_[place];
-  std::string text = "void sdfTake" + name + "(int row) {\n  int at = " + std::to_string(table.first) +
-                     " + " + std::to_string(table.stride) + " * row;\n  vec4 v;\n";
+  std::string text = "void sdfTake" + name + "(int at) {\n  vec4 v;\n";
   for (std::size_t i = 0; i < count; ++i) {
     if (i % kNumbers == 0) text += "  v = sdfTexel(at + " + std::to_string(i / kNumbers) + ");\n";
     text += "  " + variable(place, i) + " = v." + kComponents[i % kNumbers] + ";\n";
@@ -52,8 +50,9 @@ std::string RowWriter::variables(std::size_t place, GlslWriter& writer) const {
 
 std::string RowWriter::taking(const std::vector<std::size_t>& places, GlslWriter& writer) const {
   std::string text =
-      "uniform sampler2D sdfRows;\nvec4 sdfTexel(int i) { return texelFetch(sdfRows, ivec2(i & " +
-      std::to_string(kRowTexels - 1) + ", i >> " + std::to_string(kRowShift) + "), 0); }\n";
+      es_ ? "uniform sampler2D sdfRows;\nvec4 sdfTexel(int i) { return texelFetch(sdfRows, ivec2(i & " +
+                std::to_string(kRowTexels - 1) + ", i >> " + std::to_string(kRowShift) + "), 0); }\n"
+          : "uniform samplerBuffer sdfRows;\nvec4 sdfTexel(int i) { return texelFetch(sdfRows, i); }\n";
   for (const std::size_t place : places)
     text += variables(place, writer) +
             takingFirst(place, tables_[place].parameters.size(), std::to_string(place));

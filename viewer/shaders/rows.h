@@ -11,13 +11,17 @@ namespace sdf::viewer {
 /// A RowWriter lays rows out side by side, and writes how shaders take one of them.
 class RowWriter {
  public:
+  explicit RowWriter(bool es) : es_(es) {}
   /// Adds rows, whose place is their number among all.
-  void add(const Rows& rows);
+  void add(const NumberRows& rows);
+  /// Returns how many texels they take.
+  std::size_t texels() const { return numbers_.size() / 4; }
   /// Returns whether every driver has room for all.
   bool fits() const;
 
-  /// Writes the variables of the rows at these places, and for each `void sdfTake<place>(int row)`, which
-  /// sets its variables. A writer then reads them in the parameters' places.
+  /// Writes the variables of the rows at these places, and for each `void sdfTake<place>(int at)`, which
+  /// sets its variables from the row whose texels begin there. A writer then reads them in the parameters'
+  /// places.
   std::string taking(const std::vector<std::size_t>& places, GlslWriter& writer) const;
   /// Writes the variables of one row at this place, and `void sdfTake()`, which sets them from the uniform
   /// sdfRow: faster than the texture where all pixels take the same.
@@ -25,7 +29,8 @@ class RowWriter {
   /// Returns where the rows of a place begin, and how long each is, in texels.
   std::size_t firstOf(std::size_t place) const { return tables_[place].first; }
   std::size_t strideOf(std::size_t place) const { return tables_[place].stride; }
-  /// Writes `void sdfTake<name>(int row)`, which sets the first `count` of one place's variables.
+  /// Writes `void sdfTake<name>(int at)`, which sets the first `count` of one place's variables from the
+  /// texels from `at` on.
   std::string takingFirst(std::size_t place, std::size_t count, const std::string& name) const;
 
   /// Returns what the texture holds, four numbers a texel; texel i lies in column i % kRowTexels of row
@@ -38,6 +43,7 @@ class RowWriter {
     std::size_t first, stride;  // in texels
     std::vector<Expr> parameters;
   };
+  bool es_;  // GLSL ES has no samplerBuffer
   std::vector<Table> tables_;
   std::vector<Expr> numbers_;
 };

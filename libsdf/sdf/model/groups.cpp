@@ -9,6 +9,7 @@
 
 #include "sdf/expr/hoist.h"
 #include "sdf/model/model.h"
+#include "sdf/shape/operand.h"
 
 namespace sdf {
 namespace {
@@ -36,9 +37,11 @@ glm::dvec3 placeOf(const Box& bounds) {
   return {along(0), along(1), along(2)};
 }
 
+bool isLarge(const Alike& kind) { return operationsOf(kind.common) > kLarge; }
+
 // How many operands a group takes: half as many as there are groups then.
-std::size_t sizeOf(const Alike& kind) {
-  if (operationsOf(kind.common) > kLarge) return 1;
+std::size_t sizeOf(const Alike& kind, Grouping grouping) {
+  if (grouping == Grouping::Singles || isLarge(kind)) return 1;
   const auto root =
       static_cast<std::size_t>(std::lround(std::sqrt(0.5 * static_cast<double>(kind.rows.size()))));
   return std::clamp(root, std::size_t{1},
@@ -61,11 +64,12 @@ void arrange(std::span<Placed> all, std::size_t size) {
 }
 
 // The rows of a kind in groups of neighbours; some are twice in the last one.
-std::vector<std::vector<std::size_t>> grouped(const Alike& kind, std::span<const NumberedOperand> operands) {
+std::vector<std::vector<std::size_t>> grouped(const Alike& kind, std::span<const NumberedOperand> operands,
+                                              Grouping grouping) {
   std::vector<Placed> placed;
   for (std::size_t row = 0; row < kind.places.size(); ++row)
     placed.push_back({row, placeOf(operands[kind.places[row]].bounds)});
-  const std::size_t size = sizeOf(kind);
+  const std::size_t size = sizeOf(kind, grouping);
   arrange(placed, size);
   while (placed.size() % size != 0) placed.push_back(placed.back());
   std::vector<std::vector<std::size_t>> groups;
@@ -89,7 +93,7 @@ class Names {
 };
 
 // What all rows have: the number itself, or a parameter for it.
-Expr column(Rows& rows, const std::vector<Expr>& numbers, Names& names) {
+Expr column(NumberRows& rows, const std::vector<Expr>& numbers, Names& names) {
   if (std::ranges::all_of(numbers, [&](const Expr& e) { return e == numbers.front(); }))
     return numbers.front();
   rows.parameters.push_back(numberAmong(names.next(), numbers));
@@ -117,7 +121,7 @@ std::pair<std::vector<Expr>, std::vector<Expr>> spansOf(const std::vector<Box>& 
 }
 
 // How far the position is beyond the boxes, by the axis along which that is most.
-Expr beyond(const std::vector<Box>& boxes, Rows& rows, Names& names) {
+Expr beyond(const std::vector<Box>& boxes, NumberRows& rows, Names& names) {
   const auto gap = [&](int axis, const Expr& along) {
     const auto [middles, halves] = spansOf(boxes, axis);
     const Expr off = abs(along - column(rows, middles, names));
@@ -129,32 +133,34 @@ Expr beyond(const std::vector<Box>& boxes, Rows& rows, Names& names) {
 }
 
 // The step of a kind whose distance and gap are known.
-void addStep(OperandKind& kind, double slope) {
-  const Steep all{kind.distance, slope};
+void addStep(OperandKind& kind) {
+  const Steep all{kind.distance, kind.slope};
   const Marchable divided = leastOf({&all, 1});
   const bool goesToBounds = divided.slope > 1.0 && !kind.gap.isConstant(-kInfinity);
   kind.step = goesToBounds ? max(divided.step, kind.gap) : divided.step;
   kind.stepGrowth = goesToBounds ? 1.0 : kind.growth * divided.slope;
 }
 
-OperandKind kindOf(const Alike& alike, std::span<const NumberedOperand> operands, Names& names) {
-  const auto groups = grouped(alike, operands);
+OperandKind kindOf(const Alike& alike, std::span<const NumberedOperand> operands, Grouping grouping,
+                   Names& names) {
+  const auto groups = grouped(alike, operands, grouping);
   OperandKind kind;
   kind.groups.numbers.resize(groups.size());
   std::vector<Box> boxes;
   bool known = true;
-  double slope = 0.0;
   for (const auto& group : groups) {
     Box& box = boxes.emplace_back();
     for (const std::size_t row : group) {
       const NumberedOperand& operand = operands[alike.places[row]];
       box = unite(box, operand.bounds);
       kind.growth = std::max(kind.growth, operand.growth);
-      slope = std::max(slope, operand.slope);
+      kind.slope = std::max(kind.slope, operand.slope);
     }
     known = known && box.finite();
   }
-  kind.gap = known ? beyond(boxes, kind.groups, names) : Expr(-kInfinity);
+  // To look at the bounds of what a list names takes as long as to read it.
+  const bool looks = grouping == Grouping::Neighbours || isLarge(alike) || !isOneLipschitz(kind.slope);
+  kind.gap = known && looks ? beyond(boxes, kind.groups, names) : Expr(-kInfinity);
   kind.gapNumbers = kind.groups.parameters.size();
   if (known && groups.front().size() == 1) kind.singles = boxes;
   std::vector<Expr> distances, numbers;
@@ -176,12 +182,15 @@ OperandKind kindOf(const Alike& alike, std::span<const NumberedOperand> operands
   kind.distance = distances.front();
   for (std::size_t k = 1; k < distances.size(); ++k) kind.distance = min(kind.distance, distances[k]);
   kind.nearest = numberOfLeast(distances, numbers);
-  addStep(kind, slope);
+  addStep(kind);
   return kind;
 }
 
 // What sharing the formula of a kind saves.
 std::size_t savedBy(const Alike& kind) { return operationsOf(kind.common) * (kind.places.size() - 1); }
+
+// What choosing its numbers one by one would take.
+std::size_t choicesAmong(const Alike& sort) { return sort.parameters.size() * (sort.places.size() - 1); }
 
 // The attribute where the number is that of one of these, from `first` on.
 Expr chosen(std::span<const Attributes> all, int attribute, double first, const Expr& number) {
@@ -244,7 +253,7 @@ OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare)
   }
   const std::vector<Alike> sorts = sortedByLikeness(lists, kOwn + std::string("surface "));
   std::size_t saved = 0;
-  for (const Alike& sort : sorts) saved += savedBy(sort);
+  for (const Alike& sort : sorts) saved += savedBy(sort) + choicesAmong(sort);
   if (!mayShare || saved < kWorthSharing) {
     result.attributes = chosen(own, number);
     return result;
@@ -252,7 +261,7 @@ OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare)
   Names names("look ");
   std::vector<Attributes> looks;
   std::vector<Expr> which(operands.size(), Expr(0.0));
-  Rows& rows = result.operands;
+  NumberRows& rows = result.operands;
   rows.numbers.resize(operands.size());
   for (const Alike& sort : sorts) {
     for (const std::size_t place : sort.places) which[place] = static_cast<double>(looks.size());
@@ -270,14 +279,14 @@ OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare)
   return result;
 }
 
-Kinds kindsOf(std::span<const NumberedOperand> operands) {
+Kinds kindsOf(std::span<const NumberedOperand> operands, Grouping grouping) {
   std::vector<std::vector<Expr>> distances;
   for (const NumberedOperand& operand : operands) distances.push_back({operand.distance});
   Kinds kinds;
   Names names("group ");
   for (const Alike& alike : sortedByLikeness(distances, kOwn + std::string("operand "))) {
     if (savedBy(alike) >= kWorthSharing && alike.parameters.size() < kMostNumbers)
-      kinds.many.push_back(kindOf(alike, operands, names));
+      kinds.many.push_back(kindOf(alike, operands, grouping, names));
     else
       for (const std::size_t place : alike.places) kinds.others.push_back(operands[place]);
   }

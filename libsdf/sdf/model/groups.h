@@ -29,7 +29,7 @@ Expr numberOfNearest(std::span<const NumberedOperand> operands);
 
 /// Formulas with parameters that no scene names, and rows of numbers to read them with, none of which depends
 /// on space.
-struct Rows {
+struct NumberRows {
   std::vector<Expr> parameters;
   std::vector<std::vector<Expr>> numbers;  ///< of each row, by parameter
 };
@@ -40,9 +40,10 @@ struct OperandKind {
   Expr step;      ///< how far it lets one go; see Marchable
   Expr nearest;   ///< the number of that one
   Expr gap;       ///< where positive, no more than the way to the group's bounds; -infinity if it has none
+  double slope = 0.0;       ///< of the distance
   double growth = 0.0;      ///< outside of the bounds the distance is no less than gap / growth
   double stepGrowth = 0.0;  ///< the same of the step
-  Rows groups;
+  NumberRows groups;
   std::size_t gapNumbers = 0;  ///< how many parameters `gap` has, the first ones
   /// Each group is one operand, of many operations, within these bounds by group, which are finite; empty:
   /// groups are of several, or not all have bounds.
@@ -55,15 +56,20 @@ struct Kinds {
   std::vector<NumberedOperand> others;  ///< the rest
 };
 
-/// Sorts operands into kinds. Operands of many operations are groups by themselves, others are with their
-/// neighbours. A kind's formula is shared as soon as that saves some hundred operations. Operands of a kind
-/// count as steep as the steepest; slopes must be known. Cost: linear in the size of the graphs.
-Kinds kindsOf(std::span<const NumberedOperand> operands);
+/// What the operands of a kind are read by: all groups in turn, for which a group that is quick to read takes
+/// several neighbours, or those that a list names (model/cells.h), for which each operand is a group by
+/// itself.
+enum class Grouping { Neighbours, Singles };
+
+/// Sorts operands into kinds. A kind's formula is shared as soon as that saves some hundred operations.
+/// Operands of a kind count as steep as the steepest; slopes must be known. Cost: linear in the size of the
+/// graphs.
+Kinds kindsOf(std::span<const NumberedOperand> operands, Grouping grouping = Grouping::Neighbours);
 
 /// A union's attributes, those of like operands written once.
 struct OperandSurfaces {
   Attributes attributes;  ///< where the operand of the given number is the nearest, with parameters of rows
-  Rows operands;          ///< by operand; without parameters where nothing is worth to be shared
+  NumberRows operands;    ///< by operand; without parameters where nothing is worth to be shared
 };
 
 /// The shape's attributes where the operand of this number, from 0 on, is the nearest: for a hard union they

@@ -1,0 +1,218 @@
+#include "viewer/shaders/sharing.h"
+
+#include <algorithm>
+
+#include "sdf/expr/hoist.h"
+#include "sdf/model/model.h"
+
+namespace sdf::viewer {
+namespace {
+
+// What the loops over the kinds start from.
+std::vector<NumberedOperand> othersAndDrawn(const Plan& plan) {
+  std::vector<NumberedOperand> operands = plan.kinds->others;
+  for (const DrawnMesh& mesh : plan.drawn) operands.push_back(mesh.operand);
+  std::ranges::sort(operands, {}, &NumberedOperand::number);
+  return operands;
+}
+
+// And where the half spaces are to be read, too.
+std::vector<NumberedOperand> othersAndPlanes(const Plan& plan) {
+  std::vector<NumberedOperand> operands = othersAndDrawn(plan);
+  const std::vector<NumberedOperand> planes = operandsOf(plan.planes);
+  operands.insert(operands.end(), planes.begin(), planes.end());
+  std::ranges::sort(operands, {}, &NumberedOperand::number);
+  return operands;
+}
+
+Marched besideOf(const Plan& plan) { return leastOf(othersAndPlanes(plan)); }
+
+// Whether some of what the loops over the kinds read has a step that is not its distance.
+bool areApart(const Plan& plan) {
+  return std::ranges::any_of(plan.kinds->many, isApart<OperandKind>) ||
+         (!othersAndPlanes(plan).empty() && isApart(besideOf(plan)));
+}
+
+std::vector<Expr> outputsOf(const Marched& m) { return isApart(m) ? partsOf(m) : std::vector{m.distance}; }
+
+/// Writes the loops over the kinds' groups. What is least is a float where the distance of all is their step,
+/// else a vec2 of the step and the distance.
+class Loops {
+ public:
+  Loops(const Plan& plan, const RowWriter& rows)
+      : plan_(plan), rows_(rows), apart_(areApart(plan)), type_(apart_ ? "vec2" : "float") {}
+
+  const std::string& type() const { return type_; }
+  /// A term for what a function gives, which is a vec3 if the step and the distance differ.
+  std::string read(bool isVector, const std::string& function) const {
+    return isVector ? function + "(p, n).xy" : type_ + "(" + function + "(p, n))";
+  }
+  std::string start() const { return plan_.cells ? cellOf() : ""; }
+  std::string begin() const;
+  std::string search(std::size_t i) const;
+  std::string loop(std::size_t i) const;
+
+ private:
+  const OperandKind& kind(std::size_t i) const { return plan_.kinds->many[i]; }
+  std::string distance() const { return apart_ ? "least.y" : "least"; }
+  std::string cellOf() const;
+  std::string takeGap(std::size_t i) const;
+  std::string rowAt(std::size_t i) const;
+  std::string stride(std::size_t i) const;
+
+  const Plan& plan_;
+  const RowWriter& rows_;
+  bool apart_;
+  std::string type_;
+};
+
+std::string Loops::takeGap(std::size_t i) const {
+  return kind(i).gapNumbers > 0 ? rows_.takingFirst(i, kind(i).gapNumbers, "Gap" + std::to_string(i)) : "";
+}
+
+// A term for where the row begins that is named at `at`.
+std::string Loops::rowAt(std::size_t i) const {
+  return plan_.cells && !isInList(rows_.strideOf(i)) ? "int(sdfTexel(at).x)" : "at";
+}
+
+// From one group to the next in a loop.
+std::string Loops::stride(std::size_t i) const {
+  return std::to_string(plan_.cells && !isInList(rows_.strideOf(i)) ? 1 : rows_.strideOf(i));
+}
+
+// What looks for the next group, from the one at `at` on, that is near enough to its bounds to lessen what is
+// least.
+std::string Loops::search(std::size_t i) const {
+  const std::string name = std::to_string(i);
+  const std::string head = "int sdfNext" + name + "(vec3 p, int at, int end, " + type_ + " least) {\n";
+  if (kind(i).gap.isConstant()) return head + "  return at;\n}\n";
+  const auto share = [](double growth) { return number(growth < kInfinity ? 1.0 / growth : 0.0); };
+  std::string isFar = "gap * " + share(kind(i).growth) + " >= " + distance();
+  if (apart_) isFar += " && gap * " + share(kind(i).stepGrowth) + " >= least.x";
+  return takeGap(i) + head + "  for (; at < end; at += " + stride(i) + ") {\n    sdfTakeGap" + name + "(" +
+         rowAt(i) + ");\n    float gap = sdfGap" + name + "(p, vec3(0.0));\n    if (!(gap > 0.0 && " + isFar +
+         ")) break;\n  }\n  return at;\n}\n";
+}
+
+// The number of the cell of p, and how far p is at least from all bounds; where that is far, the cell is the
+// one that lists nothing if no more is asked for. Powers of two are taken from a float's exponent, so that
+// every machine finds the same level.
+std::string Loops::cellOf() const {
+  const CellGrid& grid = plan_.cells->grid();
+  std::string sides, firsts;
+  for (const auto& [half, size, side, first] : grid.levels) {
+    sides += (sides.empty() ? "" : ", ") + ("ivec3(" + std::to_string(side.x) + ", " +
+                                            std::to_string(side.y) + ", " + std::to_string(side.z) + ")");
+    firsts += (firsts.empty() ? "" : ", ") + std::to_string(first);
+  }
+  const std::string count = std::to_string(CellGrid::kLevels), last = std::to_string(grid.cells() - 1);
+  const auto& [half, size, side, first] = grid.levels.front();
+  return "const ivec3 sdfSides[" + count + "] = ivec3[](" + sides + ");\nconst int sdfFirsts[" + count +
+         "] = int[](" + firsts + ");\nint sdfCell(vec3 p, bool rough, out float free) {\n  vec3 off = p - " +
+         vector(grid.middle) + ", beyond = abs(off) - " + vector(half) +
+         ";\n  float far = max(beyond.x, max(beyond.y, beyond.z));\n  free = far + " + number(grid.margin) +
+         ";\n  if (rough && far > 0.0) return " + std::to_string(grid.cells()) +
+         ";\n  free = 1e30;\n  int level = max((floatBitsToInt(1.0 + far * " + number(1.0 / grid.reach) +
+         ") >> 23) - 126, 0);\n  if (level >= " + count + ") return " + last +
+         ";\n  float two = intBitsToFloat((127 + level) << 23);\n  vec3 at = (off + (" + vector(half) +
+         " + " + number(grid.reach) + " * (two - 1.0))) * (" + number(1.0 / size) +
+         " / two);\n  ivec3 side = sdfSides[level], c = clamp(ivec3(at), ivec3(0), side - 1);\n"
+         "  return sdfFirsts[level] + (c.z * side.y + c.y) * side.x + c.x;\n}\n";
+}
+
+// The lists of all kinds in the cell of p: where each begins, and ends.
+std::string Loops::begin() const {
+  if (!plan_.cells) return "";
+  const std::size_t count = cellTexels(plan_.cells->kinds());
+  std::string text = "  float free;\n  int cell = " + std::to_string(rows_.texels()) + " + " +
+                     std::to_string(count) + " * sdfCell(p, rough, free);\n  least = min(least, free);\n";
+  for (std::size_t i = 0; i < count; ++i)
+    text += "  vec4 lists" + std::to_string(i) + " = sdfTexel(cell + " + std::to_string(i) + ");\n";
+  return text;
+}
+
+std::string Loops::loop(std::size_t i) const {
+  const std::string name = std::to_string(i);
+  const std::string list = "lists" + std::to_string(i / 2) + (i % 2 == 0 ? ".xy" : ".zw");
+  const std::size_t first = rows_.firstOf(i);
+  const std::size_t last = first + rows_.strideOf(i) * kind(i).groups.numbers.size();
+  const std::string all = std::to_string(first) + ", " + std::to_string(last);
+  const std::string next = "sdfNext" + name + "(p, ", rest = ", span" + name + ".y, least)";
+  const std::string term = read(isApart(kind(i)), "sdfKind" + name), d = apart_ ? "d.y" : "d";
+  return "  ivec2 span" + name + " = ivec2(" + (plan_.cells ? list : all) + ");\n  for (int at = " + next +
+         "span" + name + ".x" + rest + "; at < span" + name + ".y; at = " + next + "at + " + stride(i) +
+         rest + ") {\n    sdfTake" + name + "(" + rowAt(i) + ");\n    " + type_ + " d = " + term +
+         ";\n    float i = sdfNearest" + name + "(p, n);\n    if (" + d + " < " + distance() + " || (" + d +
+         " == " + distance() + " && i > number)) number = i;\n    least = min(least, d);\n  }\n";
+}
+
+}  // namespace
+
+std::vector<Expr> partsOf(const Marched& m) { return {m.step, m.distance, Expr(0.0)}; }
+
+Marched marchedOf(const OperandKind& kind, const Box& bounds) {
+  return {hoisted(kind.distance), hoisted(kind.step), bounds};
+}
+
+Marched leastOf(const std::vector<NumberedOperand>& operands) {
+  std::vector<Steep> all;
+  for (const NumberedOperand& operand : operands)
+    all.push_back({operand.distance, operand.slope, operand.bounds});
+  const Marchable least = sdf::leastOf(all);
+  return {hoisted(least.distance), hoisted(least.step)};
+}
+
+std::vector<NumberedOperand> operandsOf(const std::vector<HalfSpace>& planes) {
+  std::vector<NumberedOperand> operands;
+  for (const HalfSpace& plane : planes) operands.push_back(plane.operand);
+  return operands;
+}
+
+// A group is read where its bounds are nearer than what has been found. The next one is looked for in a loop
+// of its own: pixels that are drawn together then read together, each a group of its own.
+std::string sharing(const Plan& plan, const RowWriter& rows) {
+  const std::vector<NumberedOperand> others = othersAndDrawn(plan);
+  const bool hasPlanes = !plan.planes.empty(), hasBeside = hasPlanes || !others.empty();
+  const Loops write(plan, rows);
+  std::string searches = write.start(), loops = write.begin();
+  for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
+    searches += write.search(i);
+    loops += write.loop(i);
+  }
+  const auto from = [&](bool any, bool isVector, const std::string& function) {
+    return any ? write.read(isVector, function) : write.type() + "(1e30)";
+  };
+  const std::string beside = from(hasBeside, hasBeside && isApart(besideOf(plan)), "sdfBeside");
+  const auto both = [&](const std::string& name, const std::string& start) {
+    return "vec2 " + name + "(vec3 p, bool rough) {\n  vec3 n = vec3(0.0);\n  float number = 0.0;\n" +
+           "  return vec2(sdfLeast(p, " + start + ", number, rough));\n}\n";
+  };
+  std::string text = searches + write.type() + " sdfLeast(vec3 p, " + write.type() +
+                     " least, inout float number, bool rough) {\n  vec3 n = vec3(0.0);\n" + loops +
+                     "  return least;\n}\n" + both("sdfBoth", beside) +
+                     "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p, false).y; }\n";
+  if (hasPlanes)
+    text += both("sdfBothOfRest",
+                 from(!others.empty(), !others.empty() && isApart(leastOf(others)), "sdfOthers"));
+  if ((plan.bounces > 0 || !plan.grouped) && !plan.operands.empty())
+    text += "float sdfOperand(vec3 p, vec3 n) {\n  float number = " +
+            (hasBeside ? "sdfNearestBeside(p, n)" : std::string("0.0")) + ";\n  sdfLeast(p, " + beside +
+            ", number, true);\n  return number;\n}\n";
+  return text;
+}
+
+Functions sharedFunctions(const Plan& plan) {
+  Functions functions{
+      {"sdfOthers", [&] { return outputsOf(leastOf(othersAndDrawn(plan))); }},
+      {"sdfBeside", [&] { return outputsOf(besideOf(plan)); }},
+      {"sdfNearestBeside", [&] { return std::vector{numberOfNearest(othersAndPlanes(plan))}; }}};
+  for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
+    const OperandKind& kind = plan.kinds->many[i];
+    functions["sdfKind" + std::to_string(i)] = [&] { return outputsOf(marchedOf(kind)); };
+    functions["sdfGap" + std::to_string(i)] = [&] { return std::vector{kind.gap}; };
+    functions["sdfNearest" + std::to_string(i)] = [&] { return std::vector{kind.nearest}; };
+  }
+  return functions;
+}
+
+}  // namespace sdf::viewer

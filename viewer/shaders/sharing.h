@@ -1,0 +1,36 @@
+// The distance of a union whose operands share formulas: read by loops over rows of numbers. Private to
+// viewer/shaders.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "viewer/shaders/assemble.h"
+#include "viewer/shaders/rows.h"
+#include "viewer/shaders/source.h"
+
+namespace sdf::viewer {
+
+/// Returns whether what is read has a step that is not its distance.
+template <typename Read>
+bool isApart(const Read& m) {
+  return m.step != m.distance;
+}
+
+/// Three outputs, which make a vec3: the step and the distance.
+std::vector<Expr> partsOf(const Marched& m);
+
+Marched marchedOf(const OperandKind& kind, const Box& bounds = Box::everything());
+
+/// The least of the operands, of which there is at least one.
+Marched leastOf(const std::vector<NumberedOperand>& operands);
+
+std::vector<NumberedOperand> operandsOf(const std::vector<HalfSpace>& planes);
+
+/// Returns the parts that define the distance and the nearest operand of all, by loops over the groups of the
+/// plan's kinds, whose rows are the first ones and can be taken.
+std::string sharing(const Plan& plan, const RowWriter& rows);
+
+/// Returns the functions of the scene that these parts use.
+Functions sharedFunctions(const Plan& plan);
+
+}  // namespace sdf::viewer
