@@ -52,7 +52,16 @@ std::vector<Batch> batchesOf(const Options& options, const std::vector<Subject>&
   const auto add = [&](const char* kind, std::vector<Batch> batches) {
     if (options.measures(kind)) all.insert(all.end(), batches.begin(), batches.end());
   };
+  const bool own = options.scenes.empty();
   add("meshing", meshingBatches(subjects, extent));
+  add("marching", marchingBatches(own ? std::vector<Subject>() : subjects, extent));
+  if (!own) return all;  // the others measure scenes of their own
+  add("normals", normalBatches(extent));
+  add("shadows", shadowBatches(extent));
+  add("occlusion", occlusionBatches(extent));
+  add("evaluation", evaluationBatches(extent));
+  add("growth", growthBatches(extent));
+  add("stability", stabilityBatches(extent));
   return all;
 }
 

@@ -189,7 +189,7 @@ void addTolerance(const std::shared_ptr<Shared>& shared, double share, std::vect
 
 }  // namespace
 
-std::vector<Batch> meshingBatches(const std::vector<Subject>& subjects, const Extent& extent) {
+std::vector<Batch> meshingBatches(const std::vector<Subject>& subjects, Extent extent) {
   using Integers = std::vector<int>;
   using Numbers = std::vector<double>;
   const auto resolutions = byExtent<Integers>(extent, {16, 32, 64, 128, 256}, {16, 32, 64}, {16});

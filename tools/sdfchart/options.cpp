@@ -39,7 +39,8 @@ void declare(CLI::App& app, Options& options) {
 }  // namespace
 
 const std::vector<std::string>& kinds() {
-  static const std::vector<std::string> all{"meshing"};
+  static const std::vector<std::string> all{"meshing",   "marching",   "normals", "shadows",
+                                            "occlusion", "evaluation", "growth",  "stability"};
   return all;
 }
 

@@ -34,6 +34,7 @@ struct Row {
   double bytes = kNone;   ///< of the mesh as a .glb file
   double memory = kNone;  ///< most bytes beyond what the program held before
 
+  std::string verdict{};      ///< of a known failure: "holds", "degrades" or "fails"
   std::string status = "ok";  ///< or "failed: why"
   std::string machine{};
 
@@ -72,7 +73,8 @@ inline constexpr std::array kNumberColumns{NumberColumn{"size", &Row::size},
                                            NumberColumn{"triangles", &Row::triangles},
                                            NumberColumn{"file_bytes", &Row::bytes},
                                            NumberColumn{"memory_bytes", &Row::memory}};
-inline constexpr std::array kLastColumns{TextColumn{"status", &Row::status},
+inline constexpr std::array kLastColumns{TextColumn{"verdict", &Row::verdict},
+                                         TextColumn{"status", &Row::status},
                                          TextColumn{"machine", &Row::machine}};
 
 }  // namespace sdf::chart

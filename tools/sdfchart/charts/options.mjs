@@ -21,10 +21,13 @@ export const themes = {
 export function pointsOf(section, scene, x, y, rows) {
   const own = rows.filter((row) => row.kind === section.kind && row.scene === scene);
   const ok = own.filter((row) => row.status === 'ok');
-  const point = (row) => ({ x: x.of(row), y: y.of(row), row });
+  // What has no place along x, as a scheme without a step, is a line across the chart.
+  const places = ok.map((row) => x.of(row)).filter((v) => v > 0);
+  const ends = [Math.min(...places), Math.max(...places)];
+  const point = (row) => (Number.isNaN(x.of(row)) ? ends : [x.of(row)]).map((v) => ({ x: v, y: y.of(row), row }));
   const series = distinct(own, section.series).map((name, i) => ({
     name, i,
-    points: ok.filter((row) => row[section.series] === name).map(point)
+    points: ok.filter((row) => row[section.series] === name).flatMap(point)
       .filter((p) => p.x > 0 && Number.isFinite(p.x) && Number.isFinite(p.y)),
   }));
   return { series, failed: own.filter((row) => row.status !== 'ok') };
