@@ -24,13 +24,9 @@ int fail(const std::string& message, int status) {
 }
 int fail(const Error& error) { return fail(error.message, static_cast<int>(error.kind)); }
 
-// For the handler alone, which may do no more than set a flag.
-RunProgress* interrupted = nullptr;
-
-void stopOnSignals(RunProgress& progress) {
-  interrupted = &progress;
+void stopOnSignals() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted->stop(); };
+  action.sa_handler = [](int) { RunProgress::endRun(); };
   action.sa_flags = SA_RESETHAND;  // a second one ends the program
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }
@@ -95,10 +91,10 @@ Status measure(const Options& options, RunProgress& progress) {
 int run(const Options& options) {
   if (Status s = makeFolder(options.output); !s) return fail(s.error());
   RunProgress progress(!options.quiet, ::isatty(STDERR_FILENO) == 1);
-  stopOnSignals(progress);
+  stopOnSignals();
   const Status measured = options.drawOnly ? okStatus() : measure(options, progress);
   progress.clear();
-  if (progress.stopped())
+  if (RunProgress::toldToEnd())
     return fail({ErrorKind::Interrupted, "interrupted; call it again in the same way to go on"});
   if (!measured) return fail(measured.error());
   const std::filesystem::path packages =

@@ -23,6 +23,31 @@ Expr heart() {
   return s * s * s - square(x) * cube - 9.0 / 80.0 * square(z) * cube;
 }
 
+// A point of the solid between a and b, where the distance is fa and fb, both above 0: by halving until the
+// slope proves a piece free, or it is a sliver.
+std::optional<RootBracket> sliverBetween(const MarchField& field, const Rays& rays, std::size_t i, double a,
+                                         double fa, double b, double fb) {
+  if (fa + fb > field.lipschitz * (b - a) || b - a < kSliver) return {};
+  const double middle = 0.5 * (a + b), f = evaluate(*field.distance, rays.at(i, middle));
+  if (f <= 0.0) return RootBracket{a, middle};
+  if (const auto before = sliverBetween(field, rays, i, a, fa, middle, f)) return before;
+  return sliverBetween(field, rays, i, middle, f, b, fb);
+}
+
+// The first sliver on the ray up to t that steps of this length pass by.
+std::optional<RootBracket> sliverBefore(const MarchField& field, const Rays& rays, std::size_t i, double t,
+                                        double step) {
+  double a = rays.tMin[i], fa = evaluate(*field.distance, rays.at(i, a));
+  while (a < t && fa > 0.0) {
+    const double b = std::min(t, a + std::max(step, fa / field.lipschitz));
+    const double fb = evaluate(*field.distance, rays.at(i, b));
+    if (fb <= 0.0) return RootBracket{a, b};  // steps that began elsewhere have passed it by
+    if (const auto found = sliverBetween(field, rays, i, a, fa, b, fb)) return found;
+    a = b, fa = fb;
+  }
+  return {};
+}
+
 // Where the solid begins between a point before it and one in it.
 double halved(const Tape& tape, const Rays& rays, std::size_t i, RootBracket bracket) {
   constexpr int kHalvings = 50;
@@ -73,7 +98,10 @@ std::vector<std::optional<double>> trueHits(const MarchField& field, const Rays&
   std::fill(near.tMin.begin(), near.tMin.end(), first);
   std::vector<std::optional<double>> all(rays.size());
   tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-    const std::optional<RootBracket> bracket = marchDensely(field, near, i, step);
+    std::optional<RootBracket> bracket = marchDensely(field, near, i, step);
+    if (field.hasSlope())
+      if (const auto sliver = sliverBefore(field, near, i, bracket ? bracket->before : near.tMax[i], step))
+        bracket = sliver;
     if (bracket) all[i] = halved(*field.distance, near, i, *bracket);
   });
   return all;

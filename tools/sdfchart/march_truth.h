@@ -9,6 +9,9 @@
 
 namespace sdf::chart {
 
+/// Along a ray, the thinnest solid that the truth is sure to know; scene units.
+inline constexpr double kSliver = 1e-5;
+
 /// A scene seen by a camera.
 struct MarchedScene {
   std::string name;
@@ -24,7 +27,8 @@ std::vector<MarchedScene> marchedScenes(bool all);
 Rays cameraRays(const MarchedScene& scene, int side);
 
 /// Where each ray first meets the solid, by steps of `step` in double (marchDensely) and halving, in
-/// parallel; nothing where it meets none. Solids thinner than a step may be passed.
+/// parallel; nothing where it meets none. What the slope does not prove free between two steps is looked at
+/// in ever smaller ones, down to kSliver; without a known slope solids thinner than a step may be passed.
 std::vector<std::optional<double>> trueHits(const MarchField& field, const Rays& rays,
                                             const MarchedScene& scene, double step);
 

@@ -30,8 +30,7 @@ void summarise(const Running& running) {
   row.quartile3 = quantile(running.seconds, 0.75);
 }
 
-Status runBatch(const Batch& batch, std::vector<Measurement>& pending, Results& results,
-                RunProgress& progress) {
+Status runBatch(const Batch& batch, std::vector<Measurement>& pending, Results& results) {
   std::vector<Running> all;
   for (Measurement& m : pending) all.push_back({&m});
   double spent = 0.0;
@@ -40,7 +39,7 @@ Status runBatch(const Batch& batch, std::vector<Measurement>& pending, Results& 
       if (one.measurement->row.failed()) continue;
       runOnce(one);
       if (!one.seconds.empty()) spent += one.seconds.back();
-      if (progress.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
+      if (RunProgress::toldToEnd()) return Error{ErrorKind::Interrupted, "interrupted"};
     }
   for (const Running& one : all) {
     summarise(one);
@@ -73,7 +72,7 @@ Status runBatches(const std::vector<Batch>& batches, Results& results, const std
     }
     progress.beginBatch(batch.subject);
     for (Measurement& m : pending) m.row.machine = machine;
-    if (Status s = runBatch(batch, pending, results, progress); !s) return s;
+    if (Status s = runBatch(batch, pending, results); !s) return s;
     progress.endBatch(batch.weight);
   }
   return okStatus();

@@ -65,7 +65,7 @@ Measurement measurement(const std::shared_ptr<Shared>& shared, const NamedMethod
             const double seconds = secondsOf([&] { hits = take(marcher.trace(shared->rays)); });
             if (judged) {
               judgeHits(hits, shared->truthNow(), *judged);
-              judged->truth = 1e-12;
+              judged->truth = kSliver;
             }
             return seconds;
           }};

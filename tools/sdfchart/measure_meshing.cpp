@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "deadline.h"
 #include "measurements.h"
 #include "memory_peak.h"
 #include "mesh_truth.h"
@@ -15,6 +16,8 @@
 
 namespace sdf::chart {
 namespace {
+
+constexpr double kMostSeconds = 20.0;  // of one mesh
 
 // What all measurements of one scene share, made when the first of them runs.
 struct Shared {
@@ -96,8 +99,10 @@ Made judgedAsOurs(MeshedShape meshed) {
 
 Mesher ours(MeshOptions options) {
   return [options](Shared& shared) {
-    Progress progress;
-    return judgedAsOurs(take(meshShape(shared.subject.shape, shared.subject.name, options, progress)));
+    Deadline deadline(kMostSeconds);
+    Result<MeshedShape> meshed = meshShape(shared.subject.shape, shared.subject.name, options, deadline);
+    deadline.check();
+    return judgedAsOurs(take(std::move(meshed)));
   };
 }
 
@@ -121,7 +126,7 @@ enum class Stage { Extraction, Projection, Creases };
 // The library's own stages up to one of them, at voxels of h.
 Mesher stagesTo(Stage last, double h) {
   return [last, h](Shared& shared) {
-    Progress progress;
+    Deadline progress(kMostSeconds);
     const ModelTapes model = Model(shared.subject.shape).at();
     const LocalTapes whole{model.whole(), model.whole()->firstOutputOnly()};
     constexpr double kMaxMemory = 4.0 * (1ull << 30);
@@ -161,7 +166,8 @@ void addVoxels(const std::shared_ptr<Shared>& shared, int resolution, std::vecto
   add("+ creases", stagesTo(Stage::Creases, h));
   add("uniform", ours({.voxelSize = h}));
   constexpr int kProvable = 64;  // voxels a side; proofs of finer meshes take minutes
-  if (resolution <= kProvable) add("uniform, proven", ours({.voxelSize = h, .certify = true}));
+  if (resolution <= kProvable && shared->subject.easy)
+    add("uniform, proven", ours({.voxelSize = h, .certify = true}));
 }
 
 void addTolerance(const std::shared_ptr<Shared>& shared, double share, std::vector<Measurement>& all) {
@@ -180,10 +186,9 @@ void addTolerance(const std::shared_ptr<Shared>& shared, double share, std::vect
   add("tolerance, voxels of 1/64", ours(coarse));
   constexpr double kProvable = 9e-4;  // finer, proofs take minutes
   coarse.certify = true;
-  if (share >= kProvable) add("tolerance, voxels of 1/64, proven", ours(coarse));
+  if (share >= kProvable && shared->subject.easy) add("tolerance, voxels of 1/64, proven", ours(coarse));
   add("CGAL make_surface_mesh", [tolerance](Shared& s) {
-    constexpr double kSeconds = 20.0;
-    return Made{{meshImplicitlyByCgal(s.subject, s.distance, tolerance, kSeconds)}};
+    return Made{{meshImplicitlyByCgal(s.subject, s.distance, tolerance, kMostSeconds)}};
   });
 }
 
@@ -212,9 +217,11 @@ std::vector<Batch> meshingBatches(const std::vector<Subject>& subjects, Extent e
     for (const int n : resolutions)
       add(std::to_string(n) + " voxels", 1e-3 * n * n / 8.0 + 1.0,
           [n](const auto& s, auto& all) { addVoxels(s, n, all); });
-    for (const double share : tolerances)
+    for (const double share : tolerances) {
+      if (!subject.easy && share != kDefaultTolerance) continue;
       add("tolerance " + shown(100.0 * share) + " %", 4e-3 / share + 1.0,
           [share](const auto& s, auto& all) { addTolerance(s, share, all); });
+    }
   }
   return batches;
 }

@@ -24,7 +24,9 @@ std::vector<Subject> standardSubjects(bool quick) {
   const auto& cases = accuracy::meshCases();
   const auto ofCase = [&](std::size_t i, const char* name) {
     accuracy::MeshCase c = cases.at(i).make();
-    return subject(name, c.shape, std::move(c.solid));
+    Subject made = subject(name, c.shape, std::move(c.solid));
+    made.easy = c.easy;
+    return made;
   };
   std::vector<Subject> all{ofCase(0, "ball"), ofCase(1, "drilled box"), ofCase(2, "blended balls")};
   if (quick) return all;

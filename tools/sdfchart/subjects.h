@@ -17,6 +17,7 @@ struct Subject {
   Box bounds;  ///< finite
   /// The same solid written by hand; null for a scene file.
   std::shared_ptr<const accuracy::PiecewiseSolid> solid{};
+  bool easy = true;  ///< tolerances are kept and proofs found, and soon
 };
 
 /// The scenes that are measured where none is named: a ball, a drilled box, blended balls; unless `quick` a

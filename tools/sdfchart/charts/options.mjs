@@ -81,7 +81,7 @@ function lineSeries(s, { x, y, section }, floor, theme, width) {
     data: s.points.map((p, k) => ({
       value: [p.x, Math.max(p.y, floor)], told: tooltipOf(p, x, y),
       label: k === last && !narrow
-        ? { show: true, align: 'left', color: theme.text, fontSize: 12, formatter: name }
+        ? { show: true, align: 'left', minMargin: 8, color: theme.text, fontSize: 12, formatter: name }
         : { show: false },
     })),
   };
@@ -97,7 +97,8 @@ function frontSeries(series, floor, theme) {
 
 // A ring around the points that the programs take where nothing is said.
 function defaultSeries(series, floor, theme, narrow) {
-  const data = series.flatMap((s) => s.points).filter((p) => p.row.default === 1);
+  const data = series.flatMap((s) => s.points).filter((p) => p.row.default === 1)
+    .filter((p, i, all) => all.findIndex((other) => other.row === p.row) === i);
   return {
     name: 'default', type: 'scatter', symbol: 'emptyCircle', symbolSize: 20, silent: true, z: 4, color: theme.text,
     itemStyle: { color: theme.text, borderWidth: 2 },
@@ -119,7 +120,7 @@ export function chartOption(asked, theme, width) {
   const all = section.pareto && y.better < 0 && x.better < 0 ? [frontSeries(drawn, floor, theme), ...lines] : lines;
   const standard = defaultSeries(drawn, floor, theme, narrow);
   if (standard.data.length) all.push(standard);
-  const legendRows = Math.ceil(all.length / (narrow ? 2 : width < 800 ? 4 : 5));
+  const legendRows = legendRowsOf(all.map((one) => one.name), narrow, width);
   const above = (title ? 34 : 4) + 22 * legendRows + 10;
   return {
     animation: false, backgroundColor: theme.back, textStyle: { fontFamily: 'DejaVu Sans, sans-serif' },
@@ -132,12 +133,24 @@ export function chartOption(asked, theme, width) {
   };
 }
 
+// How many rows the legend will take: names as wide as DejaVu Sans draws them, about.
+function legendRowsOf(names, narrow, width) {
+  const [letter, gap] = narrow ? [6.8, 8] : [7.4, 20];
+  let rows = 1, used = 0;
+  for (const name of names) {
+    const wide = 36 + letter * name.length + gap;
+    if (used + wide > width - 16) rows++, used = 0;
+    used += wide;
+  }
+  return rows;
+}
+
 // What failed has no place on the axes: crosses under them, with names.
 function failureNote(failed, theme, width) {
   if (!failed.length) return [];
   const names = distinct(failed, 'method').map((m) => `${m} (${failed.filter((row) => row.method === m).length})`);
   return [{
     type: 'text', left: 8, bottom: 6,
-    style: { text: `✕ failed: ${names.join(', ')}`, fill: theme.text, fontSize: 12, width: width - 16, overflow: 'truncate' },
+    style: { fontFamily: 'DejaVu Sans, sans-serif', text: `✕ failed: ${names.join(', ')}`, fill: theme.text, fontSize: 12, width: width - 16, overflow: 'truncate' },
   }];
 }

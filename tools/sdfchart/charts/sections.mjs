@@ -83,7 +83,7 @@ export const sections = [
     lead: 'The number after a name is the exponent p of the fitted power law, time ~ size^p: 1 grows as the size, ' +
       '2 as its square.',
     charts: 'scene', series: 'method',
-    x: [column('size', '', 0, 'size')],
+    x: [column('size: voxels a side, balls, or parts', '', 0, 'size')],
     y: [seconds, column('memory', 'bytes', -1, 'memory_bytes')],
     fit: true,
     drawn: [[0, 0], [0, 1]],
