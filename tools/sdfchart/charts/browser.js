@@ -19,6 +19,22 @@ for (const select of document.querySelectorAll('select'))
     chosen[kind] = { ...chosen[kind], [along]: +select.value };
     boxes.filter((box) => box.dataset.kind === kind).forEach(draw);
   });
+function choose() {
+  const [kind, scene] = JSON.parse(chooser.elements.scene.value);
+  const section = sections.find((s) => s.kind === kind);
+  const error = +chooser.elements.error.value, [time, off] = [section.x[0], section.y[0]];
+  const best = fastestWithin(section, scene, rows, error);
+  chooser.querySelector('output').textContent = best
+    ? `→ ${best.method}, ${best.setting}: error ${shown(off.of(best))} ${off.unit} in ${shown(time.of(best))} ${time.unit}`
+    : '→ nothing that was measured keeps it';
+}
+const chooser = document.getElementById('chooser');
+if (chooser) {
+  chooser.addEventListener('input', choose);
+  chooser.addEventListener('submit', (event) => event.preventDefault());
+  choose();
+}
+
 dark.addEventListener('change', drawAll);
 addEventListener('resize', drawAll);
 drawAll();

@@ -50,5 +50,5 @@ for (const section of sections) if (!section.grid) drawSection(section, rows);
 writeFileSync(join(folder, 'index.html'), pageOf({
   sections, rows, notes, style: read('style.css'),
   library: readFileSync(require.resolve('echarts/dist/echarts.min.js'), 'utf8'),
-  modules: inlined(['figures.mjs', 'sections.mjs', 'options.mjs']), script: read('browser.js'),
+  modules: inlined(['figures.mjs', 'sections.mjs', 'choose.mjs', 'options.mjs']), script: read('browser.js'),
 }));

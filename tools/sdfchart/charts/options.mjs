@@ -10,7 +10,7 @@ const dashes = ['solid', 'dashed', 'dotted', [8, 3, 2, 3]];
 
 // On narrow screens the names stand in the legend alone; else also beside the lines, in a column so wide.
 const isNarrow = (width) => width < 600;
-const nameWidth = 190;
+const nameWidth = 235;
 
 export const themes = {
   light: { text: '#1a1a1a', faint: '#6b6b6b', line: '#dddddd', back: '#ffffff', front: '#444444' },
@@ -100,8 +100,8 @@ function defaultSeries(series, floor, theme, narrow) {
   const data = series.flatMap((s) => s.points).filter((p) => p.row.default === 1)
     .filter((p, i, all) => all.findIndex((other) => other.row === p.row) === i);
   return {
-    name: 'default', type: 'scatter', symbol: 'emptyCircle', symbolSize: 20, silent: true, z: 4, color: theme.text,
-    itemStyle: { color: theme.text, borderWidth: 2 },
+    name: 'default', type: 'scatter', symbol: 'circle', symbolSize: 20, silent: true, z: 4, color: theme.text,
+    itemStyle: { color: 'transparent', borderColor: theme.text, borderWidth: 2 },
     data: data.map((p) => ({
       value: [p.x, Math.max(p.y, floor)],
       label: { show: !narrow, position: 'top', distance: 3, formatter: 'default', color: theme.text, fontWeight: 'bold' },
@@ -121,11 +121,11 @@ export function chartOption(asked, theme, width) {
   const standard = defaultSeries(drawn, floor, theme, narrow);
   if (standard.data.length) all.push(standard);
   const legendRows = legendRowsOf(all.map((one) => one.name), narrow, width);
-  const above = (title ? 34 : 4) + 22 * legendRows + 10;
+  const above = (title ? 34 : 4) + (16 + legendGap(narrow)) * legendRows + 10;
   return {
     animation: false, backgroundColor: theme.back, textStyle: { fontFamily: 'DejaVu Sans, sans-serif' },
     title: title ? { text: title, left: 8, top: 6, textStyle: { color: theme.text, fontSize: narrow ? 13 : 16 } } : undefined,
-    legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 30, itemGap: narrow ? 8 : 20, data: all.map((one) => one.name), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 } },
+    legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 30, itemGap: legendGap(narrow), data: all.map((one) => one.name), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 } },
     grid: { left: narrow ? 62 : 74, right: narrow ? 16 : nameWidth, top: above, bottom: failed.length ? 84 : 56 },
     tooltip: { trigger: 'item', confine: true, formatter: (p) => p.data.told ?? '' },
     xAxis: axis(x, 'x', theme, narrow), yAxis: axis(y, 'y', theme, narrow), series: all,
@@ -133,9 +133,11 @@ export function chartOption(asked, theme, width) {
   };
 }
 
+const legendGap = (narrow) => (narrow ? 8 : 14);
+
 // How many rows the legend will take: names as wide as DejaVu Sans draws them, about.
 function legendRowsOf(names, narrow, width) {
-  const [letter, gap] = narrow ? [6.8, 8] : [7.4, 20];
+  const letter = narrow ? 6.8 : 7.4, gap = legendGap(narrow);
   let rows = 1, used = 0;
   for (const name of names) {
     const wide = 36 + letter * name.length + gap;

@@ -1,5 +1,6 @@
 // The page with all charts and their tables: one file that needs no other.
-import { distinct, slug } from './figures.mjs';
+import { defaultsBehind } from './choose.mjs';
+import { distinct, shown, slug } from './figures.mjs';
 import { escaped, gridOf, tableOf } from './tables.mjs';
 
 function chartHtml(section, scene, rows) {
@@ -24,6 +25,23 @@ function sectionHtml(section, rows) {
   return `${head}<p class="choices">${choice(section, 'x')}${choice(section, 'y')}</p><div class="charts">${charts}</div></section>`;
 }
 
+// A form that names the fastest setting for a scene and an error, and what the defaults cost.
+function chooserHtml(sections, rows) {
+  const options = sections.filter((s) => s.pareto).flatMap((s) =>
+    distinct(rows.filter((row) => row.kind === s.kind), 'scene')
+      .map((scene) => `<option value="${escaped(JSON.stringify([s.kind, scene]))}">${s.kind}: ${escaped(scene)}</option>`));
+  const behind = defaultsBehind(sections, rows).map(({ row, best, factor }) =>
+    `<tr><td>${row.kind}</td><td>${escaped(row.scene)}</td><td>${escaped(row.method)}, ${escaped(row.setting)}</td>` +
+    `<td>${escaped(best.method)}, ${escaped(best.setting)}</td><td class="number">${shown(factor)}</td></tr>`);
+  if (!options.length) return '';
+  return `<section id="choose"><h2>Choose for me</h2>
+<form id="chooser"><label>scene <select name="scene">${options.join('')}</select></label>
+<label>error of at most <input name="error" type="number" step="any" min="0" value="0.001"></label> <output></output></form>
+<details><summary>Table: the defaults beside the fastest that is no less right</summary><div class="wide"><table>
+<thead><tr><th>kind</th><th>scene</th><th>default</th><th>fastest as right</th><th>default takes, times as long</th></tr></thead>
+<tbody>${behind.join('\n')}</tbody></table></div></details></section>`;
+}
+
 /// `scripts`: the text of the charting library; of the modules that make options, without imports and exports;
 /// of what runs in the page.
 export function pageOf({ sections, rows, notes, style, library, modules, script }) {
@@ -38,7 +56,8 @@ export function pageOf({ sections, rows, notes, style, library, modules, script 
 <p>Every method measured both ways: how fast, and how right. Lower left is better unless an axis says otherwise. Touch or
 point at a mark to read it. Marks have shapes of their own, so that the charts can be read without colours.</p>
 <p class="small">${escaped(machines)}<br>${escaped(notes.join('; '))}; times are medians</p><nav>${links}</nav></header>
-<main>${shownSections.map((s) => sectionHtml(s, rows)).join('\n')}</main>
+<main>${chooserHtml(shownSections, rows)}
+${shownSections.map((s) => sectionHtml(s, rows)).join('\n')}</main>
 <script>${library.replace(/<\/script/g, '<\\/script')}</script>
 <script type="module">${modules}
 const rows = ${data}.map((row) => Object.fromEntries(Object.entries(row).map(([k, v]) => [k, v === null ? NaN : v])));
