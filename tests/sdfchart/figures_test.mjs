@@ -31,6 +31,7 @@ const meshes = [[0.1, 1e-3, 1], [0.01, 5e-4, 0], [0.001, 1e-2, 0]].map(([seconds
 const failed = { kind: 'meshing', scene: 'ball', method: 'f', setting: '', status: 'failed: why', seconds: NaN, error_rms: NaN, default: 0 };
 assert.equal(fastestWithin(sections[0], 'ball', [...meshes, failed], 1e-3).method, 'm1');
 assert.equal(fastestWithin(sections[0], 'ball', [...meshes, failed], 1e-9), undefined);
-const [behind] = defaultsBehind(sections, [...meshes, failed]);
+const [behind] = defaultsBehind(sections, meshes.map((row, i) => ({ ...row, triangles: [300, 100, 5][i] })));
 assert.equal(behind.best.method, 'm1');
-assert.ok(Math.abs(behind.factor - 10) < 1e-9);
+assert.ok(Math.abs(behind.factor - 3) < 1e-9);
+assert.equal(behind.ok, false);

@@ -98,6 +98,34 @@ TEST_F(SdfChart, GoesOnWhereItWasInterrupted) {
   expectRefusal(run({"-o", out(), "-q", "--trial"}), kUsage, {"results.csv", "--quick"});
 }
 
+// One that is too far behind, and one that is not, among rows that were written by hand.
+TEST_F(SdfChart, DefaultsAreHeldToTheParetoFront) {
+  std::filesystem::create_directories(out());
+  const auto fill = [&](const char* triangles) {
+    std::ofstream(folder / "out/results.csv")
+        << "# by hand\nkind,scene,method,setting,default,seconds,items,error_rms,triangles,status,machine\n"
+        << "meshing,ball,tolerance,fine,1,1,1,0.001," << triangles << ",ok,\n"
+        << "meshing,ball,other,coarse,0,1,1,0.0009,100,ok,\n";
+  };
+  const Command check = [] {
+    Command c;
+    c.words = {"/usr/bin/env", "node", SDF_SOURCE_DIR "/tools/sdfchart/charts/check.mjs"};
+    return c;
+  }();
+  const auto outcome = [&] {
+    Command c = check;
+    c.words.push_back(out() + "/results.csv");
+    return c.run();
+  };
+  fill("150");
+  EXPECT_EQ(outcome().status, 0);
+  fill("250");
+  const Outcome behind = outcome();
+  EXPECT_EQ(behind.status, 1);
+  for (const char* words : {"ball", "tolerance, fine", "2.5 times the triangles", "other, coarse"})
+    EXPECT_NE(behind.err.find(words), std::string::npos) << behind.err;
+}
+
 class Charts : public SdfChart {
  protected:
   void SetUp() override {

@@ -36,6 +36,19 @@ std::string kept(const std::filesystem::path& folder) {
 
 }  // namespace
 
+Checked checkDefaults(const Drawing& drawing, const std::filesystem::path& folder) {
+  const int status =
+      run({"node", (drawing.scripts / "check.mjs").string(), (folder / "results.csv").string()});
+  if (status == 0) return {};
+  if (status == 1)
+    return {
+        "a default is behind the Pareto front, as said above; choose another, or say in "
+        "tools/sdfchart/charts/sections.mjs how far it may be",
+        kBehind};
+  if (status == 2) return {"no default was measured that could be checked" + kept(folder), kNotDrawn};
+  return {"the defaults could not be checked: is Debian's nodejs installed?" + kept(folder), kNotDrawn};
+}
+
 std::string drawCharts(const Drawing& drawing, const std::filesystem::path& folder) {
   if (!std::filesystem::exists(drawing.packages / "node_modules/echarts"))
     return "the charting library is not in '" + drawing.packages.string() +

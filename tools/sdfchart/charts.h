@@ -16,6 +16,17 @@ struct Drawing {
 /// Measured, but node or its packages are missing, or the drawing failed.
 inline constexpr int kNotDrawn = 7;
 
+/// A default is behind the Pareto front.
+inline constexpr int kBehind = 8;
+
+/// Holds the defaults in folder/results.csv to the Pareto front (charts/check.mjs, which prints those behind
+/// it). Empty, or what is wrong, and the exit status for it.
+struct Checked {
+  std::string wrong;
+  int status = 0;
+};
+Checked checkDefaults(const Drawing& drawing, const std::filesystem::path& folder);
+
 /// Draws the charts of folder/results.csv beside it. The text is empty, or says why nothing was drawn and
 /// what to do.
 std::string drawCharts(const Drawing& drawing, const std::filesystem::path& folder);

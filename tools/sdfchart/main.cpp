@@ -101,6 +101,10 @@ int run(const Options& options) {
       options.packages.empty() ? std::filesystem::path(SDFCHART_PACKAGES) : options.packages;
   if (const std::string why = drawCharts({SDFCHART_SCRIPTS, packages}, options.output); !why.empty())
     return fail(why, kNotDrawn);
+  if (options.check)
+    if (const Checked checked = checkDefaults({SDFCHART_SCRIPTS, packages}, options.output);
+        checked.status != 0)
+      return fail(checked.wrong, checked.status);
   if (!options.quiet) std::cout << (options.output / "index.html").string() << std::endl;
   return 0;
 }

@@ -26,6 +26,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--quick", options.quick, "fewer settings and runs: about two minutes instead of thirty");
   app.add_flag("--trial", options.trial, "one setting of each method, run once: to see whether all is there");
   app.add_flag("--draw", options.drawOnly, "draw what results.csv holds, and measure nothing");
+  app.add_flag("--check", options.check, "fail where a default falls behind the Pareto front");
   app.add_option("--packages", options.packages, "folder in which npm has installed the charting library")
       ->type_name("DIR");
   app.add_flag("-q,--quiet", options.quiet, "print errors only");
@@ -33,7 +34,7 @@ void declare(CLI::App& app, Options& options) {
       "A run that was interrupted goes on where it was when it is called again.\n"
       "Exit status: 0 done, 2 usage, 3 scene, 5 files, 7 measured but not drawn (node or the charting "
       "library "
-      "is missing), 130 interrupted.");
+      "is missing), 8 a default is behind (--check), 130 interrupted.");
 }
 
 }  // namespace

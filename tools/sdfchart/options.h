@@ -13,7 +13,7 @@ struct Options {
   std::vector<std::filesystem::path> scenes;  ///< none: the standard ones
   std::filesystem::path output;
   std::vector<std::string> only;  ///< kinds of measurements; none: all
-  bool quick = false, trial = false, quiet = false, drawOnly = false;
+  bool quick = false, trial = false, quiet = false, drawOnly = false, check = false;
   std::filesystem::path packages;  ///< the folder with npm's node_modules; empty: where the build has it
 
   bool measures(const std::string& kind) const;

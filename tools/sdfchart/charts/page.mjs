@@ -30,15 +30,15 @@ function chooserHtml(sections, rows) {
   const options = sections.filter((s) => s.pareto).flatMap((s) =>
     distinct(rows.filter((row) => row.kind === s.kind), 'scene')
       .map((scene) => `<option value="${escaped(JSON.stringify([s.kind, scene]))}">${s.kind}: ${escaped(scene)}</option>`));
-  const behind = defaultsBehind(sections, rows).map(({ row, best, factor }) =>
+  const behind = defaultsBehind(sections, rows).map(({ row, best, cost, factor }) =>
     `<tr><td>${row.kind}</td><td>${escaped(row.scene)}</td><td>${escaped(row.method)}, ${escaped(row.setting)}</td>` +
-    `<td>${escaped(best.method)}, ${escaped(best.setting)}</td><td class="number">${shown(factor)}</td></tr>`);
+    `<td>${escaped(best.method)}, ${escaped(best.setting)}</td><td>${shown(factor)} times the ${escaped(cost.name)}</td></tr>`);
   if (!options.length) return '';
   return `<section id="choose"><h2>Choose for me</h2>
 <form id="chooser"><label>scene <select name="scene">${options.join('')}</select></label>
 <label>error of at most <input name="error" type="number" step="any" min="0" value="0.001"></label> <output></output></form>
-<details><summary>Table: the defaults beside the fastest that is no less right</summary><div class="wide"><table>
-<thead><tr><th>kind</th><th>scene</th><th>default</th><th>fastest as right</th><th>default takes, times as long</th></tr></thead>
+<details><summary>Table: the defaults beside the cheapest that is no less right</summary><div class="wide"><table>
+<thead><tr><th>kind</th><th>scene</th><th>default</th><th>cheapest as right</th><th>the default takes</th></tr></thead>
 <tbody>${behind.join('\n')}</tbody></table></div></details></section>`;
 }
 

@@ -1,5 +1,8 @@
 // What is charted: a section for each kind of measurement, with the figures that its axes can show.
 
+// `held`: the figure along x that the defaults are chosen by, and how many times as much of it they may take as the
+// best that is no less right.
+
 // A figure: how it is read from a row, its name and unit, and which way is better (-1: less, 1: more).
 const figure = (name, unit, better, of) => ({ name, unit, better, of });
 const column = (name, unit, better, key) => figure(name, unit, better, (row) => row[key]);
@@ -22,6 +25,7 @@ export const sections = [
         column('memory', 'bytes', -1, 'memory_bytes')],
     y: [rms(scenes), largest(scenes), column('error of the normals, root mean square', '°', -1, 'error_normal_deg')],
     pareto: true,
+    held: { x: 1, factor: 2 }, // a tolerance is kept with few triangles
     drawn: [[0, 0], [1, 0], [0, 1], [0, 2]],
   },
   {
@@ -34,6 +38,7 @@ export const sections = [
     y: [rms(scenes), largest(scenes), column('missed hits, share of rays', '', -1, 'missed'),
         column('false hits, share of rays', '', -1, 'false_hits')],
     pareto: true,
+    held: { x: 1, factor: 2 }, // readings, which no other program disturbs
     drawn: [[0, 0], [1, 0], [0, 2]],
   },
   {
