@@ -33,10 +33,13 @@ export function pointsOf(section, scene, x, y, rows) {
   return { series, failed: own.filter((row) => row.status !== 'ok') };
 }
 
-// A logarithmic axis has no place for 0: it is shown a little below the least that is above it.
-function floorOf(series) {
-  const above = series.flatMap((s) => s.points.map((p) => p.y)).filter((y) => y > 0);
-  return above.length ? Math.min(...above) / 3 : 1;
+// A logarithmic axis has no place for 0: it is shown at a power of ten below the least that is above it, where the axis
+// then begins and says 0. None where nothing is 0.
+function zeroOf(series) {
+  const values = series.flatMap((s) => s.points.map((p) => p.y));
+  if (values.every((y) => y > 0)) return undefined;
+  const above = values.filter((y) => y > 0);
+  return above.length ? 10 ** Math.floor(Math.log10(Math.min(...above)) - 0.5) : 1e-3;
 }
 
 const described = (row) =>
@@ -55,6 +58,12 @@ const wordsOf = { axis: (v) => {
   if (Math.abs(power - Math.round(power)) > 1e-6) return '';
   return Math.abs(power) > 3 ? `10${raised(Math.round(power))}` : String(+v.toPrecision(6));
 } };
+
+// The axis of values of which some are 0.
+const zeroAxis = (zero, series, color) => ({
+  min: zero, max: series.every((s) => s.points.every((p) => p.y <= 0)) ? 1 : undefined,
+  axisLabel: { color, hideOverlap: true, formatter: (v) => (v <= zero * 1.001 ? '0' : wordsOf.axis(v)) },
+});
 
 function axis(figure, along, theme, narrow) {
   return {
@@ -114,7 +123,7 @@ export function chartOption(asked, theme, width) {
   const { section, scene, x, y, rows, title } = asked;
   const narrow = isNarrow(width);
   const { series, failed } = pointsOf(section, scene, x, y, rows);
-  const floor = floorOf(series);
+  const zero = zeroOf(series), floor = zero ?? 0;
   const drawn = series.filter((s) => s.points.length);
   const lines = drawn.map((s) => lineSeries(s, asked, floor, theme, width));
   const all = section.pareto && y.better < 0 && x.better < 0 ? [frontSeries(drawn, floor, theme), ...lines] : lines;
@@ -125,15 +134,15 @@ export function chartOption(asked, theme, width) {
   return {
     animation: false, backgroundColor: theme.back, textStyle: { fontFamily: 'DejaVu Sans, sans-serif' },
     title: title ? { text: title, left: 8, top: 6, textStyle: { color: theme.text, fontSize: narrow ? 13 : 16 } } : undefined,
-    legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 30, itemGap: legendGap(narrow), data: all.map((one) => one.name), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 } },
+    legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 28, itemGap: legendGap(narrow), data: all.map((one) => one.name), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 } },
     grid: { left: narrow ? 62 : 74, right: narrow ? 16 : nameWidth, top: above, bottom: failed.length ? 84 : 56 },
     tooltip: { trigger: 'item', confine: true, formatter: (p) => p.data.told ?? '' },
-    xAxis: axis(x, 'x', theme, narrow), yAxis: axis(y, 'y', theme, narrow), series: all,
+    xAxis: axis(x, 'x', theme, narrow), yAxis: { ...axis(y, 'y', theme, narrow), ...(zero ? zeroAxis(zero, series, theme.text) : {}) }, series: all,
     graphic: failureNote(failed, theme, width),
   };
 }
 
-const legendGap = (narrow) => (narrow ? 8 : 14);
+const legendGap = (narrow) => (narrow ? 8 : 18);
 
 // How many rows the legend will take: names as wide as DejaVu Sans draws them, about.
 function legendRowsOf(names, narrow, width) {
