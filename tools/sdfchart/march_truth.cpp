@@ -70,8 +70,6 @@ std::vector<MarchedScene> marchedScenes(bool all) {
   scenes.push_back({"thin: plate of 0.02", box(Vec3E(1.0, 1.0, 0.01)), {0.6, 0.4, 2.6}, 1.4});
   scenes.push_back({"far: ball from 10000", sphere(1.0), {6000.0, 0.0, 8000.0}, 1.2});
   scenes.push_back({"steep: displaced ball", displace(sphere(1.0), 0.1, 20.0), from, 1.2});
-  scenes.push_back(
-      {"steep: a heart in its bounds", field(heart(), Box::centred(glm::dvec3(1.5))), from, 1.5});
   return scenes;
 }
 
