@@ -37,6 +37,11 @@ struct Spread {
 
 /// The mesh with each point once, however many normals it has there.
 TriangleMesh weldedMesh(const Mesh& mesh);
+/// Points of the mesh, uniform over its area; a seed gives the same points.
+std::vector<glm::dvec3> pointsOn(const TriangleMesh& mesh, std::size_t count, unsigned seed);
+/// Of distance(p) over all these points, taken in parallel.
+Spread spreadOver(const std::vector<glm::dvec3>& points,
+                  const std::function<double(const glm::dvec3&)>& distance);
 /// From the mesh to the solid's surface: the root mean square over `points` points uniform over its area, the
 /// maximum over these and all vertices.
 Spread toSurface(const TriangleMesh& mesh, const PiecewiseSolid& solid, std::size_t points, unsigned seed);

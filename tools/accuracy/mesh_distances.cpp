@@ -24,7 +24,8 @@ Spread spreadOf(const std::vector<double>& distances) {
   return s;
 }
 
-// Points uniform over the mesh's area.
+}  // namespace
+
 std::vector<glm::dvec3> pointsOn(const TriangleMesh& mesh, std::size_t count, unsigned seed) {
   std::vector<double> areas;  // running sums
   double area = 0.0;
@@ -44,7 +45,10 @@ std::vector<glm::dvec3> pointsOn(const TriangleMesh& mesh, std::size_t count, un
   return points;
 }
 
-}  // namespace
+Spread spreadOver(const std::vector<glm::dvec3>& points,
+                  const std::function<double(const glm::dvec3&)>& distance) {
+  return spreadOf(distances(points.size(), [&](std::size_t i) { return distance(points[i]); }));
+}
 
 TriangleMesh weldedMesh(const Mesh& mesh) {
   TriangleMesh welded;

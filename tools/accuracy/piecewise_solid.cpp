@@ -25,7 +25,7 @@ struct Joint {
 // parallel or the steps lead nowhere.
 std::optional<glm::dvec3> footOn(const PiecewiseSolid& solid, const Joint& joint, const glm::dvec3& p) {
   constexpr int kSteps = 50;
-  constexpr double kParallel = 1e-4, kStill = 1e-11;
+  constexpr double kParallel = 1e-4, kStill = 1e-11, kFarther = 50.0;
   glm::dvec3 at = p;
   for (int step = 0; step < kSteps; ++step) {
     glm::dvec3 next = p;
@@ -40,7 +40,8 @@ std::optional<glm::dvec3> footOn(const PiecewiseSolid& solid, const Joint& joint
       across[i] = glm::normalize(free);
       next -= across[i] * (piece(at) + glm::dot(g, next - at)) / glm::dot(g, across[i]);
     }
-    if (glm::distance(next, at) < kStill) return next;
+    // Farther away, the rounding of the gradients moves the foot more.
+    if (glm::distance(next, at) < kStill * (1.0 + kFarther * glm::distance(next, p))) return next;
     at = next;
   }
   return {};

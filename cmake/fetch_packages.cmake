@@ -1,4 +1,4 @@
-# Installs what package-lock.json pins into WORK/node_modules, unless that very lock file's packages are there.
+# Installs what SOURCE/package-lock.json pins into WORK/node_modules, unless that very lock file's packages are there.
 file(READ ${SOURCE}/package-lock.json wanted)
 set(stamp ${WORK}/installed.json)
 if(EXISTS ${stamp})
@@ -11,6 +11,6 @@ file(REMOVE ${stamp})
 file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json DESTINATION ${WORK})
 execute_process(COMMAND npm ci --no-audit --no-fund WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
-  message(FATAL_ERROR "npm could not fetch gltf-validator (${status}); check the network, or copy node_modules to ${WORK}")
+  message(FATAL_ERROR "npm could not fetch what ${SOURCE}/package.json names (${status}); check the network, or copy node_modules to ${WORK}")
 endif()
 file(WRITE ${stamp} "${wanted}")

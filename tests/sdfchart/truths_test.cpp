@@ -1,0 +1,131 @@
+// What rays, light and known failures are held to, held to geometry in its turn.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "sdf/shape/operators.h"
+#include "sdf/shape/solids.h"
+#include "sdfchart/light_truth.h"
+#include "sdfchart/march_truth.h"
+#include "sdfchart/measurements.h"
+
+namespace sdf::chart {
+namespace {
+
+TEST(MarchTruth, OfABallIsTheRootOfItsEquation) {
+  const MarchedScene scene{"ball", sphere(1.0), {1.0, 2.0, 3.0}, 1.2};
+  const Rays rays = cameraRays(scene, 24);
+  const auto truth = trueHits(take(marchField(scene.shape)), rays, scene, 1e-2);
+  int hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3 o = rays.origin[i], d = rays.direction[i];
+    const double b = glm::dot(o, d), square = b * b - glm::dot(o, o) + 1.0;
+    if (std::abs(square) < 1e-9) continue;
+    ASSERT_EQ(truth[i].has_value(), square > 0.0) << i;
+    if (!truth[i]) continue;
+    EXPECT_NEAR(*truth[i], -b - std::sqrt(square), 1e-12);
+    ++hits;
+  }
+  EXPECT_GT(hits, 200);
+}
+
+TEST(MarchTruth, OfABoxIsWhereItsSlabsBegin) {
+  const glm::dvec3 half(0.5, 0.7, 0.9);
+  const MarchedScene scene{"box", box(Vec3E(half)), {2.0, 1.6, 3.4}, 1.3};
+  const Rays rays = cameraRays(scene, 24);
+  const auto truth = trueHits(take(marchField(scene.shape)), rays, scene, 1e-2);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3 o = rays.origin[i], d = rays.direction[i];
+    double first = 0.0, last = kInfinity;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (-half[axis] - o[axis]) / d[axis], b = (half[axis] - o[axis]) / d[axis];
+      first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+    }
+    if (std::abs(last - first) < kSliver) continue;
+    ASSERT_EQ(truth[i].has_value(), first < last) << i;
+    if (truth[i]) {
+      EXPECT_NEAR(*truth[i], first, 1e-12);
+    }
+  }
+}
+
+TEST(MarchTruth, FindsSliversBetweenItsSteps) {
+  // A plate of a tenth of a step, across the rays.
+  const MarchedScene scene{"plate", box(Vec3E(1.0, 1.0, 5e-4)), {0.0, 0.0, 3.0}, 0.5};
+  const Rays rays = cameraRays(scene, 8);
+  for (const auto& hit : trueHits(take(marchField(scene.shape)), rays, scene, 1e-2)) ASSERT_TRUE(hit);
+}
+
+TEST(MarchTruth, TellsMissedFromFalseHits) {
+  const std::vector<std::optional<double>> truth{1.0, 2.0, std::nullopt, std::nullopt};
+  const Hits hits{{1.5, 2.0, 3.0, 9.0},
+                  {4, 4, 4, 8},
+                  {RayStatus::Hit, RayStatus::Budget, RayStatus::Hit, RayStatus::Miss}};
+  Row row;
+  judgeHits(hits, truth, row);
+  EXPECT_EQ(row.max, 0.5);
+  EXPECT_EQ(row.rms, 0.5);
+  EXPECT_EQ(row.missed, 0.25);
+  EXPECT_EQ(row.falseHits, 0.25);
+  EXPECT_EQ(row.evaluations, 5.0);
+}
+
+TEST(LightTruth, OfABallOverheadIsTheShareThatItCovers) {
+  // Seen from below, a ball of radius r at height h covers sin^2 = (r / h)^2 of the sky by the cosine.
+  const Blocker ball{true, {0.0, 2.0, 0.0}, 1.0};
+  Vectors below;
+  below.add(glm::dvec3(0.0));
+  EXPECT_NEAR(lightOf(ball, below, skyDirections(4096), 10.0)[0], 0.75, 1e-3);
+  EXPECT_EQ(lightOf(ball, below, skyDirections(4096), 0.5)[0], 1.0);
+}
+
+TEST(LightTruth, OfABlockBesideIsHalfWhereItHalvesTheLamp) {
+  // The lamp stands overhead, and the block's side is straight above the point.
+  const Blocker block{false, {1.0, 1.0, 0.0}, 1.0 - 1e-9};
+  Vectors beside;
+  beside.add(glm::dvec3(0.0, -1.0, 0.0));
+  const auto lamp = lampDirections({0, 1, 0}, 0.05, 4096);
+  EXPECT_NEAR(lightOf(block, beside, lamp, 10.0)[0], 0.5, 0.01);
+  beside.clear();
+  beside.add(glm::dvec3(-1.0, -1.0, 0.0));
+  EXPECT_EQ(lightOf(block, beside, lamp, 10.0)[0], 1.0);
+}
+
+TEST(LightTruth, LampDirectionsFillTheirDisc) {
+  const double radius = 0.2;
+  const glm::dvec3 middle = glm::normalize(glm::dvec3(1.0, 2.0, -0.5));
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& d : lampDirections(middle, radius, 1000)) {
+    EXPECT_LE(std::acos(std::min(1.0, glm::dot(d, middle))), radius + 1e-12);
+    sum += d;
+  }
+  EXPECT_LT(std::acos(glm::dot(glm::normalize(sum), middle)), 0.005);
+}
+
+// Every kind of measurement runs, without a failure but for marching where no slope is known.
+TEST(Batches, OfEveryKindMeasureSomething) {
+  for (const auto& batches :
+       {normalBatches(Extent::Trial), shadowBatches(Extent::Trial), occlusionBatches(Extent::Trial),
+        evaluationBatches(Extent::Trial), growthBatches(Extent::Trial)}) {
+    std::vector<Measurement> all = batches.at(0).make();
+    ASSERT_FALSE(all.empty());
+    for (Measurement& m : all) EXPECT_GE(m.run(&m.row), 0.0) << m.row.key();
+  }
+}
+
+TEST(Batches, MarchingWithoutASlopeFailsWithTheReason) {
+  const auto batches = marchingBatches({}, Extent::Trial);
+  std::vector<Measurement> all = batches.at(3).make();
+  for (Measurement& m : all) {
+    const bool needsSlope = m.row.method != "segment" && m.row.method != "bisection";
+    if (needsSlope)
+      EXPECT_THROW(m.run(&m.row), std::runtime_error) << m.row.method;
+    else
+      EXPECT_GT(m.run(&m.row), 0.0) << m.row.method;
+  }
+}
+
+}  // namespace
+}  // namespace sdf::chart

@@ -1,0 +1,167 @@
+// Options of ECharts for each chart: the same in the page and in the SVG files.
+import { axisName } from './sections.mjs';
+import { distinct, fittedExponent, paretoFront, raised, shown } from './figures.mjs';
+
+// Okabe and Ito's colours (2008), which the colour-blind can tell, and shapes and dashes that greyscale shows.
+const colours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#b8860b', '#56b4e9', '#7f3c8d', '#888888', '#a0522d', '#2f4f9f'];
+const plus = 'path://M4 0h2v4h4v2h-4v4h-2v-4h-4v-2h4z', star = 'path://M5 0l1.2 3.8h4l-3.2 2.4 1.2 3.8-3.2-2.3-3.2 2.3 1.2-3.8-3.2-2.4h4z';
+const symbols = ['circle', 'rect', 'triangle', 'diamond', 'emptyCircle', 'emptyRect', 'emptyTriangle', 'emptyDiamond', plus, star];
+const dashes = ['solid', 'dashed', 'dotted', [8, 3, 2, 3]];
+
+// On narrow screens the names stand in the legend alone; else also beside the lines, in a column so wide.
+const isNarrow = (width) => width < 600;
+const nameWidth = 235;
+
+export const themes = {
+  light: { text: '#1a1a1a', faint: '#6b6b6b', line: '#dddddd', back: '#ffffff', front: '#444444' },
+  dark: { text: '#eeeeee', faint: '#a8a8a8', line: '#3a3a3a', back: '#161a1d', front: '#bbbbbb' },
+};
+
+/// The points of a chart by series: rows with both figures, and those that failed.
+export function pointsOf(section, scene, x, y, rows) {
+  const own = rows.filter((row) => row.kind === section.kind && row.scene === scene);
+  const ok = own.filter((row) => row.status === 'ok');
+  // What has no place along x, as a scheme without a step, is a line across the chart.
+  const places = ok.map((row) => x.of(row)).filter((v) => v > 0);
+  const ends = [Math.min(...places), Math.max(...places)];
+  const point = (row) => (Number.isNaN(x.of(row)) ? ends : [x.of(row)]).map((v) => ({ x: v, y: y.of(row), row }));
+  const series = distinct(own, section.series).map((name, i) => ({
+    name, i,
+    points: ok.filter((row) => row[section.series] === name).flatMap(point)
+      .filter((p) => p.x > 0 && Number.isFinite(p.x) && Number.isFinite(p.y)),
+  }));
+  return { series, failed: own.filter((row) => row.status !== 'ok') };
+}
+
+// A logarithmic axis has no place for 0: it is shown at a power of ten below the least that is above it, where the axis
+// then begins and says 0. None where nothing is 0.
+function zeroOf(series) {
+  const values = series.flatMap((s) => s.points.map((p) => p.y));
+  if (values.every((y) => y > 0)) return undefined;
+  const above = values.filter((y) => y > 0);
+  return above.length ? 10 ** Math.floor(Math.log10(Math.min(...above)) - 0.5) : 1e-3;
+}
+
+const described = (row) =>
+  [`<b>${row.method}</b>`, row.setting + (row.default === 1 ? ' — the default' : ''), row.scene].join('<br>');
+
+function tooltipOf(p, x, y) {
+  const value = (figure, v) => `${figure.name}: ${shown(v)} ${figure.unit}`;
+  const row = p.row;
+  const spread = Number.isNaN(row.seconds) ? '' :
+    `<br>${shown(row.runs)} runs, the middle half from ${shown(row.seconds_q1)} to ${shown(row.seconds_q3)} s`;
+  return `${described(row)}<br>${value(x, p.x)}<br>${value(y, p.y)}${spread}`;
+}
+
+const wordsOf = { axis: (v) => {
+  const power = Math.log10(v);
+  if (Math.abs(power - Math.round(power)) > 1e-6) return '';
+  return Math.abs(power) > 3 ? `10${raised(Math.round(power))}` : String(+v.toPrecision(6));
+} };
+
+// The axis of values of which some are 0.
+const zeroAxis = (zero, series, color) => ({
+  min: zero, max: series.every((s) => s.points.every((p) => p.y <= 0)) ? 1 : undefined,
+  axisLabel: { color, hideOverlap: true, formatter: (v) => (v <= zero * 1.001 ? '0' : wordsOf.axis(v)) },
+});
+
+function axis(figure, along, theme, narrow) {
+  return {
+    type: 'log', name: axisName(figure, along), nameLocation: 'middle', nameGap: along === 'x' ? 28 : narrow ? 40 : 48,
+    nameTextStyle: { color: theme.text, fontSize: narrow ? 11 : 13 },
+    axisLabel: { color: theme.text, formatter: wordsOf.axis, hideOverlap: true },
+    axisLine: { show: true, lineStyle: { color: theme.faint } }, axisTick: { show: true },
+    splitLine: { lineStyle: { color: theme.line } },
+  };
+}
+
+function lineSeries(s, { x, y, section }, floor, theme, width) {
+  const narrow = isNarrow(width);
+  const colour = colours[s.i % colours.length];
+  const last = s.points.length - 1;
+  const exponent = section.fit ? fittedExponent(s.points) : NaN;
+  const name = s.name + (Number.isNaN(exponent) ? '' : `  ^${exponent.toFixed(2)}`);
+  return {
+    name, type: 'line', color: colour, symbol: symbols[s.i % symbols.length], symbolSize: narrow ? 8 : 10,
+    lineStyle: { color: colour, width: 1.5, type: dashes[Math.floor(s.i / 2) % dashes.length] },
+    itemStyle: { color: colour }, z: 3, clip: false,
+    labelLayout: { x: width - nameWidth + 12, moveOverlap: 'shiftY' },
+    labelLine: { show: !narrow, length2: 4, lineStyle: { color: theme.faint, width: 0.7 } },
+    data: s.points.map((p, k) => ({
+      value: [p.x, Math.max(p.y, floor)], told: tooltipOf(p, x, y),
+      label: k === last && !narrow
+        ? { show: true, align: 'left', minMargin: 8, color: theme.text, fontSize: 12, formatter: name }
+        : { show: false },
+    })),
+  };
+}
+
+function frontSeries(series, floor, theme) {
+  const front = paretoFront(series.flatMap((s) => s.points.map((p) => ({ x: p.x, y: Math.max(p.y, floor) }))));
+  return {
+    name: 'Pareto front', type: 'line', step: 'end', symbol: 'none', showSymbol: false, silent: true, z: 1, color: theme.front,
+    lineStyle: { color: theme.front, width: 5, opacity: 0.3 }, data: front.map((p) => [p.x, p.y]),
+  };
+}
+
+// A ring around the points that the programs take where nothing is said.
+function defaultSeries(series, floor, theme, narrow) {
+  const data = series.flatMap((s) => s.points).filter((p) => p.row.default === 1)
+    .filter((p, i, all) => all.findIndex((other) => other.row === p.row) === i);
+  return {
+    name: 'default', type: 'scatter', symbol: 'circle', symbolSize: 20, silent: true, z: 4, color: theme.text,
+    itemStyle: { color: 'transparent', borderColor: theme.text, borderWidth: 2 },
+    data: data.map((p) => ({
+      value: [p.x, Math.max(p.y, floor)],
+      label: { show: !narrow, position: 'top', distance: 3, formatter: 'default', color: theme.text, fontWeight: 'bold' },
+    })),
+  };
+}
+
+/// A chart of one scene with these figures along its axes. `title` is drawn within it, where it is given.
+export function chartOption(asked, theme, width) {
+  const { section, scene, x, y, rows, title } = asked;
+  const narrow = isNarrow(width);
+  const { series, failed } = pointsOf(section, scene, x, y, rows);
+  const zero = zeroOf(series), floor = zero ?? 0;
+  const drawn = series.filter((s) => s.points.length);
+  const lines = drawn.map((s) => lineSeries(s, asked, floor, theme, width));
+  const all = section.pareto && y.better < 0 && x.better < 0 ? [frontSeries(drawn, floor, theme), ...lines] : lines;
+  const standard = defaultSeries(drawn, floor, theme, narrow);
+  if (standard.data.length) all.push(standard);
+  const legendRows = legendRowsOf(all.map((one) => one.name), narrow, width);
+  const above = (title ? 34 : 4) + (16 + legendGap(narrow)) * legendRows + 10;
+  return {
+    animation: false, backgroundColor: theme.back, textStyle: { fontFamily: 'DejaVu Sans, sans-serif' },
+    title: title ? { text: title, left: 8, top: 6, textStyle: { color: theme.text, fontSize: narrow ? 13 : 16 } } : undefined,
+    legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 28, itemGap: legendGap(narrow), data: all.map((one) => one.name), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 } },
+    grid: { left: narrow ? 62 : 74, right: narrow ? 16 : nameWidth, top: above, bottom: failed.length ? 84 : 56 },
+    tooltip: { trigger: 'item', confine: true, formatter: (p) => p.data.told ?? '' },
+    xAxis: axis(x, 'x', theme, narrow), yAxis: { ...axis(y, 'y', theme, narrow), ...(zero ? zeroAxis(zero, series, theme.text) : {}) }, series: all,
+    graphic: failureNote(failed, theme, width),
+  };
+}
+
+const legendGap = (narrow) => (narrow ? 8 : 18);
+
+// How many rows the legend will take: names as wide as DejaVu Sans draws them, about.
+function legendRowsOf(names, narrow, width) {
+  const letter = narrow ? 6.8 : 7.4, gap = legendGap(narrow);
+  let rows = 1, used = 0;
+  for (const name of names) {
+    const wide = 36 + letter * name.length + gap;
+    if (used + wide > width - 16) rows++, used = 0;
+    used += wide;
+  }
+  return rows;
+}
+
+// What failed has no place on the axes: crosses under them, with names.
+function failureNote(failed, theme, width) {
+  if (!failed.length) return [];
+  const names = distinct(failed, 'method').map((m) => `${m} (${failed.filter((row) => row.method === m).length})`);
+  return [{
+    type: 'text', left: 8, bottom: 6,
+    style: { fontFamily: 'DejaVu Sans, sans-serif', text: `✕ failed: ${names.join(', ')}`, fill: theme.text, fontSize: 12, width: width - 16, overflow: 'truncate' },
+  }];
+}

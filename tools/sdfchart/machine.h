@@ -1,0 +1,10 @@
+// The machine that is measured on.
+#pragma once
+#include <string>
+
+namespace sdf::chart {
+
+/// The processor, the cores in use, the instruction set and the memory.
+std::string machine();
+
+}  // namespace sdf::chart

@@ -1,0 +1,123 @@
+// sdfchart: how fast and how right every method is, measured and drawn.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include "charts.h"
+#include "machine.h"
+#include "measurements.h"
+#include "options.h"
+#include "sdf/base/version.h"
+
+namespace sdf::chart {
+namespace {
+
+int fail(const std::string& message, int status) {
+  std::string line = "sdfchart: " + message;
+  for (char& c : line)
+    if (c == '\n' || c == '\r') c = ' ';
+  std::cerr << line << std::endl;
+  return status;
+}
+int fail(const Error& error) { return fail(error.message, static_cast<int>(error.kind)); }
+
+void stopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { RunProgress::endRun(); };
+  action.sa_flags = SA_RESETHAND;  // a second one ends the program
+  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+}
+
+Result<std::vector<Subject>> subjectsOf(const Options& options) {
+  if (options.scenes.empty()) return standardSubjects(options.quick || options.trial);
+  std::vector<Subject> subjects;
+  for (const auto& file : options.scenes) {
+    Result<Subject> subject = loadSubject(file);
+    if (!subject) return subject.error();
+    subjects.push_back(std::move(*subject));
+  }
+  return subjects;
+}
+
+std::vector<Batch> batchesOf(const Options& options, const std::vector<Subject>& subjects) {
+  const Extent extent = options.trial ? Extent::Trial : options.quick ? Extent::Quick : Extent::Full;
+  std::vector<Batch> all;
+  const auto add = [&](const char* kind, std::vector<Batch> batches) {
+    if (options.measures(kind)) all.insert(all.end(), batches.begin(), batches.end());
+  };
+  const bool own = options.scenes.empty();
+  add("meshing", meshingBatches(subjects, extent));
+  add("marching", marchingBatches(own ? std::vector<Subject>() : subjects, extent));
+  if (!own) return all;  // the others measure scenes of their own
+  add("normals", normalBatches(extent));
+  add("shadows", shadowBatches(extent));
+  add("occlusion", occlusionBatches(extent));
+  add("evaluation", evaluationBatches(extent));
+  add("growth", growthBatches(extent));
+  add("stability", stabilityBatches(extent));
+  return all;
+}
+
+// What a run must have in common with the one that it goes on with.
+std::string madeBy(const Options& options) {
+  std::string text = std::string("sdfchart ") + version() +
+                     (options.quick   ? " --quick"
+                      : options.trial ? " --trial"
+                                      : "");
+  for (const auto& scene : options.scenes) text += " " + scene.string();
+  return text + "; seed 1";
+}
+
+Status makeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder) || ::access(folder.c_str(), W_OK | X_OK) != 0)
+    return Error{ErrorKind::Files, "cannot write to the folder '" + folder.string() + "'" +
+                                       (error ? ": " + error.message() : "") + "; name another one with -o"};
+  return okStatus();
+}
+
+Status measure(const Options& options, RunProgress& progress) {
+  Result<std::vector<Subject>> subjects = subjectsOf(options);
+  if (!subjects) return subjects.error();
+  Result<Results> results = Results::open(options.output / "results.csv", madeBy(options));
+  if (!results) return results.error();
+  return runBatches(batchesOf(options, *subjects), *results, machine(), progress);
+}
+
+int run(const Options& options) {
+  if (Status s = makeFolder(options.output); !s) return fail(s.error());
+  RunProgress progress(!options.quiet, ::isatty(STDERR_FILENO) == 1);
+  stopOnSignals();
+  const Status measured = options.drawOnly ? okStatus() : measure(options, progress);
+  progress.clear();
+  if (RunProgress::toldToEnd())
+    return fail({ErrorKind::Interrupted, "interrupted; call it again in the same way to go on"});
+  if (!measured) return fail(measured.error());
+  const std::filesystem::path packages =
+      options.packages.empty() ? std::filesystem::path(SDFCHART_PACKAGES) : options.packages;
+  if (const std::string why = drawCharts({SDFCHART_SCRIPTS, packages}, options.output); !why.empty())
+    return fail(why, kNotDrawn);
+  if (options.check)
+    if (const Checked checked = checkDefaults({SDFCHART_SCRIPTS, packages}, options.output);
+        checked.status != 0)
+      return fail(checked.wrong, checked.status);
+  if (!options.quiet) std::cout << (options.output / "index.html").string() << std::endl;
+  return 0;
+}
+
+}  // namespace
+}  // namespace sdf::chart
+
+int main(int argc, char** argv) {
+  auto parsed = sdf::chart::parseOptions(argc, argv);
+  if (!parsed) return sdf::chart::fail(parsed.error());
+  if (const auto* answer = std::get_if<sdf::command_line::Answer>(&*parsed)) {
+    std::cout << answer->text;
+    return 0;
+  }
+  return sdf::chart::run(std::get<sdf::chart::Options>(*parsed));
+}

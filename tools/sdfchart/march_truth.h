@@ -1,0 +1,39 @@
+// Rays whose first hits are known, for methods of marching to be held to.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "row.h"
+#include "sdf/march/march.h"
+
+namespace sdf::chart {
+
+/// Along a ray, the thinnest solid that the truth is sure to know; scene units.
+inline constexpr double kSliver = 1e-5;
+
+/// A scene seen by a camera.
+struct MarchedScene {
+  std::string name;
+  Shape shape;
+  glm::dvec3 from;  ///< the camera looks at the origin
+  double radius;    ///< of what it sees around the origin
+};
+
+/// Smooth, sharp, thin, grazing, far away, steep, and without a known slope; unless all, some of them.
+std::vector<MarchedScene> marchedScenes(bool all);
+
+/// A square of rays, `side` a side, that fills what the camera sees of the scene.
+Rays cameraRays(const MarchedScene& scene, int side);
+
+/// Where each ray first meets the solid, by steps of `step` in double (marchDensely) and halving, in
+/// parallel; nothing where it meets none. What the slope does not prove free between two steps is looked at
+/// in ever smaller ones, down to kSliver; without a known slope solids thinner than a step may be passed.
+std::vector<std::optional<double>> trueHits(const MarchField& field, const Rays& rays,
+                                            const MarchedScene& scene, double step);
+
+/// Fills error figures from what a method found: rms and max of the depth where both hit, and the shares of
+/// all rays that missed what is there, running out of steps included, and hit what is not.
+void judgeHits(const Hits& hits, const std::vector<std::optional<double>>& truth, Row& row);
+
+}  // namespace sdf::chart

@@ -1,0 +1,109 @@
+// Methods of marching at their thresholds: time and readings a ray against what they hit.
+#include <glm/geometric.hpp>
+
+#include "march_truth.h"
+#include "measurements.h"
+#include "sdf/shape/operators.h"
+
+namespace sdf::chart {
+namespace {
+
+struct Shared {
+  MarchedScene scene;
+  int side;
+  double step;  // of the dense march
+  MarchField field{};
+  Rays rays{};
+  std::vector<std::optional<double>> truth{};
+
+  Shared(MarchedScene s, int n, double denseStep) : scene(std::move(s)), side(n), step(denseStep) {
+    field = take(marchField(scene.shape));
+    rays = cameraRays(scene, side);
+  }
+  const std::vector<std::optional<double>>& truthNow() {
+    if (truth.empty()) truth = trueHits(field, rays, scene, step);
+    return truth;
+  }
+};
+
+struct NamedMethod {
+  const char* name;
+  MarchMethod method;
+  bool lookBehind = false;
+};
+constexpr NamedMethod kMethods[] = {
+    {"plain", MarchMethod::Plain},
+    {"over-relaxed", MarchMethod::OverRelaxed},
+    {"accelerated", MarchMethod::Accelerated},
+    {"auto-relaxed", MarchMethod::AutoRelaxed},
+    {"auto-relaxed, looks behind", MarchMethod::AutoRelaxed, true},
+    {"segment", MarchMethod::Segment},
+    {"bisection", MarchMethod::Bisection},
+};
+
+// The viewer's: auto-relaxed steps that look behind, 1e-5 of the view, 1024 steps (viewer/render/frame.h).
+constexpr double kViewersEpsilon = 1e-5;
+constexpr int kViewersSteps = 1024;
+
+Measurement measurement(const std::shared_ptr<Shared>& shared, const NamedMethod& method, double epsilon,
+                        int steps) {
+  char setting[64];
+  std::snprintf(setting, sizeof setting, "threshold %g", epsilon);
+  Row row{
+      .kind = "marching",
+      .scene = shared->scene.name + (steps == kViewersSteps ? "" : ", " + std::to_string(steps) + " steps"),
+      .method = method.name,
+      .setting = setting,
+      .size = epsilon};
+  row.isDefault = method.lookBehind && epsilon == kViewersEpsilon && steps == kViewersSteps;
+  row.items = static_cast<double>(shared->rays.size());
+  const MarchOptions options{
+      .method = method.method, .epsilon = epsilon, .maxSteps = steps, .lookBehind = method.lookBehind};
+  return {row, [shared, options](Row* judged) {
+            Marcher marcher = take(Marcher::make(shared->field, options));
+            Hits hits;
+            const double seconds = secondsOf([&] { hits = take(marcher.trace(shared->rays)); });
+            if (judged) {
+              judgeHits(hits, shared->truthNow(), *judged);
+              judged->truth = kSliver;
+            }
+            return seconds;
+          }};
+}
+
+}  // namespace
+
+std::vector<Batch> marchingBatches(const std::vector<Subject>& files, Extent extent) {
+  std::vector<MarchedScene> scenes;
+  for (const Subject& file : files) {
+    const double radius = 0.5 * glm::length(file.bounds.size());
+    // The camera looks at the origin.
+    const Shape centred = translate(file.shape, Vec3E(-file.bounds.centre()));
+    scenes.push_back({file.name, centred, 2.0 * radius * glm::normalize(glm::dvec3(2.0, 1.6, 3.4)), radius});
+  }
+  if (files.empty()) scenes = marchedScenes(extent == Extent::Full);
+  const auto thresholds = byExtent<std::vector<double>>(extent, {1e-2, 1e-3, 1e-4, kViewersEpsilon, 1e-6},
+                                                        {1e-2, 1e-3, kViewersEpsilon}, {kViewersEpsilon});
+  const auto budgets =
+      byExtent<std::vector<int>>(extent, {kViewersSteps, 64}, {kViewersSteps}, {kViewersSteps});
+  std::vector<Batch> batches;
+  for (const MarchedScene& scene : scenes)
+    batches.push_back({.subject = "marching " + scene.name,
+                       .weight = byExtent(extent, 25.0, 4.0, 1.0),
+                       .runs = byExtent(extent, 5, 3, 1),
+                       .budget = byExtent(extent, 15.0, 1.0, 0.0),
+                       .make = [scene, thresholds, budgets, extent] {
+                         const auto shared =
+                             std::make_shared<Shared>(scene, byExtent(extent, 64, 32, 12),
+                                                      byExtent(extent, 1e-3, 2e-3, 4e-3) * scene.radius);
+                         std::vector<Measurement> all;
+                         for (const int steps : budgets)
+                           for (const NamedMethod& method : kMethods)
+                             for (const double epsilon : thresholds)
+                               all.push_back(measurement(shared, method, epsilon, steps));
+                         return all;
+                       }});
+  return batches;
+}
+
+}  // namespace sdf::chart
