@@ -141,18 +141,19 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
   const bool whole = obstacles.planes.empty();
   const auto& rest = obstacles.rest;
   const auto both = [&](const Marched& m, const std::string& distance, const std::string& function,
-                        const std::string& rough) {
-    return obstacles.shared ? function + "(p, " + rough + ")" : bothOf(m, distance, function);
+                        const std::string& enough) {
+    return obstacles.shared ? function + "(p, " + enough + ")" : bothOf(m, distance, function);
   };
-  return {{"REST", !rest   ? "vec2(1e30)"
-                   : whole ? both(*rest, "sdfDistance", "sdfBoth", "rough")
-                           : both(*rest, "sdfRest", "sdfBothOfRest", "rough")},
-          {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "false")},
-          {"TAPPED(p)", obstacles.shared ? "sdfBoth(p, true).y" : "sdfDistance(p, vec3(0.0))"},
-          {"OVER_SURFACE", isApart(obstacles.whole) ? "min(f, h)" : "f"},
-          {"PLANES", std::to_string(2 * obstacles.planes.size())},
-          {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
-          {"OPERAND", obstacles.operand ? "sdfOperand(p, vec3(0.0))" : "0.0"}};
+  return {
+      {"REST", !rest   ? "vec2(1e30)"
+               : whole ? both(*rest, "sdfDistance", "sdfBoth", "enough")
+                       : both(*rest, "sdfRest", "sdfBothOfRest", "enough")},
+      {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "1e30")},
+      {"DISTANCE_UP_TO(p, enough)", obstacles.shared ? "sdfBoth(p, enough).y" : "sdfDistance(p, vec3(0.0))"},
+      {"OVER_SURFACE", isApart(obstacles.whole) ? "min(f, h)" : "f"},
+      {"PLANES", std::to_string(2 * obstacles.planes.size())},
+      {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
+      {"OPERAND", obstacles.operand ? "sdfOperand(p, vec3(0.0))" : "0.0"}};
 }
 
 Functions meetingFunctions(const Obstacles& obstacles) {

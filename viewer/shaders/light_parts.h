@@ -100,7 +100,7 @@ float visible(vec3 p, vec3 l, float reach) {
   if (leastOfPlanes(p, l, reach) <= 0.0) return 0.0;
   clip(p, l, 0.0, t, reach);
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
-    vec2 g = rest(p + t * l, false);
+    vec2 g = rest(p + t * l, 1e30);
     COUNT_SHADOW
     if (max(g.x, g.y) <= shadowHit) return 0.0;
     t += g.x;
@@ -123,7 +123,7 @@ float shadow(vec3 p, vec3 l, float reach) {
   clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
   float far = 0.0, least = 0.0, stepBefore = 0.0, riseBefore = 0.0, before = 0.0;
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
-    vec2 g = rest(p + t * l, false);
+    vec2 g = rest(p + t * l, 1e30);
     COUNT_SHADOW
     if (max(g.x, g.y) <= shadowHit) return 0.0;
     float ratio = g.y / t, step = t - far, rise = (g.y * g.y - least * least * far * far) / step;
@@ -216,7 +216,7 @@ uniform float tapSpacing, tapStrength;
 float occlusion(vec3 p, vec3 n) {
   float closed = 0.0;
   for (int i = 1; i <= TAPS; ++i) {
-    float h = tapSpacing * float(i), f = sdfDistance(p + h * n, vec3(0.0));
+    float h = tapSpacing * float(i), f = DISTANCE_UP_TO(p + h * n, h);
     closed += (h - OVER_SURFACE) / h;
     COUNT_OCCLUSION
   }

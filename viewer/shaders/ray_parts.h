@@ -62,17 +62,17 @@ inline constexpr const char* kField = R"(
 vec2 field(vec3 p) { return FIELD; }
 )";
 
-/// Defines rest(p, rough), the same for the scene without its half spaces; roughly, both may be too small
-/// where p is far from all of it.
+/// Defines rest(p, enough), the same for the scene without its half spaces; where both are at least `enough`
+/// they may be less than they are, but no less than that.
 inline constexpr const char* kRest = R"(
-vec2 rest(vec3 p, bool rough) { return REST; }
+vec2 rest(vec3 p, float enough) { return REST; }
 )";
 
 /// The same of a box.
 inline constexpr const char* kRestByBox = R"(
 uniform vec3 boxMiddle, boxHalf;
 
-vec2 rest(vec3 p, bool rough) {
+vec2 rest(vec3 p, float enough) {
   vec3 gap = abs(p - boxMiddle) - boxHalf;
   return vec2(length(max(gap, 0.0)) + min(max(gap.x, max(gap.y, gap.z)), 0.0));
 }
@@ -119,7 +119,7 @@ float march(Ray ray, out int status, out int readings) {
     return tMax;
   }
   while (readings < maxSteps) {
-    vec2 both = rest(ray.origin + (t + z) * ray.direction, true);
+    vec2 both = rest(ray.origin + (t + z) * ray.direction, 0.0);
     float next = both.x;
     ++readings;
     bool inside = step == BEHIND && next <= 0.0;
@@ -168,7 +168,7 @@ vec3 gradientAt(vec3 p) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     vec3 corner = vec3(float(((i + 3) >> 1) & 1), float((i >> 1) & 1), float(i & 1)) * 2.0 - 1.0;
-    sum += corner * TAPPED(p + h * corner);
+    sum += corner * DISTANCE_UP_TO(p + h * corner, 0.0);
   }
   return 0.25 / h * sum;
 }
@@ -247,7 +247,7 @@ void main() {
       break;
     }
     float at = back ? end : t, wide = spread * ahead + widening * at;
-    float free = rest(ray.origin + at * ray.direction, true).x - wide;
+    float free = rest(ray.origin + at * ray.direction, 0.0).x - wide;
     ++readings;
     if (free <= (1.0 + widening) * (0.25 * wide + epsilon)) {
       if (back || !first) break;

@@ -108,10 +108,11 @@ std::string Loops::cellOf() const {
   const std::string count = std::to_string(CellGrid::kLevels), last = std::to_string(grid.cells() - 1);
   const auto& [half, size, side, first] = grid.levels.front();
   return "const ivec3 sdfSides[" + count + "] = ivec3[](" + sides + ");\nconst int sdfFirsts[" + count +
-         "] = int[](" + firsts + ");\nint sdfCell(vec3 p, bool rough, out float free) {\n  vec3 off = p - " +
-         vector(grid.middle) + ", beyond = abs(off) - " + vector(half) +
+         "] = int[](" + firsts +
+         ");\nint sdfCell(vec3 p, float enough, out float free) {\n  vec3 off = p - " + vector(grid.middle) +
+         ", beyond = abs(off) - " + vector(half) +
          ";\n  float far = max(beyond.x, max(beyond.y, beyond.z));\n  free = far + " + number(grid.margin) +
-         ";\n  if (rough && far > 0.0) return " + std::to_string(grid.cells()) +
+         ";\n  if (far > 0.0 && free >= enough) return " + std::to_string(grid.cells()) +
          ";\n  free = 1e30;\n  int level = max((floatBitsToInt(1.0 + far * " + number(1.0 / grid.reach) +
          ") >> 23) - 126, 0);\n  if (level >= " + count + ") return " + last +
          ";\n  float two = intBitsToFloat((127 + level) << 23);\n  vec3 at = (off + (" + vector(half) +
@@ -125,7 +126,7 @@ std::string Loops::begin() const {
   if (!plan_.cells) return "";
   const std::size_t count = cellTexels(plan_.cells->kinds());
   std::string text = "  float free;\n  int cell = " + std::to_string(rows_.texels()) + " + " +
-                     std::to_string(count) + " * sdfCell(p, rough, free);\n  least = min(least, free);\n";
+                     std::to_string(count) + " * sdfCell(p, enough, free);\n  least = min(least, free);\n";
   for (std::size_t i = 0; i < count; ++i)
     text += "  vec4 lists" + std::to_string(i) + " = sdfTexel(cell + " + std::to_string(i) + ");\n";
   return text;
@@ -184,20 +185,20 @@ std::string sharing(const Plan& plan, const RowWriter& rows) {
   };
   const std::string beside = from(hasBeside, hasBeside && isApart(besideOf(plan)), "sdfBeside");
   const auto both = [&](const std::string& name, const std::string& start) {
-    return "vec2 " + name + "(vec3 p, bool rough) {\n  vec3 n = vec3(0.0);\n  float number = 0.0;\n" +
-           "  return vec2(sdfLeast(p, " + start + ", number, rough));\n}\n";
+    return "vec2 " + name + "(vec3 p, float enough) {\n  vec3 n = vec3(0.0);\n  float number = 0.0;\n" +
+           "  return vec2(sdfLeast(p, " + start + ", number, enough));\n}\n";
   };
   std::string text = searches + write.type() + " sdfLeast(vec3 p, " + write.type() +
-                     " least, inout float number, bool rough) {\n  vec3 n = vec3(0.0);\n" + loops +
+                     " least, inout float number, float enough) {\n  vec3 n = vec3(0.0);\n" + loops +
                      "  return least;\n}\n" + both("sdfBoth", beside) +
-                     "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p, false).y; }\n";
+                     "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p, 1e30).y; }\n";
   if (hasPlanes)
     text += both("sdfBothOfRest",
                  from(!others.empty(), !others.empty() && isApart(leastOf(others)), "sdfOthers"));
   if ((plan.bounces > 0 || !plan.grouped) && !plan.operands.empty())
     text += "float sdfOperand(vec3 p, vec3 n) {\n  float number = " +
             (hasBeside ? "sdfNearestBeside(p, n)" : std::string("0.0")) + ";\n  sdfLeast(p, " + beside +
-            ", number, true);\n  return number;\n}\n";
+            ", number, 0.0);\n  return number;\n}\n";
   return text;
 }
 
