@@ -100,7 +100,7 @@ float visible(vec3 p, vec3 l, float reach) {
   if (leastOfPlanes(p, l, reach) <= 0.0) return 0.0;
   clip(p, l, 0.0, t, reach);
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
-    vec2 g = rest(p + t * l, 1e30);
+    vec2 g = rest(p + t * l, 0.0);
     COUNT_SHADOW
     if (max(g.x, g.y) <= shadowHit) return 0.0;
     t += g.x;
@@ -115,7 +115,8 @@ float shadow(vec3 p, vec3 l, float reach) { return visible(p, l, reach); }
 
 /// Between readings by sdf/march/shadow.h's parabola: far, least, stepBefore and riseBefore are the t of the
 /// reading before, its f / t, the step to it and how f * f rose along that; before is the f / t of the one
-/// before that.
+/// before that. What is so far that it leaves all light needs no exact reading: the parabola lessens an f / t
+/// to no less than sqrt(0.75) of it.
 inline constexpr const char* kSoftShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
@@ -123,7 +124,7 @@ float shadow(vec3 p, vec3 l, float reach) {
   clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
   float far = 0.0, least = 0.0, stepBefore = 0.0, riseBefore = 0.0, before = 0.0;
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
-    vec2 g = rest(p + t * l, 1e30);
+    vec2 g = rest(p + t * l, 1.2 * t / sharpness);
     COUNT_SHADOW
     if (max(g.x, g.y) <= shadowHit) return 0.0;
     float ratio = g.y / t, step = t - far, rise = (g.y * g.y - least * least * far * far) / step;

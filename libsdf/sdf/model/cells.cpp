@@ -308,9 +308,10 @@ bool CellSorter::worthwhile(const std::vector<OperandKind>& kinds) {
 CellSorter::CellSorter(const std::vector<OperandKind>& kinds)
     : numbers_(numbersOf(kinds)), grid_(gridAround(boundsOf(kinds), groupsOf(kinds))) {
   for (const OperandKind& kind : kinds) {
-    Kind& made = kinds_.emplace_back(Function({kind.distance, kind.step}), std::vector<std::string>(),
-                                     static_cast<int>(kind.groups.numbers.size()), kind.slope);
-    for (const Expr& parameter : kind.groups.parameters) made.names.push_back(parameter.parameterInfo().name);
+    kinds_.push_back(
+        {Function({kind.distance, kind.step}), {}, static_cast<int>(kind.groups.numbers.size()), kind.slope});
+    std::vector<std::string>& names = kinds_.back().names;
+    for (const Expr& parameter : kind.groups.parameters) names.push_back(parameter.parameterInfo().name);
   }
 }
 

@@ -11,11 +11,10 @@
 
 namespace sdf {
 
-/// A CellGrid divides space into cubes: those of level 0 fill a box around all bounds, those of the next
-/// levels, each twice as large as the ones before, the space around it as far as `reach`, 3 times, 7 times
-/// and so on that. What lies beyond is one cell more, the last.
+/// A CellGrid divides space into cubes: those of level 0 fill a box around all bounds, those of level 1,
+/// twice as large, the space around it as far as `reach`. What lies beyond is one cell more, the last.
 struct CellGrid {
-  static constexpr int kLevels = 3;
+  static constexpr int kLevels = 2;
   struct Level {
     glm::dvec3 half;  ///< of all that it and those before fill
     double size;      ///< the side of its cubes
