@@ -16,6 +16,7 @@ namespace {
 using viewer::Start;
 using viewer::View;
 
+// Scenes of many parts have so many edges that hits beside the surface would decide too many pixels.
 std::vector<glm::dvec3> drawn(const Scene& scene, Start start, View view = View::Normals,
                               const Values& parameters = {}) {
   GpuRenderOptions options;
@@ -23,6 +24,7 @@ std::vector<glm::dvec3> drawn(const Scene& scene, Start start, View view = View:
   options.height = 180;
   options.shader.view = view;
   options.shader.start = start;
+  if (viewer::planOf(scene, options.shader)->cells) options.threshold = 0.0;
   options.parameters = parameters;
   return colors(renderOnGpu(scene, options));
 }
