@@ -81,29 +81,19 @@ class Sdfview : public testing::Test {
 TEST_F(Sdfview, SaysWhatItCanDo) {
   const Outcome help = run({"--help"}), version = run({"--version"});
   EXPECT_EQ(help.status, 0);
-  for (const char* word : {"SCENE",
-                           "--render",
-                           "--size",
-                           "--time",
-                           "--samples",
-                           "--seconds",
-                           "--steps",
-                           "--view",
-                           "--method",
-                           "--start",
-                           "-D",
-                           "--camera",
-                           "--fit",
-                           "--frames",
-                           "--fps",
-                           "--bench",
-                           "--glsl",
-                           "--version",
-                           "--tolerance",
-                           "--voxel-size",
-                           "--mesh",
-                           "--split",
-                           "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
+  for (const char* word :
+       {"SCENE",        "--render",
+        "--size",       "--time",
+        "--samples",    "--seconds",
+        "--steps",      "--view",
+        "--method",     "--start",
+        "--no-culling", "-D",
+        "--camera",     "--fit",
+        "--frames",     "--fps",
+        "--bench",      "--glsl",
+        "--version",    "--tolerance",
+        "--voxel-size", "--mesh",
+        "--split",      "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(version.out.rfind("sdfview ", 0), 0u) << version.out;
@@ -530,6 +520,20 @@ TEST_F(Sdfview, WarnsOfShadowsThatRanOutOfSteps) {
     for (std::size_t i = 3; i < picture.bytes.size(); i += 4) ASSERT_EQ(picture.bytes[i], 255);
   }
   EXPECT_EQ(run({scene(kGrazed), "--render", png, "--size", "64x48"}).err, "");
+}
+
+// Rays take fewer readings of all parts in turn, which are counted by the share of the parts that they look
+// at.
+TEST_F(Sdfview, ReadsAllPartsIfToldTo) {
+  const auto primary = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{std::string(SDF_SOURCE_DIR) + "/samples/bench/v_balls.lua", "--bench", "1",
+                                 "--size", "64x64"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = run(all);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out)["readings_a_ray"]["primary"].get<double>();
+  };
+  EXPECT_GT(primary({}), 2.0 * primary({"--no-culling"}));
 }
 
 TEST_F(Sdfview, ReportsWhatFramesCost) {
