@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,14 @@ TexelRow::TexelRow()
       texture_(glGenTextures, [](unsigned id) { glDeleteTextures(1, &id); }) {}
 
 Status TexelRow::fill(std::span<const glm::vec4> texels) {
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-  if (texels.size() > static_cast<std::size_t>(most))
-    return Error{ErrorKind::Limits, "the scene has " + std::to_string(texels.size()) +
-                                        " groups of numbers, and this graphics driver has room for " +
-                                        std::to_string(most) + "; give it fewer parts"};
+  GLint room = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &room);
+  // Floats, which say where something is, tell so many apart.
+  const std::size_t most = std::min(static_cast<std::size_t>(room), std::size_t{1} << 24);
+  if (texels.size() > most)
+    return Error{ErrorKind::Limits, "the scene's parts take " + std::to_string(texels.size()) +
+                                        " texels, and there is room for " + std::to_string(most) +
+                                        "; draw it with --no-culling, or give it fewer parts"};
   glBindBuffer(GL_TEXTURE_BUFFER, buffer_.id());
   glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(texels.size_bytes()), texels.data(), GL_STATIC_DRAW);
   glBindTexture(GL_TEXTURE_BUFFER, texture_.id());

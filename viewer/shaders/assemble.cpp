@@ -194,8 +194,8 @@ Shader picture(const Scene& scene, const Plan& plan, const RowWriter& rows, Glsl
   if (!plan.surfaceRows.parameters.empty()) {
     taken.push_back(taken.size());
     takeSurface = " sdfTake" + std::to_string(taken.back()) + "(" +
-                  std::to_string(rows.firstOf(taken.back())) + " + " +
-                  std::to_string(rows.strideOf(taken.back())) + " * int(operand));";
+                  std::to_string(rows.rangeOf(taken.back()).first) + " + " +
+                  std::to_string(rows.rangeOf(taken.back()).stride) + " * int(operand));";
   }
   Macros macros = pictureMacros(scene, plan, takeSurface);
   macros.merge(meetingMacros(obstacles, plan));
@@ -264,7 +264,7 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   std::string resolved = resolve.compose(dithers + encoder(scene, *plan) + parts::kResolve);
   std::vector<RowRange> kindRows;
   for (std::size_t i = 0; plan->kinds && i < plan->kinds->many.size(); ++i)
-    kindRows.push_back({plan->kinds->many[i].groups.numbers.size(), rows.firstOf(i), rows.strideOf(i)});
+    kindRows.push_back(rows.rangeOf(i));
   return SceneShaders{std::move(*plan), std::move(hits),    std::move(boxes),    std::move(triangles),
                       std::move(hull),  rows.numbers(),     std::move(kindRows), std::move(shown),
                       std::move(tiles), std::move(resolved)};

@@ -25,12 +25,14 @@ inline constexpr int kRowShift = 10, kRowTexels = 1 << kRowShift;
 /// in turn; then the lists.
 constexpr std::size_t cellTexels(std::size_t kinds) { return (kinds + 1) / 2; }
 
-/// Lists hold rows that are no longer than this, else in a texel each where the row is.
-constexpr bool isInList(std::size_t stride) { return stride <= 3; }
-
 /// A RowRange is a part of the texture sdfRows.
 struct RowRange {
   std::size_t count = 0, first = 0, stride = 0;  ///< rows; the first one, and the length of each, in texels
+
+  /// Lists hold rows themselves where these are short or few, else in a texel each where the row is.
+  bool isInLists() const { return stride == 1 || (stride <= 3 && count <= 2048); }
+  /// Returns how many texels of a list one of the rows takes.
+  std::size_t listed() const { return isInLists() ? stride : 1; }
 };
 
 /// HitShaders are the fragment shaders of a pass that looks where the rays of each tile start and, if it is
@@ -52,10 +54,10 @@ struct SceneShaders {
   /// One for each kind of operands, for the others and for the half spaces, or one that has cones only, or
   /// none.
   std::vector<HitShaders> hits;
-  std::string boxCones;   ///< the starts at boxes, if a pass has some
-  std::string triangles;  ///< draws the plan's meshes, if there are some
-  std::string hull;       ///< draws where rays enter the rest's hull, if the plan says so
-  Function rows;          ///< what the texture sdfRows holds: four numbers a texel, kRowTexels of these a row
+  std::string boxCones;            ///< the starts at boxes, if a pass has some
+  std::string triangles;           ///< draws the plan's meshes, if there are some
+  std::string hull;                ///< draws where rays enter the rest's hull, if the plan says so
+  Function rows;                   ///< what the texture sdfRows holds first: four numbers a texel
   std::vector<RowRange> kindRows;  ///< where those of the plan's kinds lie
   Shader picture;
   std::optional<Shader> background;  ///< what tiles show where there are no hits, if the plan is tiled

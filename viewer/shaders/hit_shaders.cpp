@@ -226,7 +226,7 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     Parts both{.cones = true, .hits = true, .share = operations(obstacles[i].whole.distance) / whole};
     if (i < many.size()) {
-      both.row = {many[i].groups.numbers.size(), rows.firstOf(i), rows.strideOf(i)};
+      both.row = rows.rangeOf(i);
       both.rows = rows.takingOne(i, both.writer);
       both.boxes = many[i].singles;
     } else if (const Box box = boundsOf(others); box.finite() && operations(rest) > kLongCones) {

@@ -107,8 +107,10 @@ void planShadows(const Scene& scene, Plan& plan) {
 }
 
 void planKinds(const std::vector<NumberedOperand>& operands, Plan& plan) {
-  Kinds kinds = kindsOf(operands, Grouping::Singles);
-  if (plan.options.culling && CellSorter::worthwhile(kinds.many))
+  Kinds kinds;
+  const bool mayList = plan.options.culling && operands.size() >= CellSorter::kFewest;
+  if (mayList) kinds = kindsOf(operands, Grouping::Singles);
+  if (mayList && CellSorter::worthwhile(kinds.many))
     plan.cells.emplace(kinds.many);
   else
     kinds = kindsOf(operands);

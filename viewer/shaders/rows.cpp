@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "viewer/shaders/assemble.h"
-
 namespace sdf::viewer {
 namespace {
 
@@ -20,7 +18,7 @@ std::string variable(std::size_t place, std::size_t i) {
 
 void RowWriter::add(const NumberRows& rows) {
   const std::size_t stride = texelsOf(rows.parameters.size());
-  tables_.push_back({numbers_.size() / kNumbers, stride, rows.parameters});
+  tables_.push_back({{rows.numbers.size(), texels(), stride}, rows.parameters});
   for (const std::vector<Expr>& row : rows.numbers) {
     numbers_.insert(numbers_.end(), row.begin(), row.end());
     numbers_.resize(kNumbers * texelsOf(numbers_.size()), Expr(0.0));
@@ -60,7 +58,7 @@ std::string RowWriter::taking(const std::vector<std::size_t>& places, GlslWriter
 }
 
 std::string RowWriter::takingOne(std::size_t place, GlslWriter& writer) const {
-  std::string text = "uniform vec4 sdfRow[" + std::to_string(tables_[place].stride) + "];\n" +
+  std::string text = "uniform vec4 sdfRow[" + std::to_string(tables_[place].range.stride) + "];\n" +
                      variables(place, writer) + "void sdfTake() {\n";
   for (std::size_t i = 0; i < tables_[place].parameters.size(); ++i)
     text += "  " + variable(place, i) + " = sdfRow[" + std::to_string(i / kNumbers) + "]." +

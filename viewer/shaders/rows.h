@@ -5,6 +5,7 @@
 
 #include "sdf/eval/glsl.h"
 #include "sdf/model/groups.h"
+#include "viewer/shaders/assemble.h"
 
 namespace sdf::viewer {
 
@@ -26,21 +27,20 @@ class RowWriter {
   /// Writes the variables of one row at this place, and `void sdfTake()`, which sets them from the uniform
   /// sdfRow: faster than the texture where all pixels take the same.
   std::string takingOne(std::size_t place, GlslWriter& writer) const;
-  /// Returns where the rows of a place begin, and how long each is, in texels.
-  std::size_t firstOf(std::size_t place) const { return tables_[place].first; }
-  std::size_t strideOf(std::size_t place) const { return tables_[place].stride; }
+  /// Returns where the rows of a place are.
+  const RowRange& rangeOf(std::size_t place) const { return tables_[place].range; }
   /// Writes `void sdfTake<name>(int at)`, which sets the first `count` of one place's variables from the
   /// texels from `at` on.
   std::string takingFirst(std::size_t place, std::size_t count, const std::string& name) const;
 
-  /// Returns what the texture holds, four numbers a texel; texel i lies in column i % kRowTexels of row
-  /// i / kRowTexels.
+  /// Returns what the texture holds first, four numbers a texel. In GLSL ES texel i lies in column
+  /// i % kRowTexels of row i / kRowTexels.
   Function numbers() const { return Function(numbers_); }
 
  private:
   std::string variables(std::size_t place, GlslWriter& writer) const;
   struct Table {
-    std::size_t first, stride;  // in texels
+    RowRange range;
     std::vector<Expr> parameters;
   };
   bool es_;  // GLSL ES has no samplerBuffer

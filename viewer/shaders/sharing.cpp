@@ -56,7 +56,6 @@ class Loops {
   const OperandKind& kind(std::size_t i) const { return plan_.kinds->many[i]; }
   std::string distance() const { return apart_ ? "least.y" : "least"; }
   std::string cellOf() const;
-  std::string takeGap(std::size_t i) const;
   std::string rowAt(std::size_t i) const;
   std::string stride(std::size_t i) const;
 
@@ -66,18 +65,15 @@ class Loops {
   std::string type_;
 };
 
-std::string Loops::takeGap(std::size_t i) const {
-  return kind(i).gapNumbers > 0 ? rows_.takingFirst(i, kind(i).gapNumbers, "Gap" + std::to_string(i)) : "";
-}
-
 // A term for where the row begins that is named at `at`.
 std::string Loops::rowAt(std::size_t i) const {
-  return plan_.cells && !isInList(rows_.strideOf(i)) ? "int(sdfTexel(at).x)" : "at";
+  return plan_.cells && !rows_.rangeOf(i).isInLists() ? "int(sdfTexel(at).x)" : "at";
 }
 
 // From one group to the next in a loop.
 std::string Loops::stride(std::size_t i) const {
-  return std::to_string(plan_.cells && !isInList(rows_.strideOf(i)) ? 1 : rows_.strideOf(i));
+  const RowRange& rows = rows_.rangeOf(i);
+  return std::to_string(plan_.cells ? rows.listed() : rows.stride);
 }
 
 // What looks for the next group, from the one at `at` on, that is near enough to its bounds to lessen what is
@@ -89,8 +85,9 @@ std::string Loops::search(std::size_t i) const {
   const auto share = [](double growth) { return number(growth < kInfinity ? 1.0 / growth : 0.0); };
   std::string isFar = "gap * " + share(kind(i).growth) + " >= " + distance();
   if (apart_) isFar += " && gap * " + share(kind(i).stepGrowth) + " >= least.x";
-  return takeGap(i) + head + "  for (; at < end; at += " + stride(i) + ") {\n    sdfTakeGap" + name + "(" +
-         rowAt(i) + ");\n    float gap = sdfGap" + name + "(p, vec3(0.0));\n    if (!(gap > 0.0 && " + isFar +
+  return rows_.takingFirst(i, kind(i).gapNumbers, "Gap" + name) + head +
+         "  for (; at < end; at += " + stride(i) + ") {\n    sdfTakeGap" + name + "(" + rowAt(i) +
+         ");\n    float gap = sdfGap" + name + "(p, vec3(0.0));\n    if (!(gap > 0.0 && " + isFar +
          ")) break;\n  }\n  return at;\n}\n";
 }
 
@@ -135,9 +132,8 @@ std::string Loops::begin() const {
 std::string Loops::loop(std::size_t i) const {
   const std::string name = std::to_string(i);
   const std::string list = "lists" + std::to_string(i / 2) + (i % 2 == 0 ? ".xy" : ".zw");
-  const std::size_t first = rows_.firstOf(i);
-  const std::size_t last = first + rows_.strideOf(i) * kind(i).groups.numbers.size();
-  const std::string all = std::to_string(first) + ", " + std::to_string(last);
+  const auto& [count, first, length] = rows_.rangeOf(i);
+  const std::string all = std::to_string(first) + ", " + std::to_string(first + length * count);
   const std::string next = "sdfNext" + name + "(p, ", rest = ", span" + name + ".y, least)";
   const std::string term = read(isApart(kind(i)), "sdfKind" + name), d = apart_ ? "d.y" : "d";
   return "  ivec2 span" + name + " = ivec2(" + (plan_.cells ? list : all) + ");\n  for (int at = " + next +

@@ -14,8 +14,6 @@
 namespace sdf {
 namespace {
 
-constexpr std::size_t kMany = 24;  // groups; the formula of fewer is read faster than lists
-
 // Cubes around the bounds: some for each group, so that a list names few.
 constexpr double kCubesPerGroup = 24.0, kLeastCubes = 4096.0, kMostCubes = 65536.0;
 constexpr double kMargin = 4.0;  // in cubes, on each side: what is just above a surface is read most
@@ -215,8 +213,9 @@ Sorting::Sorting(const CellGrid& grid, std::span<const Group> groups, std::size_
   std::iota(all.begin(), all.end(), 0);
   for (int i = 0; i < CellGrid::kLevels; ++i)
     open_.add({i, glm::ivec3(0), grid.levels[static_cast<std::size_t>(i)].side}, all);
-  lists_.lists.resize(kinds * static_cast<std::size_t>(grid.cells()));
-  std::ranges::copy(listsOf(all), lists_.lists.end() - static_cast<std::ptrdiff_t>(kinds));
+  lists_.lists.resize(kinds * static_cast<std::size_t>(grid.cells() + 1));
+  const std::ptrdiff_t beyond = grid.cells() - 1;
+  std::ranges::copy(listsOf(all), lists_.lists.begin() + beyond * static_cast<std::ptrdiff_t>(kinds));
 }
 
 CellLists Sorting::lists() {
@@ -300,7 +299,8 @@ Box CellGrid::boxOf(int level, const glm::ivec3& c) const {
 }
 
 bool CellSorter::worthwhile(const std::vector<OperandKind>& kinds) {
-  return groupsOf(kinds) >= kMany && std::ranges::none_of(kinds, [](const OperandKind& kind) {
+  const std::size_t groups = groupsOf(kinds);
+  return groups >= kFewest && groups <= kMost && std::ranges::none_of(kinds, [](const OperandKind& kind) {
            return kind.singles.empty() || isGivenByData(kind.distance);
          });
 }

@@ -42,13 +42,17 @@ struct CellLists {
   struct List {
     int begin, count;  ///< among the entries of its kind
   };
-  std::vector<List> lists;                ///< by cell, and then by kind; like lists are one
+  /// By cell, and then by kind; like lists are one. Those of one cell more, behind the grid's, are empty.
+  std::vector<List> lists;
   std::vector<std::vector<int>> entries;  ///< by kind: groups, in each list ascending
 };
 
 /// A CellSorter makes the lists for some kinds of operands, at any values of the scene's parameters.
 class CellSorter {
  public:
+  /// So many operands may be worth lists: the formula of fewer is read faster, and lists of more grow too
+  /// long.
+  static constexpr std::size_t kFewest = 24, kMost = 24'000;
   /// Returns whether lists are worth their making: there are dozens of groups, each a single operand with
   /// finite bounds and quick to read. Those that are given by data are not.
   static bool worthwhile(const std::vector<OperandKind>& kinds);
