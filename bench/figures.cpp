@@ -1,13 +1,9 @@
 #include "figures.h"
 
-#include <unistd.h>
-
 #include <cstdio>
-#include <fstream>
 #include <limits>
-#include <thread>
 
-#include "sdf/eval/batch.h"
+#include "machine.h"
 
 namespace sdf::bench {
 
@@ -24,20 +20,6 @@ void Medians::ReportRuns(const std::vector<Run>& runs) {
 double Medians::find(const Times& times, const std::string& name) {
   const auto it = times.find(name);
   return it == times.end() ? std::numeric_limits<double>::quiet_NaN() : it->second;
-}
-
-std::string machine() {
-  std::string model = "unknown processor", line;
-  for (std::ifstream info("/proc/cpuinfo"); std::getline(info, line);)
-    if (line.starts_with("model name")) {
-      model = line.substr(line.find(':') + 2);
-      break;
-    }
-  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGESIZE) / (1 << 30);
-  char text[200];
-  std::snprintf(text, sizeof text, "%s, %u cores, %s, %.0f GiB", model.c_str(),
-                std::thread::hardware_concurrency(), BatchEvaluator::targetName(), memory);
-  return text;
 }
 
 bool printFigures(const std::vector<Figure>& figures) {

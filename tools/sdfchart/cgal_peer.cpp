@@ -1,6 +1,7 @@
 #include <glm/geometric.hpp>
 
 #include "accuracy/implicit_mesher.h"
+#include "deadline.h"
 #include "measure.h"
 #include "peers.h"
 #include "sdf/eval/scalar_reading.h"
@@ -25,8 +26,7 @@ glm::dvec3 deepest(const Subject& subject, const Tape& distance) {
 
 accuracy::TriangleMesh meshImplicitlyByCgal(const Subject& subject, const Tape& distance, double tolerance,
                                             double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto began = Clock::now();
+  Deadline deadline(seconds);
   ScalarReading<double> reading;
   accuracy::ImplicitMesh asked;
   asked.value = [&](const glm::dvec3& p) {
@@ -37,7 +37,7 @@ accuracy::TriangleMesh meshImplicitlyByCgal(const Subject& subject, const Tape& 
   asked.radius = glm::length(glm::max(subject.bounds.max - asked.inside, asked.inside - subject.bounds.min));
   asked.facetDistance = tolerance;
   asked.facetSize = 0.1 * subject.bounds.longestSide();
-  asked.stopped = [&] { return std::chrono::duration<double>(Clock::now() - began).count() > seconds; };
+  asked.stopped = [&] { return deadline.stopped(); };
   return accuracy::meshByCgal(asked);
 }
 

@@ -13,7 +13,7 @@ namespace {
 // Of the shell's kind: a program that cannot be run.
 constexpr int kNoProgram = 127;
 
-// Runs a program that is looked for in PATH, its standard output dropped; its exit status, or -1.
+// Runs a program that is looked for in PATH; its exit status, or -1.
 int run(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));

@@ -6,8 +6,9 @@
 #include <cstdio>
 #include <iostream>
 
+#include "bench/machine.h"
 #include "charts.h"
-#include "machine.h"
+
 #include "measurements.h"
 #include "options.h"
 #include "sdf/base/version.h"
@@ -85,7 +86,7 @@ Status measure(const Options& options, RunProgress& progress) {
   if (!subjects) return subjects.error();
   Result<Results> results = Results::open(options.output / "results.csv", madeBy(options));
   if (!results) return results.error();
-  return runBatches(batchesOf(options, *subjects), *results, machine(), progress);
+  return runBatches(batchesOf(options, *subjects), *results, bench::machine(), progress);
 }
 
 int run(const Options& options) {

@@ -106,19 +106,17 @@ std::vector<std::optional<double>> trueHits(const MarchField& field, const Rays&
 }
 
 void judgeHits(const Hits& hits, const std::vector<std::optional<double>>& truth, Row& row) {
-  double squares = 0.0, largest = 0.0, both = 0.0, missed = 0.0, wrong = 0.0, steps = 0.0;
+  ErrorSum errors;
+  double missed = 0.0, wrong = 0.0, steps = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool hit = hits.status[i] == RayStatus::Hit;
     steps += hits.steps[i];
     missed += truth[i] && !hit;
     wrong += !truth[i] && hit;
-    if (!truth[i] || !hit) continue;
-    const double error = std::abs(hits.t[i] - *truth[i]);
-    squares += error * error, largest = std::max(largest, error), ++both;
+    if (truth[i] && hit) errors.add(std::abs(hits.t[i] - *truth[i]));
   }
   const double count = static_cast<double>(truth.size());
-  row.rms = both > 0.0 ? std::sqrt(squares / both) : kNone;
-  row.max = both > 0.0 ? largest : kNone;
+  errors.giveTo(row);
   row.missed = missed / count;
   row.falseHits = wrong / count;
   row.evaluations = steps / count;

@@ -47,17 +47,14 @@ Points pointsFor(const Tape& tape, const Box& box) {
 
 // In units of the last place of the largest number in play, a coordinate or the value.
 void judge(const Tape& tape, const Points& points, const std::vector<float>& values, Row& row) {
-  double squares = 0.0, largest = 0.0;
+  ErrorSum errors;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::dvec3 p = points[i];
     const double exact = evaluate(tape, p);
     const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(exact)});
-    const double error = std::abs(values[i] - exact) / (0x1p-24 * std::exp2(std::ceil(std::log2(size))));
-    squares += error * error;
-    largest = std::max(largest, error);
+    errors.add(std::abs(values[i] - exact) / (0x1p-24 * std::exp2(std::ceil(std::log2(size)))));
   }
-  row.rms = std::sqrt(squares / static_cast<double>(points.size()));
-  row.max = largest;
+  errors.giveTo(row);
 }
 
 Measurement inDouble(const std::shared_ptr<const Scene>& scene, Row row) {

@@ -37,13 +37,9 @@ struct Ground {
 using Light = std::function<std::vector<double>(const Ground&)>;
 
 void judge(const std::vector<double>& light, const std::vector<double>& truth, Row& row) {
-  double squares = 0.0;
-  row.max = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double error = std::abs(light[i] - truth[i]);
-    squares += error * error, row.max = std::max(row.max, error);
-  }
-  row.rms = std::sqrt(squares / static_cast<double>(truth.size()));
+  ErrorSum errors;
+  for (std::size_t i = 0; i < truth.size(); ++i) errors.add(std::abs(light[i] - truth[i]));
+  errors.giveTo(row);
 }
 
 Measurement measurement(const std::shared_ptr<const Ground>& ground, Row row, Light light) {

@@ -38,14 +38,12 @@ struct Torus {
 };
 
 void judge(const Torus& torus, const Vectors& found, Row& row) {
-  double squares = 0.0, largest = 0.0;
+  ErrorSum errors;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const glm::dvec3 a = found[i], b = torus.normals[i];
-    const double angle = glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
-    squares += angle * angle, largest = std::max(largest, angle);
+    errors.add(glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b))));
   }
-  row.rms = std::sqrt(squares / static_cast<double>(found.size()));
-  row.max = largest;
+  errors.giveTo(row);
 }
 
 Measurement measurement(const std::shared_ptr<const Torus>& torus, Row row, const NormalOptions& options) {

@@ -1,6 +1,9 @@
 // One measurement, as it stands in a line of results.csv.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 
@@ -76,5 +79,25 @@ inline constexpr std::array kNumberColumns{NumberColumn{"size", &Row::size},
 inline constexpr std::array kLastColumns{TextColumn{"verdict", &Row::verdict},
                                          TextColumn{"status", &Row::status},
                                          TextColumn{"machine", &Row::machine}};
+
+/// Errors as they come: their root mean square, and the largest.
+class ErrorSum {
+ public:
+  void add(double error) {
+    squares_ += error * error;
+    largest_ = std::max(largest_, error);
+    ++count_;
+  }
+  /// Fills both figures in; they stay empty where there was no error.
+  void giveTo(Row& row) const {
+    if (count_ == 0) return;
+    row.rms = std::sqrt(squares_ / static_cast<double>(count_));
+    row.max = largest_;
+  }
+
+ private:
+  double squares_ = 0.0, largest_ = 0.0;
+  std::size_t count_ = 0;
+};
 
 }  // namespace sdf::chart

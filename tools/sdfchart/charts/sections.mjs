@@ -14,6 +14,15 @@ const rms = (unit) => column('error, root mean square', unit, -1, 'error_rms');
 const largest = (unit) => column('largest error', unit, -1, 'error_max');
 const scenes = 'scene units';
 
+const lightSection = (kind, title, lead) => ({
+  kind, title, lead,
+  charts: 'scene', series: 'method',
+  x: [perItem('time a point', 'µs')],
+  y: [rms('of the light'), largest('of the light')],
+  pareto: true,
+  drawn: [[0, 0]],
+});
+
 export const sections = [
   {
     kind: 'meshing',
@@ -51,27 +60,11 @@ export const sections = [
     y: [rms('°'), largest('°')],
     drawn: [[0, 0], [1, 0]],
   },
-  {
-    kind: 'shadows',
-    title: 'Soft shadows: time a point against error of the light',
-    lead: 'Held to rays to 1024 points of the lamp, by formulas of their own. A chart for each lamp and scene; ' +
-      'light runs from 0 to 1.',
-    charts: 'scene', series: 'method',
-    x: [perItem('time a point', 'µs')],
-    y: [rms('of the light'), largest('of the light')],
-    pareto: true,
-    drawn: [[0, 0]],
-  },
-  {
-    kind: 'occlusion',
-    title: 'Ambient occlusion: time a point against error',
-    lead: 'Held to 4096 rays a point over the hemisphere, by formulas of their own. Occlusion runs from 0 to 1.',
-    charts: 'scene', series: 'method',
-    x: [perItem('time a point', 'µs')],
-    y: [rms('of the light'), largest('of the light')],
-    pareto: true,
-    drawn: [[0, 0]],
-  },
+  lightSection('shadows', 'Soft shadows: time a point against error of the light',
+    'Held to rays to 1024 points of the lamp, by formulas of their own. A chart for each lamp and scene; ' +
+      'light runs from 0 to 1.'),
+  lightSection('occlusion', 'Ambient occlusion: time a point against error',
+    'Held to 4096 rays a point over the hemisphere, by formulas of their own. Occlusion runs from 0 to 1.'),
   {
     kind: 'evaluation',
     title: 'Evaluation: points a second and rounding, over the number of operations',

@@ -2,9 +2,9 @@
 #pragma once
 #include <string>
 
-namespace sdf::chart {
+namespace sdf::bench {
 
 /// The processor, the cores in use, the instruction set and the memory.
 std::string machine();
 
-}  // namespace sdf::chart
+}  // namespace sdf::bench

@@ -8,7 +8,7 @@
 
 #include "sdf/eval/batch.h"
 
-namespace sdf::chart {
+namespace sdf::bench {
 
 std::string machine() {
   std::string model = "unknown processor", line;
@@ -24,4 +24,4 @@ std::string machine() {
   return text;
 }
 
-}  // namespace sdf::chart
+}  // namespace sdf::bench
