@@ -65,7 +65,7 @@ std::string choosing(const Plan& plan) {
 // The primary rays are marched by the picture's shader, from where the cones say.
 bool startsHere(const Plan& plan) { return plan.cones && !plan.grouped && plan.options.view != View::Slice; }
 
-// Shadows of these kinds are looked for between the half spaces and the rest.
+// Shadows of these kinds are looked for between the half spaces, the balls and the rest.
 bool readsRest(const Plan& plan) {
   return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft || plan.sized;
 }
@@ -128,7 +128,8 @@ std::string shadowParts(const Plan& plan) {
                              (plan.sized ? parts::kArrivingSized : parts::kArriving);
   if (!readsRest(plan)) return shadow;
   return (boundsOfRest(plan).finite() ? parts::kShadowSpan : parts::kNoShadowSpan) +
-         std::string(plan.planes.empty() ? parts::kNoPlanesLight : parts::kPlanesLight) + shadow;
+         std::string(plan.planes.empty() ? parts::kNoPlanesLight : parts::kPlanesLight) +
+         (plan.balls.empty() ? parts::kNoBallsLight : parts::kBallsLight) + shadow;
 }
 
 // Those that define colorOf(ray, spent), beside what it calls.

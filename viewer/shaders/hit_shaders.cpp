@@ -27,7 +27,7 @@ std::size_t gradientSize(const Expr& distance) {
 
 Obstacles obstaclesOf(const OperandKind& kind, const Plan& plan) {
   const Marched part = marchedOf(kind, plan.rest->bounds);
-  Obstacles result{part, part, {}, {}};
+  Obstacles result{.whole = part, .rest = part};
   if (!plan.operands.empty()) result.operand = kind.nearest;
   return result;
 }
@@ -35,14 +35,14 @@ Obstacles obstaclesOf(const OperandKind& kind, const Plan& plan) {
 Obstacles othersOf(const Plan& plan) {
   Marched part = leastOf(plan.kinds->others);
   part.bounds = plan.rest->bounds;
-  Obstacles result{part, part, {}, {}};
+  Obstacles result{.whole = part, .rest = part};
   if (!plan.operands.empty()) result.operand = numberOfNearest(plan.kinds->others);
   return result;
 }
 
 Obstacles planesOf(const Plan& plan) {
   const std::vector<NumberedOperand> operands = operandsOf(plan.planes);
-  Obstacles result{leastOf(operands), {}, plan.planes, {}};
+  Obstacles result{.whole = leastOf(operands), .planes = plan.planes};
   if (!plan.operands.empty()) result.operand = numberOfNearest(operands);
   return result;
 }
@@ -109,7 +109,7 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
   const std::string camera = parts::kCamera;
   HitShaders pass;
   if (wanted.cones)
-    pass.cones = composer.compose(camera + wanted.sharing + parts::kRest + farEnd(obstacles.whole.bounds) +
+    pass.cones = composer.compose(camera + wanted.sharing + parts::kRest + farEnd(obstacles.rest->bounds) +
                                   parts::kCones);
   if (wanted.hits)
     pass.hits = composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kStarts : "") +
@@ -125,7 +125,7 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
 }  // namespace
 
 Obstacles obstaclesOf(const Plan& plan) {
-  Obstacles result{plan.whole, plan.rest, plan.planes, {}, plan.kinds.has_value()};
+  Obstacles result{plan.whole, plan.rest, plan.planes, plan.balls, {}, plan.kinds.has_value()};
   result.byTaps = result.shared || gradientSize(plan.whole.distance) > kLongProgram;
   if (!plan.operands.empty()) result.operand = result.shared ? Expr(0.0) : numberOfNearest(plan.operands);
   return result;
@@ -133,8 +133,8 @@ Obstacles obstaclesOf(const Plan& plan) {
 
 std::string meeting(const Obstacles& obstacles) {
   return std::string(parts::kRest) + (obstacles.planes.empty() ? parts::kNoPlanes : parts::kPlanes) +
-         parts::kMarch + (obstacles.byTaps ? parts::kGradientByTaps : parts::kGradient) + parts::kNormal +
-         parts::kMeet;
+         (obstacles.balls.empty() ? "" : parts::kBalls) + (obstacles.rest ? parts::kMarch : parts::kNoMarch) +
+         (obstacles.byTaps ? parts::kGradientByTaps : parts::kGradient) + parts::kNormal + parts::kMeet;
 }
 
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
@@ -148,6 +148,9 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
       {"REST", !rest   ? "vec2(1e30)"
                : whole ? both(*rest, "sdfDistance", "sdfBoth", "enough")
                        : both(*rest, "sdfRest", "sdfBothOfRest", "enough")},
+      {"SOLVED",
+       obstacles.balls.empty() ? "planesFrom(ray)" : "ballsFrom(ray.origin, ray.direction, planesFrom(ray))"},
+      {"BALLS", std::to_string(4 * obstacles.balls.size())},
       {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "1e30")},
       {"DISTANCE_UP_TO(p, enough)", obstacles.shared ? "sdfBoth(p, enough).y" : "sdfDistance(p, vec3(0.0))"},
       {"OVER_SURFACE", isApart(obstacles.whole) ? "min(f, h)" : "f"},
@@ -163,12 +166,19 @@ Functions meetingFunctions(const Obstacles& obstacles) {
       outputs.insert(outputs.end(), {plane.height, plane.climb});
     return outputs;
   };
+  const auto balls = [=] {
+    std::vector<Expr> outputs;
+    for (const Ball& ball : obstacles.balls)
+      outputs.insert(outputs.end(), {ball.centre.x, ball.centre.y, ball.centre.z, ball.squaredRadius});
+    return outputs;
+  };
   if (obstacles.shared) return {{"sdfPlanes", planes}};
   return {{"sdfDistance", [=] { return std::vector{obstacles.whole.distance}; }},
           {"sdfRest", [=] { return std::vector{obstacles.rest->distance}; }},
           {"sdfBoth", [=] { return partsOf(obstacles.whole); }},
           {"sdfBothOfRest", [=] { return partsOf(*obstacles.rest); }},
           {"sdfPlanes", planes},
+          {"sdfBalls", balls},
           {"sdfGradient", [=] { return partsOf(gradientOf(obstacles.whole.distance)); }},
           {"sdfOperand", [=] { return std::vector{*obstacles.operand}; }}};
 }

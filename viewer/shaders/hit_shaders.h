@@ -12,10 +12,11 @@ namespace sdf::viewer {
 
 /// Obstacles are what the rays of one pass may meet.
 struct Obstacles {
-  Marched whole;                  ///< its gradient gives the normals
-  std::optional<Marched> rest;    ///< what is marched, if anything
-  std::vector<HalfSpace> planes;  ///< what else there is
-  std::optional<Expr> operand;    ///< the number of the operand that is nearest; none: 0
+  Marched whole;                    ///< its gradient gives the normals
+  std::optional<Marched> rest{};    ///< what is marched, if anything
+  std::vector<HalfSpace> planes{};  ///< what else there is
+  std::vector<Ball> balls{};
+  std::optional<Expr> operand{};  ///< the number of the operand that is nearest; none: 0
   bool shared = false;            ///< sharing() defines the distances and the number instead
   bool byTaps = false;            ///< the gradient is taken by differences
 };

@@ -77,6 +77,34 @@ inline constexpr const char* kNoPlanesLight = R"(
 float leastOfPlanes(vec3 p, vec3 l, float reach) { return 1.0; }
 )";
 
+/// Either defines leastOfBalls(p, l, start, reach), the least distance to a ball by t between these ends.
+/// A cone from p around l, t sin a wide, touches the ball where a is the angle between l and the ball's
+/// middle less the ball's own, and as far off as the ball's tangents from p touch it, divided by cos a.
+inline constexpr const char* kBallsLight = R"(
+float leastOfBalls(vec3 p, vec3 l, float start, float reach) {
+  float balls[BALLS], least = 1.0;
+  sdfBalls(vec3(0.0), vec3(0.0), balls);
+  for (int i = 0; i < BALLS; i += 4) {
+    vec3 way = vec3(balls[i], balls[i + 1], balls[i + 2]) - p;
+    float middle = dot(way, l), square = max(balls[i + 3], 0.0), radius = sqrt(square);
+    vec3 by = way - middle * l;
+    float aside = dot(by, by), far = dot(way, way), tangent = sqrt(max(far - square, 0.0));
+    float across = middle * tangent + radius * sqrt(aside);  // cos a, times the square of the way
+    float t = across > 0.0 ? clamp(tangent * far / across, start, reach) : reach;
+    if (balls[i + 3] > 0.0) least = min(least, (sqrt(aside + (t - middle) * (t - middle)) - radius) / t);
+  }
+  return max(least, 0.0);
+}
+
+bool ballsHide(vec3 p, vec3 l, float start, float reach) { return ballsFrom(p + start * l, l, 1e30) < reach - start; }
+)";
+
+inline constexpr const char* kNoBallsLight = R"(
+float leastOfBalls(vec3 p, vec3 l, float start, float reach) { return 1.0; }
+
+bool ballsHide(vec3 p, vec3 l, float start, float reach) { return false; }
+)";
+
 /// Declares the uniforms of all shadows, each of which defines shadow(p, l, reach), the share of a light that
 /// arrives.
 inline constexpr const char* kShadowSettings = R"(
@@ -97,7 +125,7 @@ float ended(float t, float reach, float light) {
 inline constexpr const char* kVisible = R"(
 float visible(vec3 p, vec3 l, float reach) {
   float t = shadowStart;
-  if (leastOfPlanes(p, l, reach) <= 0.0) return 0.0;
+  if (leastOfPlanes(p, l, reach) <= 0.0 || ballsHide(p, l, t, reach)) return 0.0;
   clip(p, l, 0.0, t, reach);
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l, 0.0);
@@ -119,10 +147,12 @@ float shadow(vec3 p, vec3 l, float reach) { return visible(p, l, reach); }
 /// to no less than sqrt(0.75) of it.
 inline constexpr const char* kSoftShadow = R"(
 float shadow(vec3 p, vec3 l, float reach) {
-  float t = shadowStart, light = clamp(sharpness * leastOfPlanes(p, l, reach), 0.0, 1.0);
+  float t = shadowStart, least = min(leastOfPlanes(p, l, reach), leastOfBalls(p, l, t, reach));
+  float light = clamp(sharpness * least, 0.0, 1.0);
   if (light == 0.0) return 0.0;
   clip(p, l, min(1.0 / sharpness, 0.9), t, reach);
-  float far = 0.0, least = 0.0, stepBefore = 0.0, riseBefore = 0.0, before = 0.0;
+  least = 0.0;
+  float far = 0.0, stepBefore = 0.0, riseBefore = 0.0, before = 0.0;
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l, 1.2 * t / sharpness);
     COUNT_SHADOW

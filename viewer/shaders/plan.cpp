@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
 #include "sdf/model/model.h"
 #include "sdf/shape/booleans.h"
@@ -18,17 +17,9 @@ struct Split {
   std::vector<DrawnMesh> drawn;
   std::vector<Shape> others;
   std::vector<NumberedOperand> operands;
+  std::vector<Ball> balls;      ///< of the others
+  std::vector<Shape> unsolved;  ///< the others without the balls
 };
-
-// The part as a half space, if its distance is a linear function.
-std::optional<HalfSpace> halfSpaceOf(const Part& part, double number) {
-  if (part.shape.outer) return {};
-  const Expr& distance = part.shape.distance;
-  const Vec3E g = gradientOf(distance);
-  if (dependsOnSpace(g.x) || dependsOnSpace(g.y) || dependsOnSpace(g.z)) return {};
-  const Expr steep = length(g), once = steep.isConstant(1.0) ? Expr(1.0) : 1.0 / steep;
-  return HalfSpace{operandsOf(part.shape, number).front(), distance * once, dot(g, normal()) * once};
-}
 
 // The operand as triangles, if it is a mesh that is drawn.
 std::optional<DrawnMesh> drawnMeshOf(const Shape& shape, const NumberedOperand& operand) {
@@ -51,6 +42,10 @@ Split split(const Scene& scene, bool withPlanes, bool withDrawn) {
       result.planes.push_back(std::move(*plane));
     } else {
       result.others.push_back(part.shape);
+      if (auto ball = ballOf(part, number))
+        result.balls.push_back(std::move(*ball));
+      else
+        result.unsolved.push_back(part.shape);
       const std::vector<Shape> shapes = operandShapesOf(part.shape);
       for (std::size_t i = 0; i < operands.size(); ++i)
         if (auto mesh = withDrawn ? drawnMeshOf(shapes[i], operands[i]) : std::nullopt)
@@ -117,6 +112,19 @@ void planKinds(const std::vector<NumberedOperand>& operands, Plan& plan) {
   if (!kinds.many.empty() || !plan.drawn.empty()) plan.kinds = std::move(kinds);
 }
 
+// Balls are met by their roots where no pass looks for tiles that show the background alone.
+Status planRest(Split& parts, const Scene& scene, Plan& plan) {
+  constexpr std::size_t kFew = 16;  // each of which every ray looks at
+  const bool solves = !plan.planes.empty() && !plan.kinds && parts.balls.size() <= kFew;
+  if (solves) plan.balls = std::move(parts.balls);
+  const std::vector<Shape>& others = solves ? parts.unsolved : parts.others;
+  if (plan.planes.empty())
+    plan.rest = plan.whole;
+  else if (!others.empty())
+    return keep(marched(unite(others), scene), plan.rest);
+  return okStatus();
+}
+
 }  // namespace
 
 int usefulSamples(const Plan& plan) {
@@ -146,12 +154,8 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   Split parts = split(scene, !stepsCount, draws);
   plan.planes = std::move(parts.planes);
   plan.drawn = std::move(parts.drawn);
-  const Shape rest = plan.planes.empty() || parts.others.empty() ? whole : unite(parts.others);
-  if (plan.planes.empty()) {
-    plan.rest = plan.whole;
-  } else if (!parts.others.empty()) {
-    if (auto s = keep(marched(rest, scene), plan.rest); !s) return s.error();
-  }
+  if (mayGroup) planKinds(parts.operands, plan);
+  if (auto s = planRest(parts, scene, plan); !s) return s.error();
   plan.cones = plan.rest && options.method == Method::AutoRelaxed && options.start != Start::Plain &&
                !stepsCount && !plan.lens && !plan.meshed;
   plan.tiled = plan.cones && isPicture && plan.planes.empty() && plan.drawn.empty();
@@ -165,7 +169,6 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;
   if (isPicture || view == View::Material) planSurface(whole, plan);
-  if (mayGroup) planKinds(parts.operands, plan);
   plan.looks = (plan.meshed || !plan.drawn.empty()) && (isPicture || view == View::Material);
   plan.grouped =
       plan.meshed || (plan.kinds && showsHits && ((plan.cones && !plan.cells) || !plan.drawn.empty()));

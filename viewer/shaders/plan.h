@@ -8,6 +8,7 @@
 #include "sdf/model/groups.h"
 #include "sdf/scene/scene.h"
 #include "sdf/shape/triangle_solid.h"
+#include "viewer/shaders/solved.h"
 
 namespace sdf::viewer {
 
@@ -60,13 +61,6 @@ struct Marched {
   Box bounds = Box::everything();
 };
 
-/// A HalfSpace is an operand that rays meet by division.
-struct HalfSpace {
-  NumberedOperand operand;
-  Expr height;  ///< the distance divided by its slope
-  Expr climb;   ///< how the height changes along the direction in normal()
-};
-
 /// A DrawnMesh is an operand that is drawn as the triangles that it was made from.
 struct DrawnMesh {
   NumberedOperand operand;
@@ -78,9 +72,10 @@ struct DrawnMesh {
 struct Plan {
   ShaderOptions options;
   Marched whole;
-  /// What is marched: the whole without its half spaces, if there is more than these.
-  std::optional<Marched> rest;
   std::vector<HalfSpace> planes;
+  std::vector<Ball> balls;  ///< if rays meet them by their roots
+  /// What is marched: the whole without the half spaces and these balls, if there is more.
+  std::optional<Marched> rest;
   std::vector<DrawnMesh> drawn;
   /// The operands of the whole, if a hit's surface follows from the number of its operand.
   std::vector<NumberedOperand> operands;

@@ -62,8 +62,8 @@ inline constexpr const char* kField = R"(
 vec2 field(vec3 p) { return FIELD; }
 )";
 
-/// Defines rest(p, enough), the same for the scene without its half spaces; where both are at least `enough`
-/// they may be less than they are, but no less than that.
+/// Defines rest(p, enough), the same for what is marched, without half spaces and balls; where both are at
+/// least `enough` they may be less than they are, but no less than that.
 inline constexpr const char* kRest = R"(
 vec2 rest(vec3 p, float enough) { return REST; }
 )";
@@ -97,20 +97,40 @@ inline constexpr const char* kNoPlanes = R"(
 float planesFrom(Ray ray) { return 1e30; }
 )";
 
-/// Defines march(ray, status, readings), the t at which a ray hits the rest or a half space.
-/// Near the surface the last slope says where it is. The ray hits if a reading behind that place lies in the
-/// solid: then it passes neither by an edge nor through a film of no thickness, where a cut ends in a face.
-/// sdf/march/march.h states it in full. A hit is as near as the slopes on both sides place it, and a hair
-/// nearer, since on the surface some distances have no gradient. With MOST_CLOSE readings near the surface,
-/// of which rising ones count for an eighth, a ray hits, for it goes along a face or an edge.
+/// Defines ballsFrom(origin, direction, nearest), the least of that and the t at which the ray enters a ball.
+/// How far the ray passes by the middle is read from the vector between: as a difference of squares it would
+/// be rounded to that of the whole way (Haines, Guenther, Akenine-Moeller, "Precision improvements for
+/// ray/sphere intersection", 2019).
+inline constexpr const char* kBalls = R"(
+float ballsFrom(vec3 origin, vec3 direction, float nearest) {
+  float balls[BALLS];
+  sdfBalls(vec3(0.0), vec3(0.0), balls);
+  for (int i = 0; i < BALLS; i += 4) {
+    vec3 way = vec3(balls[i], balls[i + 1], balls[i + 2]) - origin;
+    float middle = dot(way, direction);
+    vec3 by = way - middle * direction;
+    float root = balls[i + 3] - dot(by, by), deep = sqrt(max(root, 0.0));
+    if (root > 0.0 && middle + deep > 0.0) nearest = min(nearest, max(middle - deep, 0.0));
+  }
+  return nearest;
+}
+)";
+
+/// Either defines march(ray, status, readings), the t at which a ray hits the rest, or what SOLVED finds: a
+/// half space or a ball. Near the surface the last slope says where it is. The ray hits if a reading behind
+/// that place lies in the solid: then it passes neither by an edge nor through a film of no thickness, where
+/// a cut ends in a face. sdf/march/march.h states it in full. A hit is as near as the slopes on both sides
+/// place it, and a hair nearer, since on the surface some distances have no gradient. With MOST_CLOSE
+/// readings near the surface, of which rising ones count for an eighth, a ray hits, for it goes along a face
+/// or an edge.
 inline constexpr const char* kMarch = R"(
 const int MOST_CLOSE = 24;
 const int FREE = 0, BEHIND = 1, ONTO = 2;  // where the next reading is, of the surface
 
 float march(Ray ray, out int status, out int readings) {
-  float r = 0.0, z = 0.0, slope = -1.0, fall = 1.0, near = 0.0, t = ray.start, plane = planesFrom(ray);
-  bool ends = plane < ray.reach;  // in a plane
-  float tMax = min(plane, ray.reach);
+  float r = 0.0, z = 0.0, slope = -1.0, fall = 1.0, near = 0.0, t = ray.start, solved = SOLVED;
+  bool ends = solved < ray.reach;  // in what is solved
+  float tMax = min(solved, ray.reach);
   int step = FREE, close = 0;
   status = BUDGET;
   readings = 0;
@@ -153,6 +173,15 @@ float march(Ray ray, out int status, out int readings) {
     z = step == BEHIND ? 1.25 * max(r, epsilon) / fall : STEP;
   }
   return t;
+}
+)";
+
+inline constexpr const char* kNoMarch = R"(
+float march(Ray ray, out int status, out int readings) {
+  float t = SOLVED;
+  status = t < ray.reach ? HIT : MISS;
+  readings = 0;
+  return min(t, ray.reach);
 }
 )";
 

@@ -86,9 +86,9 @@ std::vector<std::string> deadMacros(const Macros& macros) {
   using namespace parts;
   // clang-format off
   static constexpr const char* kParts[] = {
-      kCamera, kHit, kField, kRest, kRestByBox, kPlanes, kNoPlanes, kMarch, kGradient, kGradientByTaps, kNormal, kMeet,
+      kCamera, kHit, kField, kRest, kRestByBox, kPlanes, kNoPlanes, kBalls, kMarch, kNoMarch, kGradient, kGradientByTaps, kNormal, kMeet,
       kStarts, kHitCounts, kPictureCounts, kCones, kFavoured, kHits, kMarks, kTriangles, kTakeLook, kHitFromLayers, kFootprint, kShadowSpan,
-      kNoShadowSpan, kPlanesLight, kNoPlanesLight, kShadowSettings, kVisible, kHardShadow, kSoftShadow,
+      kNoShadowSpan, kPlanesLight, kNoPlanesLight, kBallsLight, kNoBallsLight, kShadowSettings, kVisible, kHardShadow, kSoftShadow,
       kImprovedShadow, kSignedShadow, kArriving, kArrivingSized, kBayer, kChosen, kOcclusionTaps,
       kOcclusionSteps, kLightAround, kLightSettings, kLights, kGlossy, kLens, kRadiance,
       kBackground, kSliceView, kHitColor, kHitsView, kNormalsView, kStepsView, kGradientView,
