@@ -140,6 +140,19 @@ TEST(Cells, HoldTheirPoints) {
   EXPECT_EQ(grid.cellAt(glm::dvec3(1e9)), grid.cells() - 1);
 }
 
+TEST(Cells, AreNotMadeOfTooMany) {
+  std::vector<OperandKind> kinds = kindsOf(strewn(4));
+  ASSERT_TRUE(CellSorter::worthwhile(kinds));
+  std::size_t others = 0;
+  for (std::size_t i = 1; i < kinds.size(); ++i) others += kinds[i].groups.numbers.size();
+  auto& rows = kinds.front().groups.numbers;
+  const std::vector<Expr> row = rows.front();
+  rows.resize(CellSorter::kMost - others, row);
+  EXPECT_TRUE(CellSorter::worthwhile(kinds));
+  rows.push_back(row);
+  EXPECT_FALSE(CellSorter::worthwhile(kinds));
+}
+
 TEST(Cells, AreNotWorthTheirMakingForFewOrForData) {
   std::vector<Shape> few, unbounded, data;
   const Expr payload = test::payloadHere(test::fourPoints());

@@ -471,6 +471,22 @@ TEST(GroupedPicture, MarksPixelsOutOfSteps) {
   EXPECT_EQ(spent(viewer::Frame{}.maxSteps), 0);
 }
 
+// What the benchmarks' parts are read by: a few are written out, dozens and more are listed.
+TEST(CulledPicture, IsDrawnOfTheBenchmarksParts) {
+  const auto lists = [](int count) {
+    ScriptOptions script;
+    script.values = {{"count", static_cast<double>(count)}};
+    const auto scene = loadScene(SDF_SOURCE_DIR "/samples/bench/v_parts.lua", script);
+    EXPECT_TRUE(scene) << scene.error().message;
+    const auto shaders = viewer::assemble(*scene, {});
+    EXPECT_TRUE(shaders && shaders->plan.planes.size() == 1);
+    return shaders->plan.cells.has_value();
+  };
+  EXPECT_FALSE(lists(10));
+  EXPECT_TRUE(lists(100));
+  EXPECT_TRUE(lists(1000));
+}
+
 // A reading of a group counts as what it costs: its share of the whole.
 TEST(GroupedPicture, TakesFewReadings) {
   const auto primary = [](int count, bool grouped) {
