@@ -23,7 +23,7 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-SceneFile sceneFileOf(const Options& options) { return {options.scene, options.folders}; }
+SceneFile sceneFileOf(const Options& options) { return {options.scene, options.folders, options.cached}; }
 
 bool isClock(const ParameterInfo& parameter) { return parameter.name == "time"; }
 

@@ -25,7 +25,7 @@ sdf::Status run(const sdf::viewer::Options& o) {
   controls.split = o.split;
   controls.samples = o.samples;
   controls.maxSteps = o.maxSteps;
-  return sdf::viewer::runWindow({{o.scene, o.folders}, controls, o.width, o.height, o.fit});
+  return sdf::viewer::runWindow({{o.scene, o.folders, o.cached}, controls, o.width, o.height, o.fit});
 }
 
 }  // namespace

@@ -190,6 +190,8 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
                  "a folder, beside the scene's own, from which it may read meshes")
       ->type_name("DIR")
       ->allow_extra_args(false);
+  app.add_flag("!--no-cache", options.cached,
+               "sample meshes anew, and keep nothing of it in the user's cache folder");
   add("--camera", "x,y,z,x,y,z[,fov]", "where the camera stands and looks, and its field of view",
       [&](const std::string& word) { return camera(word, options.eye); });
   app.add_flag("--fit", options.fit,

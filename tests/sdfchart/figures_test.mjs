@@ -1,7 +1,9 @@
 // What the charts compute from the rows. Run by node; exits 1 where something is wrong.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { defaultsBehind, fastestWithin } from '../../tools/sdfchart/charts/choose.mjs';
 import { sections } from '../../tools/sdfchart/charts/sections.mjs';
+import { withSummary } from '../../tools/sdfchart/charts/summary.mjs';
 import { fittedExponent, paretoFront, parseResults, shown, slug } from '../../tools/sdfchart/charts/figures.mjs';
 
 const text = '# made by\nkind,scene,method,seconds,status\nmeshing,ball,"a, ""b""",0.5,ok\nmeshing,ball,c,,failed: why\n';
@@ -35,3 +37,12 @@ const [behind] = defaultsBehind(sections, meshes.map((row, i) => ({ ...row, tria
 assert.equal(behind.best.method, 'm1');
 assert.ok(Math.abs(behind.factor - 3) < 1e-9);
 assert.equal(behind.ok, false);
+
+// The README says what the results say that are kept beside the charts.
+const root = new URL('../../', import.meta.url);
+const [readme, results] = ['README.md', 'docs/charts/results.csv'].map((file) => readFileSync(new URL(file, root), 'utf8'));
+assert.equal(withSummary(readme, parseResults(results)), readme, 'run node tools/sdfchart/charts/publish.mjs');
+assert.throws(() => withSummary('no place for it', parseResults(results)), /mark the place/);
+const slower = results.replace(/^(shadows,.*?,soft,one ray,[^,]*,1,)[^,]*/m, '$17');
+assert.notEqual(slower, results);
+assert.notEqual(withSummary(readme, parseResults(slower)), readme);

@@ -415,6 +415,54 @@ TEST_F(BareWindowTest, EscapeAndTheWindowsOwnButtonEndIt) {
   EXPECT_FALSE(*window->turn());
 }
 
+TEST_F(BareWindowTest, AnotherWindowTakesThePlaceOfOneWhoseContextIsLost) {
+  Session& session = window->session();
+  session.controls.parameters["x"] = 1.0;
+  session.controls.view = View::Normals;
+  session.controls.time = 3.0;
+  session.playing = true;
+  keys("space");  // no more
+  ASSERT_TRUE(until([&] { return !window->session().playing; }));
+  settle();
+  const Controls controls = session.controls;
+  const Screenshot before = screenshot();
+  auto again = Window::reopen(std::move(window));
+  ASSERT_TRUE(again) << again.error().message;
+  window = std::move(*again);
+  EXPECT_NE(window->gui().notice.find("the driver was reset"), std::string::npos);
+  settle();
+  EXPECT_EQ(window->session().controls, controls);
+  EXPECT_EQ(screenshot().picture.bytes, before.picture.bytes);
+}
+
+/// Loses the context at these turns, and closes the window at that one.
+struct Losses {
+  std::set<int> at;
+  int closes;
+  int turns = 0;
+  bool operator()() {
+    if (++turns == closes) glfwSetWindowShouldClose(glfwGetCurrentContext(), GLFW_TRUE);
+    return at.contains(turns);
+  }
+};
+
+TEST_F(WindowTest, GoesOnWhereTheDriverIsReset) {
+  window.reset();
+  options.isLost = Losses{{5}, 20};
+  const Status status = runWindow(options);
+  EXPECT_TRUE(status) << status.error().message;
+}
+
+TEST_F(WindowTest, GivesUpWhereTheDriverIsResetAgainAndAgain) {
+  window.reset();
+  options.isLost = Losses{{5, 7}, 20};
+  const Status status = runWindow(options);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Graphics);
+  EXPECT_EQ(status.error().message,
+            "the driver was reset again and again; take a smaller --size, or a simpler scene");
+}
+
 TEST_F(WindowTest, ABrokenSceneIsRefusedBeforeAnythingIsShown) {
   window.reset();
   write("sphere(\n");

@@ -458,6 +458,8 @@ TEST(Png, ReadsNeitherAMissingFileNorAnotherKind) {
   }
 }
 
+TEST_F(CheckTest, NoContextIsLostThatNobodyReset) { EXPECT_FALSE(contextIsLost()); }
+
 TEST_F(TexelsTest, SayWhenThereIsNoRoomForAllOfARow) {
   GLint room = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &room);

@@ -68,14 +68,36 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   session->aspect = static_cast<double>(options.width) / options.height;
   if (options.fit)
     if (const Status s = session->fit(); !s) return s.error();
-  return std::unique_ptr<Window>(
-      new Window(std::move(window), std::move(*session), options.scene.path.stem().string()));
+  return std::unique_ptr<Window>(new Window(std::move(window), std::move(*session), options));
 }
 
-Window::Window(Handle window, Session session, const std::string& name)
+Result<std::unique_ptr<Window>> Window::reopen(std::unique_ptr<Window> lost) {
+  WindowOptions options = lost->options_;
+  options.controls = lost->session_.controls;
+  options.fit = false;
+  glm::ivec2 place(0);
+  glfwGetWindowSize(lost->handle(), &options.width, &options.height);
+  glfwGetWindowPos(lost->handle(), &place.x, &place.y);
+  const bool playing = lost->session_.playing;
+  Gui gui = std::move(lost->gui_);
+  Input input = lost->input_;
+  input.release();  // its keys go up elsewhere
+  lost.reset();     // what it made goes with its context
+  auto window = open(options);
+  if (!window) return window.error();
+  glfwSetWindowPos((*window)->handle(), place.x, place.y);
+  (*window)->session_.playing = playing;
+  (*window)->input_ = input;
+  (*window)->gui_ = std::move(gui);
+  (*window)->gui_.notice = "the driver was reset; all was drawn again";
+  return window;
+}
+
+Window::Window(Handle window, Session session, WindowOptions options)
     : window_(std::move(window)),
+      options_(std::move(options)),
       session_(std::move(session)),
-      gui_(name + ".png", name + ".glb"),
+      gui_(options_.scene.path.stem().string() + ".png", options_.scene.path.stem().string() + ".glb"),
       lastTurn_(glfwGetTime()) {
   listen();
   startPanels(handle());
@@ -221,13 +243,23 @@ void Window::answer(const Requests& requests) {
 }
 
 Status runWindow(const WindowOptions& options) {
+  constexpr double kSoon = 5.0;  // seconds
   auto window = Window::open(options);
-  if (!window) return window.error();
-  for (;;) {
+  double opened = -kSoon;  // in the place of another
+  while (window) {
     const auto goesOn = (*window)->turn();
-    if (!goesOn) return goesOn.error();
-    if (!*goesOn) return okStatus();
+    if (goesOn && !*goesOn) return okStatus();
+    if (options.isLost()) {
+      if (glfwGetTime() - opened < kSoon)
+        return Error{ErrorKind::Graphics,
+                     "the driver was reset again and again; take a smaller --size, or a simpler scene"};
+      window = Window::reopen(std::move(*window));
+      opened = glfwGetTime();
+    } else if (!goesOn) {
+      return goesOn.error();
+    }
   }
+  return window.error();
 }
 
 }  // namespace sdf::viewer

@@ -1,10 +1,12 @@
 // The viewer's window.
 #pragma once
+#include <functional>
 #include <memory>
 
 #include "viewer/app/canvas.h"
 #include "viewer/app/gui.h"
 #include "viewer/app/input.h"
+#include "viewer/gpu/context.h"
 
 struct GLFWwindow;
 
@@ -16,10 +18,13 @@ struct WindowOptions {
   Controls controls;
   int width = 1280, height = 720;
   bool fit = false;  ///< begins with all of the scene in view
+  /// Asked after each turn: whether the window's context is lost.
+  std::function<bool()> isLost = contextIsLost;
 };
 
-/// Shows the scene until the window is closed. It must be called on the main thread. Errors: Graphics where
-/// no window can be opened, those of Session::open, and what goes wrong while it draws.
+/// Shows the scene until the window is closed; where the driver is reset meanwhile, in another window from
+/// then on. It must be called on the main thread. Errors: Graphics where no window can be opened, or the
+/// driver is reset soon again; those of Session::open; and what goes wrong while it draws.
 Status runWindow(const WindowOptions& options);
 
 /// A Window is what runWindow runs: one turn after the other.
@@ -28,6 +33,10 @@ class Window {
   /// Opens the window. Errors: as runWindow.
   static Result<std::unique_ptr<Window>> open(const WindowOptions& options);
   ~Window();
+
+  /// Opens a window in the place of one whose context is lost: what the user has changed stays, the scene is
+  /// loaded and compiled again. Errors: as runWindow.
+  static Result<std::unique_ptr<Window>> reopen(std::unique_ptr<Window> lost);
 
   /// Waits until something happens or a little longer, and shows what came of it. Returns false once the
   /// window is to close.
@@ -40,7 +49,7 @@ class Window {
 
  private:
   using Handle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
-  Window(Handle window, Session session, const std::string& name);
+  Window(Handle window, Session session, WindowOptions options);
   void listen();
   static Window& told(GLFWwindow* window);  // of an event, which the panels may answer
   void wait() const;
@@ -48,6 +57,7 @@ class Window {
   void answer(const Requests& requests);
 
   Handle window_;  // first: its context must outlive what follows
+  WindowOptions options_;
   Session session_;
   Canvas canvas_;
   Gui gui_;

@@ -250,6 +250,14 @@ Status check(const std::string& doing) {
   return first;
 }
 
+bool contextIsLost() {
+  constexpr int kTellsSince = 45;  // OpenGL 4.5
+  if (epoxy_gl_version() >= kTellsSince || epoxy_has_gl_extension("GL_KHR_robustness"))
+    return glGetGraphicsResetStatus() != GL_NO_ERROR;
+  if (epoxy_has_gl_extension("GL_ARB_robustness")) return glGetGraphicsResetStatusARB() != GL_NO_ERROR;
+  return false;
+}
+
 void finish() { glFinish(); }
 
 Status statusOf(unsigned glError, const std::string& doing) {

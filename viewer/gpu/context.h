@@ -60,6 +60,10 @@ class Context {
 /// nothing: a draw that is still under way reports later. Errors: Limits if memory ran out, else Graphics.
 Status check(const std::string& doing);
 
+/// Whether the current context has lost all that was in it since this was last asked: the driver was reset. A
+/// driver that cannot tell never has.
+bool contextIsLost();
+
 /// Waits until all is drawn that OpenGL was told to draw.
 void finish();
 

@@ -11,10 +11,12 @@ namespace sdf::viewer {
 struct SceneFile {
   std::filesystem::path path;
   std::vector<std::filesystem::path> folders{};
+  bool cached = true;  ///< what is sampled of its meshes is kept in the user's folder (BrickCache)
 
   SceneFile() = default;
-  SceneFile(std::filesystem::path file, std::vector<std::filesystem::path> more = {})  // NOLINT: implicit
-      : path(std::move(file)), folders(std::move(more)) {}
+  SceneFile(std::filesystem::path file, std::vector<std::filesystem::path> more = {},  // NOLINT: implicit
+            bool keeps = true)
+      : path(std::move(file)), folders(std::move(more)), cached(keeps) {}
 
   bool operator==(const SceneFile&) const = default;
 

@@ -297,7 +297,7 @@ int importedMesh(lua_State* L) {
   if (!c.options.readMesh) raise(L, "mesh: this program reads no mesh files");
   const auto file = permitted(name, c.file, c.options);
   if (!file) raise(L, file.error().message);
-  const auto read = meshField(*file, valueOr(given, "voxels", 128), c.options.readMesh);
+  const auto read = meshField(*file, valueOr(given, "voxels", 128), c.options.readMesh, c.options.meshCache);
   if (!read) raise(L, read.error().message);
   const auto addOnce = [](std::vector<std::string>& all, const std::string& one) {
     if (std::ranges::find(all, one) == all.end()) all.push_back(one);

@@ -59,7 +59,8 @@ Result<fs::path> permitted(const std::string& name, const fs::path& scene, const
                                      "its folder with --allow-dir " + file.parent_path().string()};
 }
 
-Result<NotedField> meshField(const fs::path& file, int voxels, const MeshReader& read) {
+Result<NotedField> meshField(const fs::path& file, int voxels, const MeshReader& read,
+                             const fs::path& cache) {
   struct Kept {
     std::weak_ptr<const MeshField> field;
     std::string note;
@@ -75,7 +76,7 @@ Result<NotedField> meshField(const fs::path& file, int voxels, const MeshReader&
   }
   Result<ReadMesh> mesh = read(file);
   if (!mesh) return mesh.error();
-  auto field = MeshField::make(std::move(mesh->mesh), voxels);
+  auto field = MeshField::make(std::move(mesh->mesh), voxels, cache);
   if (!field) return Error{field.error().kind, file.string() + ": " + field.error().message};
   NotedField made{*field, noteOf(**field, mesh->warnings)};
   const std::lock_guard lock(mutex);

@@ -32,6 +32,8 @@ struct ScriptOptions {
       60.0;  ///< seconds; for work that few instructions can ask for, such as copying long tables
   /// Reads the files that mesh("…") names; without one there are no meshes in scenes.
   MeshReader readMesh{};
+  /// The folder in which their samples for shaders are kept (BrickCache); empty: nowhere.
+  std::filesystem::path meshCache{};
   /// Folders, beside the scene's own, from which it may read.
   std::vector<std::filesystem::path> folders{};
 };

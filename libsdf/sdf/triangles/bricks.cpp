@@ -49,8 +49,8 @@ std::size_t placeIn(const glm::ivec3& size, const glm::ivec3& at) {
 
 void sampleGrid(const TriangleDistance& distance, Bricks& out) {
   const glm::ivec3 size = out.cells + 1;
-  out.volumes.push_back(
-      {"Grid", size, 2, false, std::vector<float>(2 * placeIn(size, {0, 0, size.z}), -1.0f)});
+  out.volumes[0].size = size;
+  out.volumes[0].values.assign(2 * placeIn(size, {0, 0, size.z}), -1.0f);
   inParallel(static_cast<std::size_t>(size.z) * size.y, [&](std::size_t row) {
     Along along(distance);
     const int y = static_cast<int>(row) % size.y, z = static_cast<int>(row) / size.y;
@@ -145,7 +145,8 @@ Bricks bricksOf(const TriangleDistance& distance, int voxels) {
   const int rows = static_cast<int>(out.count) / (side * side) + 1;
   out.columns = {side, side, rows};
   const glm::ivec3 size = kBrick * out.columns;
-  out.volumes.push_back({"Bricks", size, 1, true, std::vector<float>(placeIn(size, {0, 0, size.z}), 0.0f)});
+  out.volumes[1].size = size;
+  out.volumes[1].values.assign(placeIn(size, {0, 0, size.z}), 0.0f);
   std::vector<Errors> errors(near.size());
   inParallel(near.size(), [&](std::size_t i) { errors[i] = sampleBrick(distance, near[i], i, out); });
   Errors all;

@@ -23,7 +23,7 @@ struct Bricks {
   double rms = 0.0;    ///< and in the root of the mean square
   /// At the cells' corners: the distance, and the brick of the cell that begins there or -1; and the samples
   /// of all bricks, in voxels.
-  std::vector<PayloadVolume> volumes;
+  std::vector<PayloadVolume> volumes{{"Grid", {}, 2, false, {}}, {"Bricks", {}, 1, true, {}}};
 
   /// GLSL of `float NAME(vec3 p)` and `vec3 NAMESlopes(vec3 p)`; see Payload::glsl.
   std::string glsl(const std::string& name) const;

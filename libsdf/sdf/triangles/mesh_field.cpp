@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/triangles/brick_cache.h"
+
 namespace sdf {
 namespace {
 
@@ -12,21 +14,24 @@ double ulpUp(double v) { return std::nextafter(v, HUGE_VAL); }
 
 }  // namespace
 
-Result<std::shared_ptr<const MeshField>> MeshField::make(TriangleMesh mesh, int voxels) {
+Result<std::shared_ptr<const MeshField>> MeshField::make(TriangleMesh mesh, int voxels,
+                                                         const std::filesystem::path& cache) {
   constexpr int kLeast = 16, kMost = 1024;
   const auto error = [](const std::string& what) { return Error{ErrorKind::Scene, what}; };
   if (voxels < kLeast || voxels > kMost)
     return error("voxels must be from 16 to 1024, got " + std::to_string(voxels));
   ClosedTriangles triangles = closed(mesh);
   if (triangles.triangles.empty()) return error("no triangle of this mesh has an area");
-  std::shared_ptr<const MeshField> field(new MeshField(std::move(mesh), std::move(triangles), voxels));
+  std::shared_ptr<const MeshField> field(new MeshField(std::move(mesh), std::move(triangles), voxels, cache));
   if (!field->distance().hasInside())
     return error("the triangles of this mesh enclose nothing: it is no solid");
   return field;
 }
 
 const Bricks& MeshField::bricks() const {
-  std::call_once(sampled_, [&] { bricks_ = bricksOf(distance_, voxels_); });
+  std::call_once(sampled_, [&] {
+    bricks_ = cache_.empty() ? bricksOf(distance_, voxels_) : BrickCache(cache_).bricks(distance_, voxels_);
+  });
   return *bricks_;
 }
 

@@ -1,5 +1,6 @@
 // Triangle meshes as functions of a point.
 #pragma once
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,8 +20,10 @@ namespace sdf {
 class MeshField : public Payload {
  public:
   /// The distance to a mesh, after `closed`. `voxels` (16 to 1024): how many of them a shader's samples have
-  /// along the longest side. Errors (Scene): other voxels, a mesh that encloses nothing. Cost: n log n.
-  static Result<std::shared_ptr<const MeshField>> make(TriangleMesh mesh, int voxels = 128);
+  /// along the longest side; they are kept in the folder `cache`, if that is not empty (BrickCache). Errors
+  /// (Scene): other voxels, a mesh that encloses nothing. Cost: n log n.
+  static Result<std::shared_ptr<const MeshField>> make(TriangleMesh mesh, int voxels = 128,
+                                                       const std::filesystem::path& cache = {});
 
   const TriangleMesh& mesh() const { return mesh_; }
   const TriangleDistance& distance() const { return distance_; }
@@ -38,11 +41,12 @@ class MeshField : public Payload {
   std::span<const PayloadVolume> volumes() const override { return bricks().volumes; }
 
  private:
-  MeshField(TriangleMesh mesh, ClosedTriangles triangles, int voxels)
-      : mesh_(std::move(mesh)), distance_(std::move(triangles)), voxels_(voxels) {}
+  MeshField(TriangleMesh mesh, ClosedTriangles triangles, int voxels, std::filesystem::path cache)
+      : mesh_(std::move(mesh)), distance_(std::move(triangles)), voxels_(voxels), cache_(std::move(cache)) {}
   TriangleMesh mesh_;
   TriangleDistance distance_;
   int voxels_;
+  std::filesystem::path cache_;
   mutable std::once_flag sampled_;
   mutable std::optional<Bricks> bricks_;
 };

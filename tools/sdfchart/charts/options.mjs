@@ -142,7 +142,7 @@ export function chartOption(asked, theme, width) {
   };
 }
 
-const legendGap = (narrow) => (narrow ? 8 : 18);
+const legendGap = (narrow) => (narrow ? 8 : 24);
 
 // How many rows the legend will take: names as wide as DejaVu Sans draws them, about.
 function legendRowsOf(names, narrow, width) {
