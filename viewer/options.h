@@ -17,7 +17,7 @@ namespace sdf::viewer {
 struct Options {
   std::filesystem::path scene;
   std::vector<std::filesystem::path> folders;  ///< beside the scene's own, from which it may read
-  bool cached = true;  ///< what is sampled of meshes is kept for the next time
+  bool cached = true;                          ///< what is sampled of meshes is kept for the next time
   std::optional<std::filesystem::path> picture, glsl;
   std::optional<int> bench;  ///< frames
   int width = 1280, height = 720;

@@ -81,19 +81,31 @@ class Sdfview : public testing::Test {
 TEST_F(Sdfview, SaysWhatItCanDo) {
   const Outcome help = run({"--help"}), version = run({"--version"});
   EXPECT_EQ(help.status, 0);
-  for (const char* word :
-       {"SCENE",        "--render",
-        "--size",       "--time",
-        "--samples",    "--seconds",
-        "--steps",      "--view",
-        "--method",     "--start",
-        "--no-culling", "-D",
-        "--camera",     "--fit",
-        "--frames",     "--fps",
-        "--bench",      "--glsl",
-        "--version",    "--tolerance",
-        "--voxel-size", "--mesh",
-        "--split",      "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
+  for (const char* word : {"SCENE",
+                           "--render",
+                           "--size",
+                           "--time",
+                           "--samples",
+                           "--seconds",
+                           "--steps",
+                           "--view",
+                           "--method",
+                           "--start",
+                           "--no-culling",
+                           "--no-cache",
+                           "-D",
+                           "--camera",
+                           "--fit",
+                           "--frames",
+                           "--fps",
+                           "--bench",
+                           "--glsl",
+                           "--version",
+                           "--tolerance",
+                           "--voxel-size",
+                           "--mesh",
+                           "--split",
+                           "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(version.out.rfind("sdfview ", 0), 0u) << version.out;
@@ -534,6 +546,24 @@ TEST_F(Sdfview, ReadsAllPartsIfToldTo) {
     return nlohmann::json::parse(outcome.out)["readings_a_ray"]["primary"].get<double>();
   };
   EXPECT_GT(primary({}), 2.0 * primary({"--no-culling"}));
+}
+
+TEST_F(Sdfview, KeepsWhatItSamplesOfMeshesUnlessToldNotTo) {
+  const std::filesystem::path kept = folder / "cache" / "libsdf";
+  std::ofstream(folder / "tip.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string cut = scene("part('cut', mesh('tip.obj', {voxels = 32}) - sphere(0.3))");
+  const auto drawn = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{cut, "--render", at("cut.png"), "--size", "64x48"};
+    all.insert(all.end(), more.begin(), more.end());
+    EXPECT_EQ(run(all, {"XDG_CACHE_HOME=" + at("cache")}).status, 0);
+    return read(at("cut.png")).bytes;
+  };
+  const auto plain = drawn({"--no-cache"});
+  EXPECT_FALSE(std::filesystem::exists(kept));
+  EXPECT_EQ(drawn({}), plain);
+  EXPECT_FALSE(std::filesystem::is_empty(kept));
+  EXPECT_EQ(drawn({}), plain);
 }
 
 TEST_F(Sdfview, ReportsWhatFramesCost) {
