@@ -29,6 +29,7 @@ end
 
 part("floor", plane():paint { color = "#888888" })
 part("parts", union(parts))
+bounds({-6, -0.25, -6}, {6, 3.5, 6})  -- of what is exported
 camera { from = {7, 7, 11}, to = {0, 0, 0}, fov = 40 }
 directional_light { direction = {1, 2, 1} }
 shadows { kind = "soft" }
