@@ -8,6 +8,7 @@
 #include "command_line/frames.h"
 #include "sdf/base/file.h"
 #include "sdf/script/script.h"
+#include "viewer/comparison.h"
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/picture.h"
 #include "viewer/render/in_view.h"
@@ -90,7 +91,7 @@ class Headless {
     times.erase(times.begin());
     std::sort(times.begin(), times.end());
     const double pixels = static_cast<double>(options_.width) * options_.height;
-    out << nlohmann::ordered_json{{"driver", driver},
+    nlohmann::ordered_json report{{"driver", driver},
                                   {"width", options_.width},
                                   {"height", options_.height},
                                   {"samples", options_.samples * options_.samples},
@@ -99,6 +100,7 @@ class Headless {
                                   {"frame_ms", times[times.size() / 2]},
                                   {"cpu_ms", cpu},
                                   {"shader_bytes", renderer->shaders().bytes()},
+                                  {"lists", renderer->shaders().plan.cells.has_value()},
                                   {"readings_a_ray",
                                    {{"primary", readings->primary},
                                     {"shadow", readings->shadow},
@@ -106,9 +108,11 @@ class Headless {
                                     {"reflection", readings->reflection}}},
                                   {"rays", pixels * options_.samples * options_.samples},
                                   {"pixels_out_of_steps", pixelsOutOfSteps(*drawn)},
-                                  {"pixels_out_of_shadow_steps", pixelsOutOfShadowSteps(*drawn)}}
-               .dump(2)
-        << '\n';
+                                  {"pixels_out_of_shadow_steps", pixelsOutOfShadowSteps(*drawn)}};
+    Contender own{std::move(*renderer), f};
+    for (const Comparison& comparison : options_.comparisons)
+      if (auto s = compareWith(comparison, own, *target, report); !s) return s;
+    out << report.dump(2) << '\n';
     return okStatus();
   }
 
@@ -142,6 +146,30 @@ class Headless {
     if (auto s = show(*mesh, *renderer); !s) return s.error();
     if (mesh->errors) figures_ = mesh->errors->figures;
     return renderer;
+  }
+
+  // Pictures are compared where they should be the same.
+  Status compareWith(const Comparison& comparison, Contender& own, const Target& target,
+                     nlohmann::ordered_json& report) const {
+    Options options = options_;
+    for (const auto& [name, value] : comparison.parameters) options.parameters[name] = value;
+    options.shader.culling = options.shader.culling && comparison.culling;
+    auto scene = loadAt(options.time, options);
+    if (!scene) return scene.error();
+    LookFunction look = lookOf(*scene, sceneFileOf(options), options.parameters);
+    Headless other(options, std::move(*scene), std::move(look), fitTo_);
+    auto renderer = other.rendererAt(options.time, options.shader);
+    if (!renderer) return renderer.error();
+    Contender way{std::move(*renderer), other.frame(options.time)};
+    const auto compared = compare(own, way, *options.bench, target);
+    if (!compared) return compared.error();
+    nlohmann::ordered_json figures{{"with", comparison.name},
+                                   {"frame_ms", compared->milliseconds},
+                                   {"other_frame_ms", compared->otherMilliseconds},
+                                   {"ratio", compared->milliseconds / compared->otherMilliseconds}};
+    if (comparison.parameters.empty()) figures["rms"] = compared->rms;
+    report["compared"].push_back(std::move(figures));
+    return okStatus();
   }
 
   Frame frame(double time) const {

@@ -137,8 +137,32 @@ Status checkSequence(const Options& options, bool hasRate) {
   return okStatus();
 }
 
+Result<Comparison> comparison(const std::string& word) {
+  constexpr const char* kNoCulling = "no-culling";
+  if (word == kNoCulling) return Comparison{word, {}, false};
+  auto value = parameters({word});
+  if (!value) return usage("--compare needs no-culling or name=value, got '" + word + "'");
+  return Comparison{word, std::move(*value), true};
+}
+
+Status compare(const std::vector<std::string>& words, Options& options) {
+  if (!words.empty() && !options.bench)
+    return usage("--compare says what --bench N is beside; add --bench or leave --compare out");
+  for (const std::string& word : words) {
+    auto one = comparison(word);
+    if (!one) return one.error();
+    options.comparisons.push_back(std::move(*one));
+  }
+  return okStatus();
+}
+
+/// Words are what is taken as a whole once all options are known.
+struct Words {
+  std::vector<std::string> parameters, comparisons;
+};
+
 /// Declares what fills the options; `sound` tells the first word that is wrong.
-void declare(CLI::App& app, Options& options, std::vector<std::string>& parameterWords, Status& sound) {
+void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
   const auto add = [&](const char* flag, const char* value, const char* what, auto read) {
     const auto readIfSound = [&sound, read](const std::string& word) {
       if (sound) sound = read(word);
@@ -183,7 +207,7 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
       [&](const std::string& word) { return choose("--method", word, kMethods, options.shader.method); });
   add("--start", "NAME", "where rays start: raster (where they enter a hull), cone or plain (at the eye)",
       [&](const std::string& word) { return choose("--start", word, kStarts, options.shader.start); });
-  app.add_option("-D", parameterWords, "set a parameter of the scene; may be repeated")
+  app.add_option("-D", words.parameters, "set a parameter of the scene; may be repeated")
       ->type_name("name=value")
       ->allow_extra_args(false);
   app.add_option("--allow-dir", options.folders,
@@ -203,6 +227,12 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
     return take<double>("--fps", word, options.framesPerSecond, positive);
   });
   whole("--bench", options.bench, "draw N frames and print as JSON what they cost");
+  app.add_option(
+         "--compare", words.comparisons,
+         "beside --bench, time another way to draw it by turns: no-culling, or name=value for another "
+         "parameter; may be repeated")
+      ->type_name("WAY")
+      ->allow_extra_args(false);
   app.add_option("--glsl", options.glsl, "write the shader that draws the scene")->type_name("OUT.glsl");
   app.footer(
       "Without --render, --bench and --glsl a window opens.\n"
@@ -216,19 +246,20 @@ Result<std::variant<Options, Answer>> parseOptions(int argc, const char* const* 
   CLI::App app("Shows a scene of signed distances, in a window or as a picture.", "sdfview");
   app.set_version_flag("--version", std::string("sdfview ") + version());
   Options options;
-  std::vector<std::string> parameterWords;
+  Words words;
   Status sound = okStatus();
-  declare(app, options, parameterWords, sound);
+  declare(app, options, words, sound);
   Result<std::optional<Answer>> answer = parse(app, argc, argv);
   if (!answer) return answer.error();
   if (*answer) return Parsed(std::move(**answer));
   if (sound && options.picture) sound = checkPictureName(*options.picture);
   if (sound && options.seconds && !options.picture)
     sound = usage("--seconds says how long --render OUT.png refines; add --render or leave --seconds out");
+  if (sound) sound = compare(words.comparisons, options);
   if (sound) sound = checkSequence(options, app.count("--fps") > 0);
   if (sound) sound = checkMesh(options, app.count("--split") > 0);
   if (!sound) return sound.error();
-  if (auto s = keep(parameters(parameterWords), options.parameters); !s) return s.error();
+  if (auto s = keep(parameters(words.parameters), options.parameters); !s) return s.error();
   return Parsed(std::move(options));
 }
 

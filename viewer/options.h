@@ -13,6 +13,13 @@
 
 namespace sdf::viewer {
 
+/// A Comparison is another way to draw the scene, beside which --bench times it.
+struct Comparison {
+  std::string name;   ///< as the command line has it
+  Values parameters;  ///< set to these in the other
+  bool culling = true;
+};
+
 /// Options are what the command line says, with defaults for what it does not.
 struct Options {
   std::filesystem::path scene;
@@ -20,6 +27,7 @@ struct Options {
   bool cached = true;                          ///< what is sampled of meshes is kept for the next time
   std::optional<std::filesystem::path> picture, glsl;
   std::optional<int> bench;  ///< frames
+  std::vector<Comparison> comparisons;
   int width = 1280, height = 720;
   int samples = 1;  ///< a side
   int maxSteps = 1024;

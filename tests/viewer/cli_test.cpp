@@ -81,31 +81,20 @@ class Sdfview : public testing::Test {
 TEST_F(Sdfview, SaysWhatItCanDo) {
   const Outcome help = run({"--help"}), version = run({"--version"});
   EXPECT_EQ(help.status, 0);
-  for (const char* word : {"SCENE",
-                           "--render",
-                           "--size",
-                           "--time",
-                           "--samples",
-                           "--seconds",
-                           "--steps",
-                           "--view",
-                           "--method",
-                           "--start",
-                           "--no-culling",
-                           "--no-cache",
-                           "-D",
-                           "--camera",
-                           "--fit",
-                           "--frames",
-                           "--fps",
-                           "--bench",
-                           "--glsl",
-                           "--version",
-                           "--tolerance",
-                           "--voxel-size",
-                           "--mesh",
-                           "--split",
-                           "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
+  for (const char* word :
+       {"SCENE",        "--render",
+        "--size",       "--time",
+        "--samples",    "--seconds",
+        "--steps",      "--view",
+        "--method",     "--start",
+        "--no-culling", "--no-cache",
+        "--compare",    "-D",
+        "--camera",     "--fit",
+        "--frames",     "--fps",
+        "--bench",      "--glsl",
+        "--version",    "--tolerance",
+        "--voxel-size", "--mesh",
+        "--split",      "0 done, 2 usage, 3 scene, 4 limits, 5 files, 6 graphics, 130 interrupted"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(version.out.rfind("sdfview ", 0), 0u) << version.out;
@@ -566,6 +555,29 @@ TEST_F(Sdfview, KeepsWhatItSamplesOfMeshesUnlessToldNotTo) {
   EXPECT_EQ(drawn({}), plain);
 }
 
+// Two like pictures, and one of fewer parts, which is not held against it.
+TEST_F(Sdfview, ComparesWaysToDrawAScene) {
+  const Outcome outcome = run({std::string(SDF_SOURCE_DIR) + "/samples/bench/v_parts.lua", "--bench", "3",
+                               "--size", "160x120", "--compare", "no-culling", "--compare", "count=10"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(report["lists"]);
+  const auto& compared = report["compared"];
+  ASSERT_EQ(compared.size(), 2u);
+  EXPECT_EQ(compared[0]["with"], "no-culling");
+  EXPECT_EQ(compared[1]["with"], "count=10");
+  for (const auto& one : compared)
+    EXPECT_DOUBLE_EQ(one["ratio"], one["frame_ms"].get<double>() / one["other_frame_ms"].get<double>());
+  EXPECT_LE(compared[0]["rms"], 0.02) << "of a few pixels at edges";
+  EXPECT_FALSE(compared[1].contains("rms"));
+
+  const std::string ball = scene(kBall);
+  expectRefused(kUsage, "--compare needs no-culling or name=value, got 'lists'",
+                {ball, "--bench", "1", "--compare", "lists"});
+  expectRefused(kUsage, "add --bench or leave --compare out", {ball, "--compare", "no-culling"});
+  expectRefused(kScene, "count", {ball, "--bench", "1", "--size", "8x8", "--compare", "count=3"});
+}
+
 TEST_F(Sdfview, ReportsWhatFramesCost) {
   const Outcome outcome = run({std::string(SDF_SOURCE_DIR) + "/samples/lighting_stack.lua", "--bench", "2",
                                "--size", "40x30", "--samples", "4"});
@@ -582,7 +594,8 @@ TEST_F(Sdfview, ReportsWhatFramesCost) {
     EXPECT_GT(report[key].get<double>(), 0.0) << key;
   for (const char* ray : {"primary", "shadow", "occlusion", "reflection"})
     EXPECT_GT(report["readings_a_ray"][ray].get<double>(), 0.0) << ray;
-  EXPECT_EQ(report.size(), 13u);
+  EXPECT_FALSE(report["lists"]);
+  EXPECT_EQ(report.size(), 14u);
 }
 
 TEST_F(Sdfview, DrawsBenchesAndWritesTheShaderAtOnce) {

@@ -12,7 +12,6 @@
 #include "viewer/gpu/picture.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
-#include "viewer/gpu/texels.h"
 
 namespace sdf::viewer {
 namespace {
@@ -30,7 +29,6 @@ class Gpu : public testing::Test {
 using ProgramTest = Gpu;
 using TargetTest = Gpu;
 using CheckTest = Gpu;
-using TexelsTest = Gpu;
 
 Program overScreen(const std::string& body) {
   auto program = Program::overScreen("#version 330 core\n" + body);
@@ -459,20 +457,6 @@ TEST(Png, ReadsNeitherAMissingFileNorAnotherKind) {
 }
 
 TEST_F(CheckTest, NoContextIsLostThatNobodyReset) { EXPECT_FALSE(contextIsLost()); }
-
-TEST_F(TexelsTest, SayWhenThereIsNoRoomForAllOfARow) {
-  GLint room = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &room);
-  const std::size_t most = std::min<std::size_t>(room, 1u << 24);
-  TexelRow row;
-  EXPECT_TRUE(row.fill(std::vector<glm::vec4>(10)));
-  const Status filled = row.fill(std::vector<glm::vec4>(most + 1));
-  ASSERT_FALSE(filled);
-  EXPECT_EQ(filled.error().kind, ErrorKind::Limits);
-  EXPECT_EQ(filled.error().message, "the scene's parts take " + std::to_string(most + 1) +
-                                        " texels, and there is room for " + std::to_string(most) +
-                                        "; draw it with --no-culling, or give it fewer parts");
-}
 
 }  // namespace
 }  // namespace sdf::viewer

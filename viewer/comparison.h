@@ -1,0 +1,26 @@
+// One picture drawn in two ways, by turns.
+#pragma once
+#include <string>
+
+#include "viewer/render/renderer.h"
+
+namespace sdf::viewer {
+
+/// A Contender is a renderer and the frame that it draws.
+struct Contender {
+  Renderer renderer;
+  Frame frame;
+};
+
+/// Compared is what two ways cost, and how far apart their pictures are.
+struct Compared {
+  double milliseconds;       ///< a frame of the one, the median
+  double otherMilliseconds;  ///< of the other
+  double rms;                ///< of the differences of red, green and blue, 0 to 1, as they are shown
+};
+
+/// Draws one frame of each after the other, this many times after a first one that is not counted: what else
+/// the machine does meets both alike. Errors: as Renderer::draw.
+Result<Compared> compare(Contender& one, Contender& other, int frames, const Target& target);
+
+}  // namespace sdf::viewer
