@@ -79,6 +79,48 @@ TEST(Batches, AFailingMeasurementIsARowThatSaysWhy) {
   EXPECT_NE(text.find("failed: no slope,a machine"), std::string::npos) << text;
 }
 
+TEST(Batches, SlowOnesAreRepeatedLessThanFastOnes) {
+  const Folder folder;
+  RunProgress progress(false, false);
+  Results results = take(Results::open(folder / "results.csv", "sdfchart 1"));
+  const auto runs = [&](bool together, const std::string& mark) {
+    const Batch batch{.runs = 4, .budget = 3.0, .together = together, .make = [mark] {
+                        return std::vector<Measurement>{{row("fast" + mark), [](Row*) { return 0.01; }},
+                                                        {row("slow" + mark), [](Row*) { return 1.0; }},
+                                                        {row("last" + mark), [](Row*) { return 0.5; }}};
+                      }};
+    EXPECT_TRUE(runBatches({batch}, results, "", progress));
+  };
+  runs(false, " alone");
+  runs(true, " together");
+  const std::string text = contents(folder / "results.csv");
+  for (const char* words :
+       {"fast alone,,,0,0.01,0.01,0.01,4", "slow alone,,,0,1,1,1,1", "last alone,,,0,0.5,0.5,0.5,2",
+        "fast together,,,0,0.01,0.01,0.01,2", "slow together,,,0,1,1,1,2"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << " is not in\n" << text;
+  EXPECT_LT(text.find("fast alone"), text.find("slow alone"));
+  EXPECT_LT(text.find("slow alone"), text.find("last alone"));
+}
+
+// What ended before the program is told to end is kept.
+TEST(Batches, RowsAreWrittenBeforeTheirBatchEnds) {
+  const Folder folder;
+  RunProgress progress(false, false);
+  Results results = take(Results::open(folder / "results.csv", "sdfchart 1"));
+  std::string seen;
+  int ran = 0;
+  const Batch batch{.runs = 2, .budget = 2.0, .make = [&] {
+                      return std::vector<Measurement>{{row("slow"), [](Row*) { return 5.0; }},
+                                                      {row("fast"), [&](Row*) {
+                                                         if (++ran == 2)
+                                                           seen = contents(folder / "results.csv");
+                                                         return 0.1;
+                                                       }}};
+                    }};
+  ASSERT_TRUE(runBatches({batch}, results, "", progress));
+  EXPECT_NE(seen.find("slow,,,0,5"), std::string::npos) << seen;
+}
+
 TEST(Batches, WhatIsThereIsNotMeasuredAgain) {
   const Folder folder;
   int ran = 0;

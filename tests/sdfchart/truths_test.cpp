@@ -7,6 +7,7 @@
 
 #include "sdf/shape/operators.h"
 #include "sdf/shape/solids.h"
+#include "sdfchart/drawn_rays.h"
 #include "sdfchart/light_truth.h"
 #include "sdfchart/march_truth.h"
 #include "sdfchart/measurements.h"
@@ -112,6 +113,24 @@ TEST(Batches, OfEveryKindMeasureSomething) {
     std::vector<Measurement> all = batches.at(0).make();
     ASSERT_FALSE(all.empty());
     for (Measurement& m : all) EXPECT_GE(m.run(&m.row), 0.0) << m.row.key();
+  }
+}
+
+// Pictures of the known rays are theirs: what OpenGL draws of a ball is where the ball is, and nowhere else.
+TEST(DrawnRays, MeetABallWhereItIs) {
+  const auto known =
+      std::make_shared<KnownRays>(MarchedScene{"ball", sphere(1.0), {1.0, 2.0, 3.0}, 1.2}, 12, 1e-2);
+  std::vector<Measurement> all = drawnRays(known, 3);
+  ASSERT_EQ(all.size(), 12u);
+  for (Measurement& m : all) {
+    EXPECT_GT(m.run(&m.row), 0.0);
+    // A hit is off by its share of the pixel's cone, 0.03 wide there, and more where the surface is grazed.
+    EXPECT_LT(m.row.rms, 0.03 * m.row.size) << m.row.key();
+    EXPECT_EQ(m.row.missed, 0.0) << m.row.key();
+    EXPECT_EQ(m.row.falseHits, 0.0) << m.row.key();
+    EXPECT_GT(m.row.evaluations, 0.0) << m.row.key();
+    EXPECT_EQ(m.row.items, 36.0 * 36.0);
+    EXPECT_TRUE(m.row.machine.starts_with("OpenGL: ")) << m.row.machine;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "bench/shapes.h"
+#include "measure.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/march/oracle.h"
 #include "sdf/shape/operators.h"
@@ -103,6 +104,18 @@ std::vector<std::optional<double>> trueHits(const MarchField& field, const Rays&
     if (bracket) all[i] = halved(*field.distance, near, i, *bracket);
   });
   return all;
+}
+
+KnownRays::KnownRays(MarchedScene scene, int side, double step)
+    : scene_(std::move(scene)),
+      side_(side),
+      step_(step),
+      field_(take(marchField(scene_.shape))),
+      rays_(cameraRays(scene_, side)) {}
+
+const std::vector<std::optional<double>>& KnownRays::truth() {
+  if (truth_.empty()) truth_ = trueHits(field_, rays_, scene_, step_);
+  return truth_;
 }
 
 void judgeHits(const Hits& hits, const std::vector<std::optional<double>>& truth, Row& row) {

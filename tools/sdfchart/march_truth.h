@@ -32,6 +32,29 @@ Rays cameraRays(const MarchedScene& scene, int side);
 std::vector<std::optional<double>> trueHits(const MarchField& field, const Rays& rays,
                                             const MarchedScene& scene, double step);
 
+/// Rays to a scene, and where they hit.
+class KnownRays {
+ public:
+  /// `side` rays a side. `step` is that of the dense march, scene units. Throws std::runtime_error for shapes
+  /// that nothing can be marched through.
+  KnownRays(MarchedScene scene, int side, double step);
+
+  const MarchedScene& scene() const { return scene_; }
+  int side() const { return side_; }
+  const MarchField& field() const { return field_; }
+  const Rays& rays() const { return rays_; }
+  /// The true hits, found when they are first asked for.
+  const std::vector<std::optional<double>>& truth();
+
+ private:
+  MarchedScene scene_;
+  int side_;
+  double step_;
+  MarchField field_;
+  Rays rays_;
+  std::vector<std::optional<double>> truth_;
+};
+
 /// Fills error figures from what a method found: rms and max of the depth where both hit, and the shares of
 /// all rays that missed what is there, running out of steps included, and hit what is not.
 void judgeHits(const Hits& hits, const std::vector<std::optional<double>>& truth, Row& row);

@@ -10,12 +10,15 @@ namespace {
 struct Running {
   Measurement* measurement;
   std::vector<double> seconds{};
+  double spent = 0.0;
+  bool ended = false;
 };
 
 void runOnce(Running& running) {
   Row& row = running.measurement->row;
   try {
     running.seconds.push_back(running.measurement->run(running.seconds.empty() ? &row : nullptr));
+    running.spent += running.seconds.back();
   } catch (const std::exception& error) {
     row.status = std::string("failed: ") + error.what();
   }
@@ -30,20 +33,37 @@ void summarise(const Running& running) {
   row.quartile3 = quantile(running.seconds, 0.75);
 }
 
+// A measurement ends by itself when its runs have taken its share of the budget, so that those that are slow
+// do not keep those that are fast from being repeated.
+void endThoseThatMay(const Batch& batch, std::vector<Running>& all) {
+  double spent = 0.0;
+  for (const Running& one : all) spent += one.spent;
+  const double share = batch.budget / static_cast<double>(all.size());
+  for (Running& one : all)
+    one.ended = one.ended || one.measurement->row.failed() ||
+                static_cast<int>(one.seconds.size()) >= batch.runs ||
+                (batch.together ? spent >= batch.budget : one.spent >= share);
+}
+
+// Rows keep their order, which the charts go by: from `first` on those are written before which none is open.
+Status writeEnded(const std::vector<Running>& all, std::size_t& first, Results& results) {
+  for (; first < all.size() && all[first].ended; ++first) {
+    summarise(all[first]);
+    if (Status s = results.append(all[first].measurement->row); !s) return s;
+  }
+  return okStatus();
+}
+
 Status runBatch(const Batch& batch, std::vector<Measurement>& pending, Results& results) {
   std::vector<Running> all;
   for (Measurement& m : pending) all.push_back({&m});
-  double spent = 0.0;
-  for (int run = 0; run < batch.runs && (run == 0 || spent < batch.budget); ++run)
+  for (std::size_t written = 0; written < all.size();) {
     for (Running& one : all) {
-      if (one.measurement->row.failed()) continue;
-      runOnce(one);
-      if (!one.seconds.empty()) spent += one.seconds.back();
+      if (!one.ended) runOnce(one);
       if (RunProgress::toldToEnd()) return Error{ErrorKind::Interrupted, "interrupted"};
     }
-  for (const Running& one : all) {
-    summarise(one);
-    if (Status s = results.append(one.measurement->row); !s) return s;
+    endThoseThatMay(batch, all);
+    if (Status s = writeEnded(all, written, results); !s) return s;
   }
   return okStatus();
 }

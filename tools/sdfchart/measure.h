@@ -24,12 +24,14 @@ struct Batch {
   std::string subject{};  ///< for the progress line: "meshing ball"
   double weight = 1.0;    ///< about how many seconds it takes
   int runs = 5;           ///< of each, no more than this many
-  double budget = 5.0;    ///< seconds after which no further round of runs begins
+  double budget = 5.0;    ///< seconds of all runs; a measurement that has taken its share is not run again
+  bool together = false;  ///< one run serves all: they are run again until their sum is the budget
   std::function<std::vector<Measurement>()> make{};
 };
 
 /// Runs what `results` does not have yet, and appends a row for each; one that fails has a status that says
-/// why. Errors: Files, Interrupted.
+/// why. Rows are written in the batch's order, each as soon as those before it have ended. Errors: Files,
+/// Interrupted.
 Status runBatches(const std::vector<Batch>& batches, Results& results, const std::string& machine,
                   RunProgress& progress);
 

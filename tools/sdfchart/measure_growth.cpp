@@ -85,6 +85,7 @@ std::vector<Batch> growthBatches(Extent extent) {
                          .weight = byExtent(extent, 5.0, 0.7, 0.3),
                          .runs = byExtent(extent, 5, 3, 1),
                          .budget = byExtent(extent, 60.0, 6.0, 0.0),
+                         .together = true,
                          .make = [=] { return ofTask(scene, unit, size, [=] { return make(size); }); }});
   };
   using Sizes = std::vector<int>;

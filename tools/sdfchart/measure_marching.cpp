@@ -1,30 +1,13 @@
 // Methods of marching at their thresholds: time and readings a ray against what they hit.
 #include <glm/geometric.hpp>
 
+#include "drawn_rays.h"
 #include "march_truth.h"
 #include "measurements.h"
 #include "sdf/shape/operators.h"
 
 namespace sdf::chart {
 namespace {
-
-struct Shared {
-  MarchedScene scene;
-  int side;
-  double step;  // of the dense march
-  MarchField field{};
-  Rays rays{};
-  std::vector<std::optional<double>> truth{};
-
-  Shared(MarchedScene s, int n, double denseStep) : scene(std::move(s)), side(n), step(denseStep) {
-    field = take(marchField(scene.shape));
-    rays = cameraRays(scene, side);
-  }
-  const std::vector<std::optional<double>>& truthNow() {
-    if (truth.empty()) truth = trueHits(field, rays, scene, step);
-    return truth;
-  }
-};
 
 struct NamedMethod {
   const char* name;
@@ -45,26 +28,26 @@ constexpr NamedMethod kMethods[] = {
 constexpr double kViewersEpsilon = 1e-5;
 constexpr int kViewersSteps = 1024;
 
-Measurement measurement(const std::shared_ptr<Shared>& shared, const NamedMethod& method, double epsilon,
+Measurement measurement(const std::shared_ptr<KnownRays>& known, const NamedMethod& method, double epsilon,
                         int steps) {
   char setting[64];
   std::snprintf(setting, sizeof setting, "threshold %g", epsilon);
   Row row{
       .kind = "marching",
-      .scene = shared->scene.name + (steps == kViewersSteps ? "" : ", " + std::to_string(steps) + " steps"),
+      .scene = known->scene().name + (steps == kViewersSteps ? "" : ", " + std::to_string(steps) + " steps"),
       .method = method.name,
       .setting = setting,
       .size = epsilon};
   row.isDefault = method.lookBehind && epsilon == kViewersEpsilon && steps == kViewersSteps;
-  row.items = static_cast<double>(shared->rays.size());
+  row.items = static_cast<double>(known->rays().size());
   const MarchOptions options{
       .method = method.method, .epsilon = epsilon, .maxSteps = steps, .lookBehind = method.lookBehind};
-  return {row, [shared, options](Row* judged) {
-            Marcher marcher = take(Marcher::make(shared->field, options));
+  return {row, [known, options](Row* judged) {
+            Marcher marcher = take(Marcher::make(known->field(), options));
             Hits hits;
-            const double seconds = secondsOf([&] { hits = take(marcher.trace(shared->rays)); });
+            const double seconds = secondsOf([&] { hits = take(marcher.trace(known->rays())); });
             if (judged) {
-              judgeHits(hits, shared->truthNow(), *judged);
+              judgeHits(hits, known->truth(), *judged);
               judged->truth = kSliver;
             }
             return seconds;
@@ -86,23 +69,30 @@ std::vector<Batch> marchingBatches(const std::vector<Subject>& files, Extent ext
                                                         {1e-2, 1e-3, kViewersEpsilon}, {kViewersEpsilon});
   const auto budgets =
       byExtent<std::vector<int>>(extent, {kViewersSteps, 64}, {kViewersSteps}, {kViewersSteps});
-  std::vector<Batch> batches;
-  for (const MarchedScene& scene : scenes)
-    batches.push_back({.subject = "marching " + scene.name,
-                       .weight = byExtent(extent, 25.0, 4.0, 1.0),
-                       .runs = byExtent(extent, 5, 3, 1),
-                       .budget = byExtent(extent, 15.0, 1.0, 0.0),
-                       .make = [scene, thresholds, budgets, extent] {
-                         const auto shared =
-                             std::make_shared<Shared>(scene, byExtent(extent, 64, 32, 12),
-                                                      byExtent(extent, 1e-3, 2e-3, 4e-3) * scene.radius);
-                         std::vector<Measurement> all;
-                         for (const int steps : budgets)
-                           for (const NamedMethod& method : kMethods)
-                             for (const double epsilon : thresholds)
-                               all.push_back(measurement(shared, method, epsilon, steps));
-                         return all;
-                       }});
+  std::vector<Batch> batches, drawn;
+  for (const MarchedScene& scene : scenes) {
+    const auto known = [scene, extent] {
+      const double step = byExtent(extent, 1e-3, 2e-3, 4e-3) * scene.radius;
+      return std::make_shared<KnownRays>(scene, byExtent(extent, 64, 32, 12), step);
+    };
+    const Batch batch{.weight = byExtent(extent, 25.0, 4.0, 1.0),
+                      .runs = byExtent(extent, 5, 3, 1),
+                      .budget = byExtent(extent, 15.0, 1.0, 0.0)};
+    batches.push_back(batch);
+    batches.back().subject = "marching " + scene.name;
+    batches.back().make = [=] {
+      const auto rays = known();
+      std::vector<Measurement> all;
+      for (const int steps : budgets)
+        for (const NamedMethod& method : kMethods)
+          for (const double epsilon : thresholds) all.push_back(measurement(rays, method, epsilon, steps));
+      return all;
+    };
+    drawn.push_back(batch);
+    drawn.back().subject = "drawing " + scene.name;
+    drawn.back().make = [=] { return drawnRays(known(), byExtent(extent, 5, 5, 3)); };
+  }
+  batches.insert(batches.end(), drawn.begin(), drawn.end());
   return batches;
 }
 

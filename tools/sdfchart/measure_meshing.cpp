@@ -207,7 +207,7 @@ std::vector<Batch> meshingBatches(const std::vector<Subject>& subjects, Extent e
       batches.push_back({.subject = "meshing " + subject.name + ", " + what,
                          .weight = weight,
                          .runs = byExtent(extent, 5, 3, 1),
-                         .budget = byExtent(extent, 15.0, 1.5, 0.0),
+                         .budget = byExtent(extent, 10.0, 1.5, 0.0),
                          .make = [shared, fill] {
                            std::vector<Measurement> all;
                            fill(shared, all);

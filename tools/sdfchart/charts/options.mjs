@@ -5,12 +5,14 @@ import { distinct, fittedExponent, paretoFront, raised, shown } from './figures.
 // Okabe and Ito's colours (2008), which the colour-blind can tell, and shapes and dashes that greyscale shows.
 const colours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#b8860b', '#56b4e9', '#7f3c8d', '#888888', '#a0522d', '#2f4f9f'];
 const plus = 'path://M4 0h2v4h4v2h-4v4h-2v-4h-4v-2h4z', star = 'path://M5 0l1.2 3.8h4l-3.2 2.4 1.2 3.8-3.2-2.3-3.2 2.3 1.2-3.8-3.2-2.4h4z';
+const cross = 'path://M1 0l4 4l4 -4l1 1l-4 4l4 4l-1 1l-4 -4l-4 4l-1 -1l4 -4l-4 -4z';
 const symbols = ['circle', 'rect', 'triangle', 'diamond', 'emptyCircle', 'emptyRect', 'emptyTriangle', 'emptyDiamond', plus, star];
 const dashes = ['solid', 'dashed', 'dotted', [8, 3, 2, 3]];
 
 // On narrow screens the names stand in the legend alone; else also beside the lines, in a column so wide.
 const isNarrow = (width) => width < 600;
-const nameWidth = 235;
+const nameWidth = 245;
+const rightOf = (narrow) => (narrow ? 16 : nameWidth);
 
 export const themes = {
   light: { text: '#1a1a1a', faint: '#6b6b6b', line: '#dddddd', back: '#ffffff', front: '#444444' },
@@ -85,7 +87,7 @@ function lineSeries(s, { x, y, section }, floor, theme, width) {
     name, type: 'line', color: colour, symbol: symbols[s.i % symbols.length], symbolSize: narrow ? 8 : 10,
     lineStyle: { color: colour, width: 1.5, type: dashes[Math.floor(s.i / 2) % dashes.length] },
     itemStyle: { color: colour }, z: 3, clip: false,
-    labelLayout: { x: width - nameWidth + 12, moveOverlap: 'shiftY' },
+    labelLayout: { x: width - nameWidth + 22, moveOverlap: 'shiftY' },
     labelLine: { show: !narrow, length2: 4, lineStyle: { color: theme.faint, width: 0.7 } },
     data: s.points.map((p, k) => ({
       value: [p.x, Math.max(p.y, floor)], told: tooltipOf(p, x, y),
@@ -135,10 +137,10 @@ export function chartOption(asked, theme, width) {
     animation: false, backgroundColor: theme.back, textStyle: { fontFamily: 'DejaVu Sans, sans-serif' },
     title: title ? { text: title, left: 8, top: 6, textStyle: { color: theme.text, fontSize: narrow ? 13 : 16 } } : undefined,
     legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 28, itemGap: legendGap(narrow), data: all.map((one) => one.name), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 } },
-    grid: { left: narrow ? 62 : 74, right: narrow ? 16 : nameWidth, top: above, bottom: failed.length ? 84 : 56 },
+    grid: { left: narrow ? 62 : 74, right: rightOf(narrow), top: above, bottom: 56 },
     tooltip: { trigger: 'item', confine: true, formatter: (p) => p.data.told ?? '' },
-    xAxis: axis(x, 'x', theme, narrow), yAxis: { ...axis(y, 'y', theme, narrow), ...(zero ? zeroAxis(zero, series, theme.text) : {}) }, series: all,
-    graphic: failureNote(failed, theme, width),
+    xAxis: axis(x, 'x', theme, narrow), yAxis: { ...axis(y, 'y', theme, narrow), ...(zero ? zeroAxis(zero, series, theme.text) : {}) },
+    series: [...all, ...failureSeries(failed, series, above, theme, width)],
   };
 }
 
@@ -146,7 +148,7 @@ const legendGap = (narrow) => (narrow ? 8 : 24);
 
 // How many rows the legend will take: names as wide as DejaVu Sans draws them, about.
 function legendRowsOf(names, narrow, width) {
-  const letter = narrow ? 6.8 : 7.4, gap = legendGap(narrow);
+  const letter = narrow ? 6.3 : 6.8, gap = legendGap(narrow);
   let rows = 1, used = 0;
   for (const name of names) {
     const wide = 36 + letter * name.length + gap;
@@ -156,12 +158,23 @@ function legendRowsOf(names, narrow, width) {
   return rows;
 }
 
-// What failed has no place on the axes: crosses under them, with names.
-function failureNote(failed, theme, width) {
-  if (!failed.length) return [];
-  const names = distinct(failed, 'method').map((m) => `${m} (${failed.filter((row) => row.method === m).length})`);
-  return [{
-    type: 'text', left: 8, bottom: 6,
-    style: { fontFamily: 'DejaVu Sans, sans-serif', text: `✕ failed: ${names.join(', ')}`, fill: theme.text, fontSize: 12, width: width - 16, overflow: 'truncate' },
-  }];
+// What failed has no place along the axes: crosses in the corner of what is slow and wrong, each with its method's name.
+function failureSeries(failed, series, above, theme, width) {
+  const narrow = isNarrow(width), right = width - rightOf(narrow);
+  return distinct(failed, 'method').map((method, k) => {
+    const own = failed.filter((row) => row.method === method);
+    const reasons = distinct(own, 'status').map((status) =>
+      `${status}: ${own.filter((row) => row.status === status).map((row) => row.setting).join(', ')}`);
+    const colour = colours[series.find((s) => s.name === method).i % colours.length];
+    return {
+      name: `${method}, failed`, type: 'scatter', data: [], z: 5,
+      markPoint: {
+        symbol: cross, symbolSize: 10, itemStyle: { color: colour },
+        data: [{
+          x: right - 10, y: above + 12 + 16 * k, told: `<b>${method}</b><br>${reasons.join('<br>')}`,
+          label: { show: true, position: 'left', color: theme.text, fontSize: narrow ? 10 : 12, formatter: `${method}: ${own.length} failed` },
+        }],
+      },
+    };
+  });
 }

@@ -1,51 +1,54 @@
 // Tables for the README, of nothing but rows of results.csv.
-import { fastestWithin } from './choose.mjs';
 import { distinct, shown } from './figures.mjs';
-import { sections } from './sections.mjs';
 
-const sectionOf = (kind) => sections.find((section) => section.kind === kind);
 const time = (seconds) => (seconds < 1 ? `${shown(1e3 * seconds)} ms` : `${shown(seconds)} s`);
 const table = (heads, lines) =>
   [heads, heads.map(() => '---'), ...lines].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
 
-// The fastest setting of a method that is no farther off than `error`.
-function costWithin(rows, method, scene, error) {
-  const own = rows.filter((row) => row.method === method);
-  const best = fastestWithin(sectionOf('meshing'), scene, own, error);
-  return best ? `${time(best.seconds)}, ${best.triangles}` : 'not reached';
+// What the fastest of a method's meshes takes that is nowhere farther off than `error`, or how far off its best is.
+function meshWithin(rows, scene, method, error) {
+  const own = rows.filter((row) => row.scene === scene && row.method === method);
+  if (!own.length) return '';
+  const [best] = own.filter((row) => row.error_max <= error).sort((a, b) => a.seconds - b.seconds);
+  return best ? `${time(best.seconds)}, ${best.triangles}` : `not kept: ${shown(Math.min(...own.map((row) => row.error_max)))}`;
 }
 
 function meshing(rows) {
   const own = rows.filter((row) => row.kind === 'meshing' && row.status === 'ok');
-  const lines = own.filter((row) => row.method === 'uniform' && row.setting === '64 voxels').map((row) => {
-    const within = (method) => costWithin(rows, method, row.scene, row.error_rms);
-    return [row.scene, shown(row.error_rms), within('uniform'), within('tolerance, voxels of 1/64'),
-      within('OpenVDB, dense'), within('CGAL make_surface_mesh')];
-  });
-  return 'Meshes no farther off than the uniform one of 64 voxels: the time, and the triangles\n\n' +
-    table(['', 'root mean square of the two-sided distance', 'uniform', 'by tolerance', 'OpenVDB, every voxel read',
-      "CGAL's `make_surface_mesh`"], lines);
+  const methods = { tolerance: 'with a tolerance', uniform: 'of one voxel size', 'OpenVDB, dense': 'OpenVDB, every voxel read',
+    'CGAL make_surface_mesh': "CGAL's `make_surface_mesh`" };
+  const lines = own.filter((row) => row.default === 1).map(({ scene, size }) =>
+    [scene, shown(size), ...Object.keys(methods).map((method) => meshWithin(own, scene, method, size))]);
+  return 'Meshes that are nowhere farther from the surface, both ways, than the tolerance that `sdf2gltf` takes where none is ' +
+    'asked for: of each method the time of the fastest, and its triangles; or, where none of its settings keeps that, how ' +
+    'far off the best is\n\n' + table(['', 'tolerance', ...Object.values(methods)], lines);
 }
 
 function marching(rows) {
   const own = rows.filter((row) => row.kind === 'marching' && row.status === 'ok');
-  const lines = own.filter((row) => row.default === 1).map((row) => {
-    const plain = own.find((r) => r.method === 'plain' && r.scene === row.scene && r.setting === row.setting);
-    return [row.scene, ...[row, plain].flatMap((r) => [shown(r.evaluations), shown(r.error_rms)])];
-  });
-  return 'Rays, with the thresholds of the viewer: readings of the distance, and the error of the depth (root mean ' +
-    'square)\n\n' + table(['', 'as the viewer marches', '', 'plain sphere tracing', ''], lines);
+  const isDrawn = (row) => row.method.startsWith('OpenGL');
+  const usual = own.filter((row) => row.default === 1);
+  const columns = [...usual.filter((row) => !isDrawn(row)).slice(0, 1), ...usual.filter(isDrawn).slice(0, 1)]
+    .flatMap((row) => distinct(own.filter((r) => r.setting === row.setting), 'method')
+      .filter((method) => method === 'plain' || method === row.method || method.startsWith('OpenGL'))
+      .map((method) => ({ method, setting: row.setting })));
+  const cell = (row) => (row ? `${shown(row.evaluations)}, ${shown((1e6 * row.seconds) / row.items)} µs, ${shown(row.error_rms)}` : '');
+  const lines = distinct(usual, 'scene').map((scene) => [scene, ...columns.map(({ method, setting }) =>
+    cell(own.find((row) => row.scene === scene && row.method === method && row.setting === setting)))]);
+  return 'Rays, at the thresholds of the viewer: readings of the distance a ray, time a ray, and the error of the depth (root mean ' +
+    'square). The first are marched by one thread, those of OpenGL by all that the driver has\n\n' +
+    table(['', ...columns.map(({ method }) => method)], lines);
 }
 
 function shadows(rows) {
   const own = rows.filter((row) => row.kind === 'shadows' && row.status === 'ok');
-  const methods = ['hard', 'soft', 'signed', 'points of the lamp'];
-  const lines = distinct(own, 'scene').map((scene) => [scene, ...methods.map((method) => {
-    const row = own.find((r) => r.scene === scene && r.method === method);
+  const methods = [['hard', 'one ray'], ['soft', 'one ray'], ['signed', 'one ray'], ['points of the lamp', '4 rays']];
+  const lines = distinct(own, 'scene').map((scene) => [scene, ...methods.map(([method, setting]) => {
+    const row = own.find((r) => r.scene === scene && r.method === method && r.setting === setting);
     return row ? `${shown(row.error_rms)}, ${shown((1e6 * row.seconds) / row.items)} µs` : '';
   })]);
   return 'Shadows of lamps: the error of the light, from 0 to 1 (root mean square), and the time a point\n\n' +
-    table(['', ...methods], lines);
+    table(['', ...methods.map((words) => words.join(', '))], lines);
 }
 
 const line = (name, text) => `<!-- ${name} of the charts' summary; ./bootstrap charts writes it -->${text}`;

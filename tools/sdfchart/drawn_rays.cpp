@@ -1,0 +1,155 @@
+#include "drawn_rays.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "sdf/scene/scene.h"
+#include "viewer/gpu/context.h"
+#include "viewer/render/renderer.h"
+
+namespace sdf::chart {
+namespace {
+
+using viewer::Renderer;
+using viewer::Start;
+using viewer::Target;
+
+// Never closed: at the end of the process the driver's own threads may be gone already.
+const viewer::Driver& openedDriver() {
+  static viewer::Context* const context = take(viewer::Context::headless()).release();
+  if (const Status s = context->makeCurrent(); !s) throw std::runtime_error(s.error().message);
+  return context->driver();
+}
+
+void must(const Status& status) {
+  if (!status) throw std::runtime_error(status.error().message);
+}
+
+// The colour of each point is its place, and nothing changes that on its way into the picture.
+Scene placesOf(const MarchedScene& marched) {
+  Scene scene;
+  scene.camera.from = Vec3E(marched.from);
+  const double distance = glm::length(marched.from);
+  scene.camera.fov = 2.0 * glm::degrees(std::atan(marched.radius / distance));
+  scene.maxDistance = distance + 3.0 * marched.radius;
+  scene.gamma = 1.0;
+  scene.add("", Shape(marched.shape).paint({.color = position()}));
+  return scene;
+}
+
+// What a pixel of such a picture tells.
+RayStatus statusOf(const glm::vec4& pixel) {
+  if (pixel.w < 1.0f) return RayStatus::Budget;
+  const glm::vec3 nothing(0.1f);  // as kNothing of viewer/shaders/view_parts.h
+  return glm::vec3(pixel) == nothing ? RayStatus::Miss : RayStatus::Hit;
+}
+
+// What draws one scene's rays from one start; shared by all thresholds.
+class Drawing {
+ public:
+  Drawing(std::shared_ptr<KnownRays> known, int times, Start start)
+      : known_(std::move(known)), times_(times), side_(times * known_->side()), start_(start) {}
+
+  double rays() const { return static_cast<double>(side_) * side_; }
+
+  /// Draws a frame, and returns the seconds that it took; compiles first what is drawn with.
+  double draw(double threshold) {
+    if (!renderer_) open();
+    return secondsOf([&] {
+      must(renderer_->draw(frame(threshold), *target_));
+      viewer::finish();
+    });
+  }
+
+  /// What the known rays hit in the frame drawn last.
+  Hits hits() const {
+    const std::vector<glm::vec4> pixels = take(target_->pixels());
+    const Rays& rays = known_->rays();
+    Hits hits;
+    for (int y = times_ / 2; y < side_; y += times_)
+      for (int x = times_ / 2; x < side_; x += times_) {
+        const std::size_t i = hits.t.size();
+        const glm::vec4& pixel = pixels[static_cast<std::size_t>(y) * side_ + x];
+        hits.t.push_back(glm::dot(glm::dvec3(pixel) - rays.origin[i], rays.direction[i]));
+        hits.steps.push_back(0);  // readings() has their mean
+        hits.status.push_back(statusOf(pixel));
+      }
+    return hits;
+  }
+
+  /// Readings a ray of such a frame, those of the cones included.
+  double readings(double threshold) {
+    if (!counter_) counter_ = take(Renderer::make(scene_, options(true)));
+    must(counter_->draw(frame(threshold), *target_));
+    return take(counter_->readings(*target_)).primary;
+  }
+
+  std::string driver() const { return "OpenGL: " + openedDriver().renderer; }
+  KnownRays& known() const { return *known_; }
+
+ private:
+  viewer::ShaderOptions options(bool countReadings) const {
+    return {.view = viewer::View::Material, .start = start_, .countReadings = countReadings};
+  }
+  void open() {
+    openedDriver();
+    scene_ = placesOf(known_->scene());
+    renderer_ = take(Renderer::make(scene_, options(false)));
+    target_ =
+        take(Target::create(side_, side_, {viewer::PixelFormat::Rgba32f, viewer::PixelFormat::Rgba32f}));
+  }
+  viewer::Frame frame(double threshold) const {
+    viewer::Frame frame = viewer::frameOf(viewer::LookFunction(scene_), {}, 1.0);
+    frame.filter = false;
+    frame.threshold = threshold;
+    return frame;
+  }
+
+  const std::shared_ptr<KnownRays> known_;
+  const int times_, side_;
+  const Start start_;
+  Scene scene_;
+  std::optional<Renderer> renderer_, counter_;
+  std::optional<Target> target_;
+};
+
+Measurement measurement(const std::shared_ptr<Drawing>& drawing, Row row, double threshold) {
+  row.items = drawing->rays();
+  return {row, [drawing, threshold](Row* judged) {
+            if (judged) drawing->draw(threshold);  // warms up: compiles, and makes the targets
+            const double seconds = drawing->draw(threshold);
+            if (judged) {
+              judged->machine = drawing->driver();
+              judgeHits(drawing->hits(), drawing->known().truth(), *judged);
+              judged->evaluations = drawing->readings(threshold);
+              judged->truth = kSliver;
+            }
+            return seconds;
+          }};
+}
+
+constexpr std::pair<const char*, Start> kStarts[] = {{"OpenGL, --start plain", Start::Plain},
+                                                     {"OpenGL, --start cone", Start::Cone},
+                                                     {"OpenGL, --start raster", Start::Raster}};
+const double kThresholds[] = {1.0, viewer::Frame{}.threshold, 1.0 / 16.0, 1.0 / 64.0};
+
+}  // namespace
+
+std::vector<Measurement> drawnRays(const std::shared_ptr<KnownRays>& known, int times) {
+  std::vector<Measurement> all;
+  for (const auto& [name, start] : kStarts) {
+    const auto drawing = std::make_shared<Drawing>(known, times, start);
+    for (const double threshold : kThresholds) {
+      char setting[64];
+      std::snprintf(setting, sizeof setting, "%g of a pixel's cone", threshold);
+      Row row{.kind = "marching", .scene = known->scene().name, .method = name, .setting = setting};
+      row.size = threshold;
+      row.isDefault = start == viewer::ShaderOptions{}.start && threshold == viewer::Frame{}.threshold;
+      all.push_back(measurement(drawing, row, threshold));
+    }
+  }
+  return all;
+}
+
+}  // namespace sdf::chart
