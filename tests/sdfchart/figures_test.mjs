@@ -1,7 +1,10 @@
 // What the charts compute from the rows. Run by node; exits 1 where something is wrong.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import { inflateSync } from 'node:zlib';
 import { defaultsBehind, fastestWithin } from '../../tools/sdfchart/charts/choose.mjs';
+import { parsePictures, picturesHtml, pngOfPoints, usualRows } from '../../tools/sdfchart/charts/pictures.mjs';
+import { chartOption, themes } from '../../tools/sdfchart/charts/options.mjs';
 import { sections } from '../../tools/sdfchart/charts/sections.mjs';
 import { withSummary } from '../../tools/sdfchart/charts/summary.mjs';
 import { fittedExponent, paretoFront, parseResults, shown, slug } from '../../tools/sdfchart/charts/figures.mjs';
@@ -46,3 +49,31 @@ assert.throws(() => withSummary('no place for it', parseResults(results)), /mark
 const slower = results.replace(/^(shadows,.*?,soft,one ray,[^,]*,1,)[^,]*/m, '$17');
 assert.notEqual(slower, results);
 assert.notEqual(withSummary(readme, parseResults(slower)), readme);
+
+// Pictures: the last of a row counts, what is not whole does not, and PNGs hold the points.
+const lines = 'shadows,ball,hard,one ray,2,00fe00ff,0000feff\nshadows,ball,hard,one ray,2,fefe00ff,0000feff\nshadows,ball,soft,one ray,2,00fe';
+const pictures = parsePictures(lines);
+assert.equal(pictures.size, 1);
+assert.deepEqual([...pictures.values()][0].light, Buffer.from([254, 254, 0, 255]));
+const png = pngOfPoints(Buffer.from([254, 0, 255, 254]), 2);
+assert.equal(png.readUInt32BE(16), 6);
+assert.equal(png.subarray(-8).toString('hex'), '49454e44ae426082'); // the end's known checksum
+const pixels = inflateSync(png.subarray(41, -16));
+assert.deepEqual([...pixels.subarray(0, 19)], [0, ...Array(9).fill(255), ...Array(9).fill(0)]);
+const light = (method, setting, standard) => ({ kind: 'shadows', scene: 'ball', method, setting, default: standard, error_rms: 0.5 });
+assert.deepEqual(usualRows([light('a', '1', 0), light('a', '2', 1), light('b', '1', 0), light('b', '2', 0), light('b', '3', 0)]).map((r) => r.setting), ['2', '2']);
+assert.match(picturesHtml([light('hard', 'one ray', 0)], pictures), /the truth.*hard, one ray: 0.5 off/s);
+assert.equal(picturesHtml([light('soft', 'one ray', 0)], pictures), '');
+
+// What failed is a cross with its reason, beside what did not.
+const failing = { ...failed, method: 'm0', setting: 's', status: 'failed: too slow' };
+const charted = chartOption({ section: sections[0], scene: 'ball', x: sections[0].x[0], y: sections[0].y[0], rows: [...meshes, failing].map((row) => ({ runs: 1, seconds_q1: 1, seconds_q3: 1, ...row })) }, themes.light, 1000);
+const [crossed] = charted.series.filter((s) => s.markPoint).map((s) => s.markPoint.data[0]);
+assert.match(crossed.told, /m0.*too slow: s/);
+assert.equal(crossed.label.formatter, 'm0: 1 failed');
+
+// The README's rays: the viewer's frames beside the marcher, in one row for each scene.
+const rays = [['plain', 't 1', 0], ['auto', 't 1', 1], ['OpenGL, a', 'c 1', 1], ['OpenGL, a', 'c 2', 0]].map(([method, setting, standard], i) => (
+  { kind: 'marching', scene: 'ball', method, setting, default: standard, status: 'ok', seconds: 1, items: 1e6, evaluations: i + 1, error_rms: 0.5, machine: 'm' }));
+const marks = readme.match(/<!-- begin[^]*?-->\n/)[0] + readme.match(/<!-- end[^]*?-->/)[0];
+assert.match(withSummary(marks, { rows: rays }), /\| ball \| 1, 1 µs, 0.5 \| 2, 1 µs, 0.5 \| 3, 1 µs, 0.5 \|/);

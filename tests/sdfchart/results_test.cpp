@@ -58,6 +58,20 @@ TEST(Results, AFileOfAnotherKindIsLeftAlone) {
   EXPECT_EQ(contents(file), "my own,figures\n1,2\n");
 }
 
+TEST(Results, HavePicturesBesideThem) {
+  const Folder folder;
+  const auto file = folder / "results.csv", pictures = folder / "pictures.csv";
+  Row lit = row("soft");
+  lit.picture = "00fefeff", lit.truePicture = "0000feff", lit.pictureSide = 2;
+  ASSERT_TRUE(take(Results::open(file, "sdfchart 1")).append(row("without")));
+  EXPECT_FALSE(std::filesystem::exists(pictures));
+  ASSERT_TRUE(take(Results::open(file, "sdfchart 1")).append(lit));
+  EXPECT_EQ(contents(pictures), "meshing,ball,soft,,2,00fefeff,0000feff\n");
+  std::filesystem::remove(file);
+  ASSERT_TRUE(Results::open(file, "sdfchart 1"));
+  EXPECT_FALSE(std::filesystem::exists(pictures)) << "they are of rows that are gone";
+}
+
 TEST(Quantiles, LieBetweenTheValues) {
   EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
   EXPECT_EQ(quantile({1.0, 2.0}, 0.25), 1.25);

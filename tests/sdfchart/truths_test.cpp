@@ -94,6 +94,20 @@ TEST(LightTruth, OfABlockBesideIsHalfWhereItHalvesTheLamp) {
   EXPECT_EQ(lightOf(block, beside, lamp, 10.0)[0], 1.0);
 }
 
+TEST(LightTruth, PicturesHaveAPlaceForEachPointOfTheSquare) {
+  // The block covers the middle four of four by four places.
+  const Blocker block{false, {0.0, 0.5, 0.0}, 0.9};
+  const Vectors points = groundPoints(block, 4);
+  ASSERT_EQ(points.size(), 12u);
+  std::vector<double> light(points.size(), 1.0);
+  light[0] = 0.0, light.back() = 0.5;
+  EXPECT_EQ(groundPicture(points, light, 4),
+            "00fefefe"
+            "fefffffe"
+            "fefffffe"
+            "fefefe7f");
+}
+
 TEST(LightTruth, LampDirectionsFillTheirDisc) {
   const double radius = 0.2;
   const glm::dvec3 middle = glm::normalize(glm::dvec3(1.0, 2.0, -0.5));

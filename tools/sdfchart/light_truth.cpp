@@ -35,6 +35,11 @@ bool meetsBlock(const glm::dvec3& from, const glm::dvec3& d, double half, double
   return first < last;
 }
 
+// The i-th place of the square.
+glm::dvec3 groundPoint(int i, int n) {
+  return {4.0 * (i % n + 0.5) / n - 2.0, 0.0, 4.0 * (i / n + 0.5) / n - 2.0};
+}
+
 }  // namespace
 
 Shape Blocker::shape() const {
@@ -48,13 +53,27 @@ bool Blocker::meets(const glm::dvec3& p, const glm::dvec3& d, double reach) cons
 Vectors groundPoints(const Blocker& blocker, int n) {
   Vectors points;
   for (int i = 0; i < n * n; ++i) {
-    const glm::dvec3 p(4.0 * (i % n + 0.5) / n - 2.0, 0.0, 4.0 * (i / n + 0.5) / n - 2.0);
+    const glm::dvec3 p = groundPoint(i, n);
     const glm::dvec3 q = glm::abs(p - blocker.centre);
     const bool inside =
         blocker.ball ? glm::length(q) < blocker.size : std::max({q.x, q.y, q.z}) <= blocker.size;
     if (!inside) points.add(p);
   }
   return points;
+}
+
+std::string groundPicture(const Vectors& points, const std::vector<double>& light, int n) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  constexpr double kBrightest = 0xfe;
+  std::string digits;
+  std::size_t next = 0;
+  for (int i = 0; i < n * n; ++i) {
+    unsigned byte = 0xff;
+    if (next < points.size() && points[next] == groundPoint(i, n))
+      byte = static_cast<unsigned>(std::lround(kBrightest * std::clamp(light[next++], 0.0, 1.0)));
+    digits += {kDigits[byte >> 4], kDigits[byte & 0xf]};
+  }
+  return digits;
 }
 
 std::vector<glm::dvec3> lampDirections(const glm::dvec3& towards, double radius, int count) {

@@ -1,6 +1,7 @@
 // Light on the ground beside a ball or a block, by rays of their own: no distance is read.
 #pragma once
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "sdf/march/rays.h"
@@ -23,6 +24,10 @@ struct Blocker {
 
 /// Points of the ground within 2 of the origin, in a square of n by n, that the blocker does not cover.
 Vectors groundPoints(const Blocker& blocker, int n);
+
+/// Light from 0 to 1 at the points that groundPoints(…, n) gave, as two hexadecimal digits for each of the n
+/// * n places of the square, row by row: 00 to fe, and ff where the blocker covers the ground.
+std::string groundPicture(const Vectors& points, const std::vector<double>& light, int n);
 
 /// Unit directions to `count` points, evenly spread (Vogel 1979), of a lamp that is a disc of this angular
 /// radius (radians) around the unit direction `towards`.

@@ -36,17 +36,20 @@ struct Ground {
 
 using Light = std::function<std::vector<double>(const Ground&)>;
 
-void judge(const std::vector<double>& light, const std::vector<double>& truth, Row& row) {
+void judge(const std::vector<double>& light, const Ground& ground, Row& row) {
   ErrorSum errors;
-  for (std::size_t i = 0; i < truth.size(); ++i) errors.add(std::abs(light[i] - truth[i]));
+  for (std::size_t i = 0; i < ground.truth.size(); ++i) errors.add(std::abs(light[i] - ground.truth[i]));
   errors.giveTo(row);
+  row.picture = groundPicture(ground.points, light, ground.side);
+  row.truePicture = groundPicture(ground.points, ground.truth, ground.side);
+  row.pictureSide = ground.side;
 }
 
 Measurement measurement(const std::shared_ptr<const Ground>& ground, Row row, Light light) {
   row.scene = ground->name;
   row.items = static_cast<double>(ground->points.size());
   return {row, [ground, light = std::move(light)](Row* judged) {
-            if (judged) judge(light(*ground), ground->truth, *judged);
+            if (judged) judge(light(*ground), *ground, *judged);
             return secondsOfShort([&] { light(*ground); });
           }};
 }

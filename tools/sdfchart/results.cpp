@@ -101,16 +101,30 @@ Result<Results> Results::open(const fs::path& file, const std::string& made) {
   results.out_.open(file,
                     old.empty() ? std::ios::binary | std::ios::trunc : std::ios::binary | std::ios::app);
   if (!results.out_) return unwritable(file);
-  if (old.empty())
+  if (old.empty()) {
     results.out_ << begin << std::flush;
-  else
+    fs::remove(file.parent_path() / "pictures.csv");  // of rows that are not there any more
+  } else {
     fs::resize_file(file, old.size());
+  }
   if (!results.out_) return unwritable(file);
   return results;
 }
 
+Status Results::appendPictures(const Row& row) {
+  const fs::path file = file_.parent_path() / "pictures.csv";
+  std::string line;
+  for (const TextColumn& c : kKeyColumns) line += quoted(row.*c.cell) + ',';
+  line += std::to_string(row.pictureSide) + ',' + row.picture + ',' + row.truePicture + '\n';
+  std::ofstream pictures(file, std::ios::binary | std::ios::app);
+  pictures << line << std::flush;
+  return pictures ? okStatus() : Status(unwritable(file));
+}
+
 Status Results::append(const Row& row) {
   keys_.insert(row.key());
+  if (!row.picture.empty())
+    if (Status s = appendPictures(row); !s) return s;
   out_ << csvLine(row) + '\n' << std::flush;
   return out_ ? okStatus() : Status(unwritable(file_));
 }

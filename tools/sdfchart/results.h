@@ -1,4 +1,4 @@
-// results.csv: a row for each measurement, written as soon as it is taken.
+// results.csv: a row for each measurement, written as soon as it is taken; pictures.csv beside it.
 #pragma once
 #include <filesystem>
 #include <fstream>
@@ -29,13 +29,15 @@ class Results {
   /// Is the measurement there already?
   bool has(const Row& row) const { return keys_.contains(row.key()); }
   std::size_t size() const { return keys_.size(); }
-  /// Writes the row and hands it to the system. Errors: Files.
+  /// Writes the row and hands it to the system; its pictures, if it has some, as a line of pictures.csv.
+  /// Errors: Files.
   Status append(const Row& row);
 
  private:
   std::filesystem::path file_;
   std::set<std::string> keys_;
   std::ofstream out_;
+  Status appendPictures(const Row& row);
 };
 
 }  // namespace sdf::chart

@@ -41,6 +41,10 @@ struct Row {
   std::string status = "ok";  ///< or "failed: why"
   std::string machine{};
 
+  /// Of light on the ground: what the method and the truth give (groundPicture), and how many points a side.
+  std::string picture{}, truePicture{};
+  int pictureSide = 0;
+
   bool failed() const { return status != "ok"; }
   /// What no two rows share.
   std::string key() const { return kind + '\n' + scene + '\n' + method + '\n' + setting; }

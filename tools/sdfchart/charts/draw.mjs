@@ -1,12 +1,13 @@
 // node draw.mjs PACKAGES results.csv FOLDER: charts as SVG and PNG, and index.html with all of them, into FOLDER.
 // PACKAGES is the folder whose node_modules hold what package.json names.
-import { readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { distinct, parseResults } from './figures.mjs';
 import { chartOption, themes } from './options.mjs';
 import { chartName, pageOf } from './page.mjs';
+import { parsePictures } from './pictures.mjs';
 import { sections } from './sections.mjs';
 
 const [packages, results, folder] = process.argv.slice(2);
@@ -47,8 +48,9 @@ const inlined = (files) => files.map(read).join('\n').replace(/^import .*\n/gm, 
 
 const { notes, rows } = parseResults(readFileSync(results, 'utf8'));
 for (const section of sections) if (!section.grid) drawSection(section, rows);
+const lights = join(dirname(results), 'pictures.csv');
 writeFileSync(join(folder, 'index.html'), pageOf({
-  sections, rows, notes, style: read('style.css'),
+  sections, rows, notes, pictures: parsePictures(existsSync(lights) ? readFileSync(lights, 'utf8') : ''), style: read('style.css'),
   library: readFileSync(require.resolve('echarts/dist/echarts.min.js'), 'utf8'),
   modules: inlined(['figures.mjs', 'sections.mjs', 'choose.mjs', 'options.mjs']), script: read('browser.js'),
 }));

@@ -13,7 +13,8 @@ export function parseResults(text) {
   return { notes, rows };
 }
 
-function splitLine(line) {
+/// The cells of a line.
+export function splitLine(line) {
   const cells = [''];
   let quoted = false;
   for (let i = 0; i < line.length; i++) {

@@ -1,13 +1,14 @@
 // The page with all charts and their tables: one file that needs no other.
 import { defaultsBehind } from './choose.mjs';
 import { distinct, shown, slug } from './figures.mjs';
+import { picturesHtml } from './pictures.mjs';
 import { escaped, gridOf, tableOf } from './tables.mjs';
 
-function chartHtml(section, scene, rows) {
+function chartHtml(section, scene, rows, pictures) {
   const own = rows.filter((row) => row.kind === section.kind && row.scene === scene);
   return `<figure><h3>${escaped(scene)}</h3>
 <div class="chart" role="img" aria-label="${escaped(section.title + ': ' + scene)}" data-kind="${section.kind}" data-scene="${escaped(scene)}"></div>
-<details><summary>Table: ${own.length} measurements</summary><div class="wide">${tableOf(section, own)}</div></details></figure>`;
+${picturesHtml(own, pictures)}<details><summary>Table: ${own.length} measurements</summary><div class="wide">${tableOf(section, own)}</div></details></figure>`;
 }
 
 function choice(section, along) {
@@ -17,11 +18,11 @@ function choice(section, along) {
   return `<label>${along === 'x' ? 'across' : 'upwards'} <select data-kind="${section.kind}" data-along="${along}">${options}</select></label> `;
 }
 
-function sectionHtml(section, rows) {
+function sectionHtml(section, rows, pictures) {
   const own = rows.filter((row) => row.kind === section.kind);
   const head = `<section id="${section.kind}"><h2>${escaped(section.title)}</h2><p>${escaped(section.lead)}</p>`;
   if (section.grid) return `${head}<div class="wide">${gridOf(own, distinct)}</div></section>`;
-  const charts = distinct(own, 'scene').map((scene) => chartHtml(section, scene, rows)).join('\n');
+  const charts = distinct(own, 'scene').map((scene) => chartHtml(section, scene, rows, pictures)).join('\n');
   return `${head}<p class="choices">${choice(section, 'x')}${choice(section, 'y')}</p><div class="charts">${charts}</div></section>`;
 }
 
@@ -44,7 +45,7 @@ function chooserHtml(sections, rows) {
 
 /// `scripts`: the text of the charting library; of the modules that make options, without imports and exports;
 /// of what runs in the page.
-export function pageOf({ sections, rows, notes, style, library, modules, script }) {
+export function pageOf({ sections, rows, notes, pictures, style, library, modules, script }) {
   const shownSections = sections.filter((s) => rows.some((row) => row.kind === s.kind));
   const links = shownSections.map((s) => `<a href="#${s.kind}">${s.kind}</a>`).join(' ');
   const machines = distinct(rows, 'machine').join('; ');
@@ -57,7 +58,7 @@ export function pageOf({ sections, rows, notes, style, library, modules, script 
 point at a mark to read it. Marks have shapes of their own, so that the charts can be read without colours.</p>
 <p class="small">${escaped(machines)}<br>${escaped(notes.join('; '))}; times are medians</p><nav>${links}</nav></header>
 <main>${chooserHtml(shownSections, rows)}
-${shownSections.map((s) => sectionHtml(s, rows)).join('\n')}</main>
+${shownSections.map((s) => sectionHtml(s, rows, pictures)).join('\n')}</main>
 <script>${library.replace(/<\/script/g, '<\\/script')}</script>
 <script type="module">${modules}
 const rows = ${data}.map((row) => Object.fromEntries(Object.entries(row).map(([k, v]) => [k, v === null ? NaN : v])));

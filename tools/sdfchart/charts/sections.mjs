@@ -62,9 +62,10 @@ export const sections = [
   },
   lightSection('shadows', 'Soft shadows: time a point against error of the light',
     'Held to rays to 1024 points of the lamp, by formulas of their own. A chart for each lamp and scene; ' +
-      'light runs from 0 to 1.'),
+      'light runs from 0 to 1. The pictures show the ground from above; what the blocker covers is blue.'),
   lightSection('occlusion', 'Ambient occlusion: time a point against error',
-    'Held to 4096 rays a point over the hemisphere, by formulas of their own. Occlusion runs from 0 to 1.'),
+    'Held to 4096 rays a point over the hemisphere, by formulas of their own. Occlusion runs from 0 to 1. The pictures ' +
+    'show the ground from above, lit by the sky alone; what the blocker covers is blue.'),
   {
     kind: 'evaluation',
     title: 'Evaluation: points a second and rounding, over the number of operations',
