@@ -144,11 +144,11 @@ export function chartOption(asked, theme, width) {
   };
 }
 
-const legendGap = (narrow) => (narrow ? 8 : 24);
+const legendGap = (narrow) => (narrow ? 8 : 30);
 
 // How many rows the legend will take: names as wide as DejaVu Sans draws them, about.
 function legendRowsOf(names, narrow, width) {
-  const letter = narrow ? 6.3 : 6.8, gap = legendGap(narrow);
+  const letter = narrow ? 6 : 6.2, gap = legendGap(narrow);
   let rows = 1, used = 0;
   for (const name of names) {
     const wide = 36 + letter * name.length + gap;
