@@ -86,6 +86,22 @@ TEST_F(SdfChart, WithoutTheLibraryOrNodeTheFiguresAreKept) {
   expectRefusal(outcome, kNotDrawn, {"'node'", "nodejs", "--draw"});
 }
 
+// Rows say so, and the other methods are measured.
+TEST_F(SdfChart, WithoutOpenGlTheRestIsMeasured) {
+  const std::string ball = scene("return sphere(1)");
+  Command without =
+      command({ball, "-o", out(), "-q", "--trial", "--only", "marching", "--packages", "/none"});
+  without.words.insert(without.words.begin(), {"/usr/bin/env", "-u", "DISPLAY",
+                                               "__EGL_VENDOR_LIBRARY_FILENAMES=/no/such/driver.json"});
+  expectRefusal(without.run(), kNotDrawn, {"/none"});
+  const std::string rows = written("results.csv");
+  EXPECT_NE(rows.find("failed: there is no OpenGL 3.3 to draw with"), std::string::npos) << rows;
+  const std::string marched = "\"auto-relaxed, looks behind\",threshold 1e-05,1e-05,1,";
+  const std::size_t at = rows.find(marched);
+  ASSERT_NE(at, std::string::npos) << rows;
+  EXPECT_NE(rows[at + marched.size()], ',') << "no time";
+}
+
 TEST_F(SdfChart, GoesOnWhereItWasInterrupted) {
   Command first = command({"-o", out(), "--quick", "--only", "meshing", "--packages", "/none"});
   first.signalAfter = 0.5;
