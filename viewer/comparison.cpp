@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <vector>
 
 #include "viewer/gpu/context.h"
 
@@ -15,12 +14,6 @@ Result<double> millisecondsOf(Contender& way, const Target& target) {
   if (const Status s = way.renderer.draw(way.frame, target); !s) return s.error();
   finish();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Alpha says what rays ran out of steps, and is not shown.
@@ -36,6 +29,12 @@ double rmsOf(const Picture& a, const Picture& b) {
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 Result<Compared> compare(Contender& one, Contender& other, int frames, const Target& target) {
   Contender* const ways[] = {&one, &other};

@@ -1,6 +1,6 @@
 // One picture drawn in two ways, by turns.
 #pragma once
-#include <string>
+#include <vector>
 
 #include "viewer/render/renderer.h"
 
@@ -18,6 +18,9 @@ struct Compared {
   double otherMilliseconds;  ///< of the other
   double rms;                ///< of the differences of red, green and blue, 0 to 1, as they are shown
 };
+
+/// The value in the middle, of an even number the upper one; at least one.
+double median(std::vector<double> values);
 
 /// Draws one frame of each after the other, this many times after a first one that is not counted: what else
 /// the machine does meets both alike. Errors: as Renderer::draw.

@@ -89,7 +89,6 @@ class Headless {
     if (!drawn) return drawn.error();
     const double first = times.front();
     times.erase(times.begin());
-    std::sort(times.begin(), times.end());
     const double pixels = static_cast<double>(options_.width) * options_.height;
     nlohmann::ordered_json report{{"driver", driver},
                                   {"width", options_.width},
@@ -97,7 +96,7 @@ class Headless {
                                   {"samples", options_.samples * options_.samples},
                                   {"compile_ms", renderer->compileSeconds() * 1e3},
                                   {"first_frame_ms", first},
-                                  {"frame_ms", times[times.size() / 2]},
+                                  {"frame_ms", median(times)},
                                   {"cpu_ms", cpu},
                                   {"shader_bytes", renderer->shaders().bytes()},
                                   {"lists", renderer->shaders().plan.cells.has_value()},
@@ -194,8 +193,7 @@ class Headless {
       renderer.prepare(frame(options_.time + i / options_.framesPerSecond));
       times.push_back(millisecondsSince(start));
     }
-    std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
-    return times[kFrames / 2];
+    return median(std::move(times));
   }
 
   Status draw(Renderer& renderer, const Frame& f, const Target& target,

@@ -11,17 +11,12 @@
 
 #include "sdf/triangles/mesh_field.h"
 #include "support/folder.h"
+#include "support/triangle_meshes.h"
 
 namespace sdf {
 namespace {
 
-TriangleMesh tetrahedron(float size) {
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
-  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  mesh.materialOf.assign(4, 0);
-  return mesh;
-}
+TriangleMesh cube(float side) { return test::boxOf(glm::vec3(0.0f), glm::vec3(side)); }
 
 void expectEqual(const Bricks& a, const Bricks& b) {
   EXPECT_EQ(a.voxel, b.voxel);
@@ -50,7 +45,7 @@ class BrickCacheTest : public testing::Test {
   const Folder folder;
   const std::filesystem::path kept = folder / "cache";
   const BrickCache cache{kept};
-  const TriangleDistance solid{closed(tetrahedron(1.0f))};
+  const TriangleDistance solid{closed(cube(1.0f))};
   const Bricks taken = bricksOf(solid, 32);
 };
 
@@ -65,7 +60,7 @@ TEST_F(BrickCacheTest, KeepsThemBitForBit) {
 }
 
 TEST_F(BrickCacheTest, TellsTrianglesAndVoxelsApart) {
-  const TriangleDistance larger(closed(tetrahedron(1.5f)));
+  const TriangleDistance larger(closed(cube(1.5f)));
   EXPECT_NE(cache.fileOf(solid, 32), cache.fileOf(larger, 32));
   EXPECT_NE(cache.fileOf(solid, 32), cache.fileOf(solid, 33));
   cache.bricks(solid, 32);
@@ -114,7 +109,7 @@ TEST_F(BrickCacheTest, RemovesWhatWasNotUsedForLongest) {
 }
 
 TEST_F(BrickCacheTest, IsUsedByFieldsThatAreGivenAFolder) {
-  const auto field = MeshField::make(tetrahedron(1.0f), 32, kept);
+  const auto field = MeshField::make(cube(1.0f), 32, kept);
   ASSERT_TRUE(field);
   EXPECT_FALSE(std::filesystem::exists(kept)) << "before samples are asked for";
   expectEqual((*field)->bricks(), taken);

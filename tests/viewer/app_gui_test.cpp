@@ -6,7 +6,7 @@
 
 #include "support/folder.h"
 #include "viewer/app/gui.h"
-#include "viewer/gpu/context.h"
+#include "viewer/headless_test.h"
 
 namespace sdf::viewer {
 namespace {
@@ -14,12 +14,10 @@ namespace {
 constexpr float kWidth = 800.0f, kHeight = 700.0f;
 constexpr int kPictureSize = 16;
 
-class GuiTest : public testing::Test {
+class GuiTest : public HeadlessTest {
  protected:
   void SetUp() override {
-    auto opened = Context::headless();
-    ASSERT_TRUE(opened) << opened.error().message;
-    context = std::move(*opened);
+    ASSERT_NO_FATAL_FAILURE(HeadlessTest::SetUp());
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
@@ -71,7 +69,6 @@ class GuiTest : public testing::Test {
   }
 
   const Folder folder;
-  std::unique_ptr<Context> context;
   Canvas canvas;
   Gui gui{"scene.png"};
 };

@@ -7,7 +7,7 @@
 #include "viewer/app/canvas.h"
 #include "viewer/app/materials.h"
 #include "viewer/compile_count.h"
-#include "viewer/gpu/context.h"
+#include "viewer/headless_test.h"
 
 namespace sdf::viewer {
 namespace {
@@ -31,12 +31,10 @@ camera{from = {0, 0, 6}, to = {0, 0, 0}, fov = 40}
 gamma(1)
 )";
 
-class SessionTest : public testing::Test {
+class SessionTest : public HeadlessTest {
  protected:
   void SetUp() override {
-    auto opened = Context::headless();
-    ASSERT_TRUE(opened) << opened.error().message;
-    context = std::move(*opened);
+    ASSERT_NO_FATAL_FAILURE(HeadlessTest::SetUp());
     write(kBall);
   }
   std::filesystem::path file() const { return folder / "ball.lua"; }
@@ -71,7 +69,6 @@ class SessionTest : public testing::Test {
   }
 
   const Folder folder;
-  std::unique_ptr<Context> context;
   Controls start;
   int writes = 0;
 };

@@ -12,23 +12,14 @@
 #include "viewer/gpu/picture.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
+#include "viewer/headless_test.h"
 
 namespace sdf::viewer {
 namespace {
 
-/// A context for each test.
-class Gpu : public testing::Test {
- protected:
-  void SetUp() override {
-    auto opened = Context::headless();
-    ASSERT_TRUE(opened) << opened.error().message;
-    context = std::move(*opened);
-  }
-  std::unique_ptr<Context> context;
-};
-using ProgramTest = Gpu;
-using TargetTest = Gpu;
-using CheckTest = Gpu;
+using ProgramTest = HeadlessTest;
+using TargetTest = HeadlessTest;
+using CheckTest = HeadlessTest;
 
 Program overScreen(const std::string& body) {
   auto program = Program::overScreen("#version 330 core\n" + body);

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "sdf/script/script.h"
-#include "viewer/gpu/context.h"
 #include "viewer/gpu/texels.h"
+#include "viewer/headless_test.h"
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {
@@ -15,12 +15,10 @@ namespace {
 constexpr std::size_t kMostTexels = std::size_t{1} << 24;  // that floats tell apart
 constexpr const char* kParts = SDF_SOURCE_DIR "/samples/bench/v_parts.lua";
 
-class Limits : public testing::Test {
+class Limits : public HeadlessTest {
  protected:
   void SetUp() override {
-    auto opened = Context::headless();
-    ASSERT_TRUE(opened) << opened.error().message;
-    context = std::move(*opened);
+    ASSERT_NO_FATAL_FAILURE(HeadlessTest::SetUp());
     room();  // epoxy looks a function up when it is first called
     real = glGetIntegerv;
   }
@@ -41,7 +39,6 @@ class Limits : public testing::Test {
     };
   }
 
-  std::unique_ptr<Context> context;
   static inline decltype(epoxy_glGetIntegerv) real = nullptr;
   static inline GLint said = 0;
 };

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sdf/script/script.h"
-#include "viewer/gpu/context.h"
+#include "viewer/headless_test.h"
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {
@@ -10,12 +10,10 @@ namespace {
 
 constexpr int kWidth = 100, kHeight = 75;
 
-class Rows : public testing::TestWithParam<const char*> {
+class Rows : public HeadlessTest, public testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
-    auto opened = Context::headless();
-    ASSERT_TRUE(opened) << opened.error().message;
-    context = std::move(*opened);
+    ASSERT_NO_FATAL_FAILURE(HeadlessTest::SetUp());
     scene = loadScene(SDF_SOURCE_DIR "/samples/" + std::string(GetParam()) + ".lua").value();
   }
 
@@ -34,7 +32,6 @@ class Rows : public testing::TestWithParam<const char*> {
       ASSERT_TRUE(draw(viewer::Rows{row, std::min(rows, kHeight - row)}));
   }
 
-  std::unique_ptr<Context> context;
   Scene scene;
 };
 

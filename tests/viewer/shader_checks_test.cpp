@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "sdf/script/script.h"
-#include "viewer/gpu/context.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
+#include "viewer/headless_test.h"
 #include "viewer/shaders/assemble.h"
 #include "viewer/shaders/source.h"
 
@@ -29,12 +29,10 @@ TEST(DeclaredUniforms, AreThoseOfAllDeclarations) {
             (std::set<std::string>{"size", "from", "right", "lights", "n"}));
 }
 
-class StrictProgram : public testing::Test {
+class StrictProgram : public HeadlessTest {
  protected:
   void SetUp() override {
-    auto opened = Context::headless();
-    ASSERT_TRUE(opened) << opened.error().message;
-    context = std::move(*opened);
+    ASSERT_NO_FATAL_FAILURE(HeadlessTest::SetUp());
     target = Target::create(1, 1, {PixelFormat::Rgba8}).value();
     target->bind();
   }
@@ -44,7 +42,6 @@ class StrictProgram : public testing::Test {
                "vec4(a); }\n")
         .value();
   }
-  std::unique_ptr<Context> context;
   std::optional<Target> target;
 };
 

@@ -18,10 +18,8 @@
 namespace sdf::test {
 namespace {
 
-std::optional<viewer::Ball> ballOf(const Shape& shape) { return viewer::ballOf({"part", shape}, 0.0); }
-
 void expectBall(const Shape& shape, const glm::dvec3& centre, double radius) {
-  const auto ball = ballOf(shape);
+  const auto ball = viewer::ballOf(shape);
   ASSERT_TRUE(ball);
   EXPECT_NEAR(uniformValue(ball->centre.x), centre.x, 1e-12);
   EXPECT_NEAR(uniformValue(ball->centre.y), centre.y, 1e-12);
@@ -50,13 +48,13 @@ TEST(Solved, OtherShapesAreNoBalls) {
        {box(Vec3E(Expr(1.0))), torus(1.0, 0.3), capsule(Vec3E(Expr(-1.0)), Vec3E(Expr(1.0)), 0.3),
         cylinder(0.5, 1.0), shell(sphere(1.0), 0.1), sphere(1.0) | at(sphere(1.0), 3, 0, 0),
         scale(sphere(1.0), Vec3E(glm::dvec3(1.0, 2.0, 1.0)))})
-    EXPECT_FALSE(ballOf(shape)) << shape.bounds.max.x;
+    EXPECT_FALSE(viewer::ballOf(shape)) << shape.bounds.max.x;
 }
 
 TEST(Solved, ABallWithoutARadiusIsNone) {
   Shape shrunk = sphere(1.0);
   shrunk.distance = shrunk.distance + Expr::parameter({"less", 1.5, 0.0, 2.0});
-  const auto ball = ballOf(shrunk);
+  const auto ball = viewer::ballOf(shrunk);
   ASSERT_TRUE(ball);
   EXPECT_LE(uniformValue(ball->squaredRadius), 0.0);
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "row.h"
 #include "sdf/base/result.h"
@@ -34,10 +35,11 @@ class Results {
   Status append(const Row& row);
 
  private:
+  Status appendPictures(const Row& row);
+
   std::filesystem::path file_;
   std::set<std::string> keys_;
   std::ofstream out_;
-  Status appendPictures(const Row& row);
 };
 
 }  // namespace sdf::chart

@@ -17,8 +17,6 @@ struct Split {
   std::vector<DrawnMesh> drawn;
   std::vector<Shape> others;
   std::vector<NumberedOperand> operands;
-  std::vector<Ball> balls;      ///< of the others
-  std::vector<Shape> unsolved;  ///< the others without the balls
 };
 
 // The operand as triangles, if it is a mesh that is drawn.
@@ -42,10 +40,6 @@ Split split(const Scene& scene, bool withPlanes, bool withDrawn) {
       result.planes.push_back(std::move(*plane));
     } else {
       result.others.push_back(part.shape);
-      if (auto ball = ballOf(part, number))
-        result.balls.push_back(std::move(*ball));
-      else
-        result.unsolved.push_back(part.shape);
       const std::vector<Shape> shapes = operandShapesOf(part.shape);
       for (std::size_t i = 0; i < operands.size(); ++i)
         if (auto mesh = withDrawn ? drawnMeshOf(shapes[i], operands[i]) : std::nullopt)
@@ -112,17 +106,29 @@ void planKinds(const std::vector<NumberedOperand>& operands, Plan& plan) {
   if (!kinds.many.empty() || !plan.drawn.empty()) plan.kinds = std::move(kinds);
 }
 
-// Balls are met by their roots where no pass looks for tiles that show the background alone.
-Status planRest(Split& parts, const Scene& scene, Plan& plan) {
+// Takes the balls out of the shapes, and returns them, if they are few.
+std::vector<Ball> takeBalls(std::vector<Shape>& shapes) {
   constexpr std::size_t kFew = 16;  // each of which every ray looks at
-  const bool solves = !plan.planes.empty() && !plan.kinds && parts.balls.size() <= kFew;
-  if (solves) plan.balls = std::move(parts.balls);
-  const std::vector<Shape>& others = solves ? parts.unsolved : parts.others;
-  if (plan.planes.empty())
+  std::vector<Ball> balls;
+  std::vector<Shape> others;
+  for (const Shape& shape : shapes)
+    if (auto ball = ballOf(shape))
+      balls.push_back(std::move(*ball));
+    else
+      others.push_back(shape);
+  if (balls.size() > kFew) return {};
+  shapes = std::move(others);
+  return balls;
+}
+
+// Balls are met by their roots where no pass looks for tiles that show the background alone.
+Status planRest(std::vector<Shape> others, const Scene& scene, Plan& plan) {
+  if (plan.planes.empty()) {
     plan.rest = plan.whole;
-  else if (!others.empty())
-    return keep(marched(unite(others), scene), plan.rest);
-  return okStatus();
+    return okStatus();
+  }
+  if (!plan.kinds) plan.balls = takeBalls(others);
+  return others.empty() ? okStatus() : keep(marched(unite(others), scene), plan.rest);
 }
 
 }  // namespace
@@ -155,7 +161,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   plan.planes = std::move(parts.planes);
   plan.drawn = std::move(parts.drawn);
   if (mayGroup) planKinds(parts.operands, plan);
-  if (auto s = planRest(parts, scene, plan); !s) return s.error();
+  if (auto s = planRest(std::move(parts.others), scene, plan); !s) return s.error();
   plan.cones = plan.rest && options.method == Method::AutoRelaxed && options.start != Start::Plain &&
                !stepsCount && !plan.lens && !plan.meshed;
   plan.tiled = plan.cones && isPicture && plan.planes.empty() && plan.drawn.empty();

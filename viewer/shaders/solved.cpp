@@ -71,9 +71,9 @@ std::optional<HalfSpace> halfSpaceOf(const Part& part, double number) {
   return HalfSpace{operandsOf(part.shape, number).front(), distance * once, dot(g, normal()) * once};
 }
 
-std::optional<Ball> ballOf(const Part& part, double number) {
-  if (part.shape.outer) return {};
-  const auto form = rootFormOf(part.shape.distance);
+std::optional<Ball> ballOf(const Shape& shape) {
+  if (shape.outer) return {};
+  const auto form = rootFormOf(shape.distance);
   if (!form || !(form->scale.range().lo > 0.0)) return {};
   const Vec3E gradient = gradientOf(form->square);
   const auto k = curvatureOf(gradient);
@@ -83,7 +83,7 @@ std::optional<Ball> ballOf(const Part& part, double number) {
   const auto centre = [&](const Expr& slope) { return at(slope, zero) * (-0.5 / *k); };
   const Vec3E c{centre(gradient.x), centre(gradient.y), centre(gradient.z)};
   const Expr least = at(form->square, {c.x, c.y, c.z}), root = max(0.0, -form->offset / form->scale);
-  return Ball{operandsOf(part.shape, number).front(), c, (square(root) - least) / *k};
+  return Ball{c, (square(root) - least) / *k};
 }
 
 }  // namespace sdf::viewer

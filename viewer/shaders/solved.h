@@ -14,9 +14,8 @@ struct HalfSpace {
   Expr climb;   ///< how the height changes along the direction in normal()
 };
 
-/// A Ball is an operand that rays meet by a square root.
+/// A Ball is a shape that rays meet by a square root.
 struct Ball {
-  NumberedOperand operand;
   Vec3E centre;
   Expr squaredRadius;  ///< negative if there is no ball at these parameters' values
 };
@@ -24,8 +23,8 @@ struct Ball {
 /// The part as a half space, if its distance is a linear function.
 std::optional<HalfSpace> halfSpaceOf(const Part& part, double number);
 
-/// The part as a ball, if its distance is a root of |p - c|^2 + e, times and plus what does not depend on
+/// The shape as a ball, if its distance is a root of |p - c|^2 + e, times and plus what does not depend on
 /// space: a ball moved, turned, scaled and offset, or a rounded point.
-std::optional<Ball> ballOf(const Part& part, double number);
+std::optional<Ball> ballOf(const Shape& shape);
 
 }  // namespace sdf::viewer

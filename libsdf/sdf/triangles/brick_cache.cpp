@@ -46,27 +46,27 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-/// Numbers one after the other, as they lie in memory.
-class Bytes {
+// Numbers go into a file as they lie in memory.
+template <typename T>
+void put(std::string& out, const T* from, std::size_t count) {
+  out.append(reinterpret_cast<const char*>(from), count * sizeof(T));
+}
+
+/// Takes them out again, one after the other.
+class Reader {
  public:
-  explicit Bytes(std::string bytes = {}) : bytes_(std::move(bytes)) {}
-  template <typename T>
-  void put(const T* from, std::size_t count) {
-    bytes_.append(reinterpret_cast<const char*>(from), count * sizeof(T));
-  }
+  explicit Reader(std::string_view bytes) : left_(bytes) {}
   template <typename T>
   bool take(T* to, std::size_t count) {
-    if (count > (bytes_.size() - at_) / sizeof(T)) return false;
-    std::memcpy(to, bytes_.data() + at_, count * sizeof(T));
-    at_ += count * sizeof(T);
+    if (count > left_.size() / sizeof(T)) return false;
+    std::memcpy(to, left_.data(), count * sizeof(T));
+    left_.remove_prefix(count * sizeof(T));
     return true;
   }
-  bool ended() const { return at_ == bytes_.size(); }
-  const std::string& all() const { return bytes_; }
+  std::size_t left() const { return left_.size(); }
 
  private:
-  std::string bytes_;
-  std::size_t at_ = 0;
+  std::string_view left_;
 };
 
 std::uint64_t hashOf(std::string_view bytes) {
@@ -75,38 +75,42 @@ std::uint64_t hashOf(std::string_view bytes) {
   return hash.value();
 }
 
-// All but the names and kinds of the volumes, which bricksOf alone gives.
-std::string written(const Bricks& b) {
-  Bytes out;
-  out.put(&b.voxel, 1);
-  out.put(&b.origin, 1);
-  out.put(&b.cells, 1);
-  out.put(&b.columns, 1);
-  out.put(&b.count, 1);
-  out.put(&b.worst, 1);
-  out.put(&b.rms, 1);
-  for (const PayloadVolume& volume : b.volumes) {
-    const std::uint64_t count = volume.values.size();
-    out.put(&volume.size, 1);
-    out.put(&count, 1);
-    out.put(volume.values.data(), count);
-  }
-  return out.all();
+// What a file holds beside the volumes, which have their names and kinds from Bricks.
+template <typename B, typename Visit>
+void eachNumber(B& b, const Visit& visit) {
+  visit(b.voxel);
+  visit(b.origin);
+  visit(b.cells);
+  visit(b.columns);
+  visit(b.count);
+  visit(b.worst);
+  visit(b.rms);
 }
 
-bool readInto(std::string bytes, Bricks& b) {
-  Bytes in(std::move(bytes));
-  if (!in.take(&b.voxel, 1) || !in.take(&b.origin, 1) || !in.take(&b.cells, 1) || !in.take(&b.columns, 1) ||
-      !in.take(&b.count, 1) || !in.take(&b.worst, 1) || !in.take(&b.rms, 1))
-    return false;
+std::string written(const Bricks& b) {
+  std::string out;
+  eachNumber(b, [&](const auto& number) { put(out, &number, 1); });
+  for (const PayloadVolume& volume : b.volumes) {
+    const std::uint64_t count = volume.values.size();
+    put(out, &volume.size, 1);
+    put(out, &count, 1);
+    put(out, volume.values.data(), count);
+  }
+  return out;
+}
+
+bool readInto(std::string_view bytes, Bricks& b) {
+  Reader in(bytes);
+  bool whole = true;
+  eachNumber(b, [&](auto& number) { whole = whole && in.take(&number, 1); });
   for (PayloadVolume& volume : b.volumes) {
     std::uint64_t count = 0;
-    if (!in.take(&volume.size, 1) || !in.take(&count, 1)) return false;
-    if (count > in.all().size()) return false;
+    whole = whole && in.take(&volume.size, 1) && in.take(&count, 1) && count <= in.left();
+    if (!whole) return false;
     volume.values.resize(count);
-    if (!in.take(volume.values.data(), count)) return false;
+    whole = in.take(volume.values.data(), count);
   }
-  return in.ended();
+  return whole && in.left() == 0;
 }
 
 // The bytes behind the format and their hash, if they are what that says.
@@ -147,12 +151,10 @@ fs::path BrickCache::fileOf(const TriangleDistance& distance, int voxels) const 
 Bricks BrickCache::bricks(const TriangleDistance& distance, int voxels) const {
   const fs::path file = fileOf(distance, voxels);
   std::error_code ignored;
-  if (auto bytes = contentOf(file)) {
-    Bricks kept;
-    if (readInto(std::move(*bytes), kept)) {
-      fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
-      return kept;
-    }
+  const auto content = contentOf(file);
+  if (Bricks kept; content && readInto(*content, kept)) {
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+    return kept;
   }
   Bricks taken = bricksOf(distance, voxels);
   fs::create_directories(folder_, ignored);

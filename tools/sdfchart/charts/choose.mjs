@@ -1,9 +1,8 @@
 // The fastest setting that keeps an error, from what was measured; and how far the defaults are behind it.
 
 /// Of the section's rows of one scene, that of the least `cost` (a figure; the section's first along x if none is
-/// named) whose error (the section's first along y) is at most `error`.
-export function fastestWithin(section, scene, rows, error, cost = section.x[0]) {
-  const off = section.y[0];
+/// named) of which `off` (a figure; the first along y) is at most `error`.
+export function fastestWithin(section, scene, rows, error, cost = section.x[0], off = section.y[0]) {
   return rows.filter((row) => row.kind === section.kind && row.scene === scene && row.status === 'ok')
     .filter((row) => off.of(row) <= error && cost.of(row) > 0)
     .sort((a, b) => cost.of(a) - cost.of(b))[0];

@@ -1,5 +1,7 @@
 // Tables for the README, of nothing but rows of results.csv.
+import { fastestWithin } from './choose.mjs';
 import { distinct, shown } from './figures.mjs';
+import { sections } from './sections.mjs';
 
 const time = (seconds) => (seconds < 1 ? `${shown(1e3 * seconds)} ms` : `${shown(seconds)} s`);
 const table = (heads, lines) =>
@@ -9,8 +11,10 @@ const table = (heads, lines) =>
 function meshWithin(rows, scene, method, error) {
   const own = rows.filter((row) => row.scene === scene && row.method === method);
   if (!own.length) return '';
-  const [best] = own.filter((row) => row.error_max <= error).sort((a, b) => a.seconds - b.seconds);
-  return best ? `${time(best.seconds)}, ${best.triangles}` : `not kept: ${shown(Math.min(...own.map((row) => row.error_max)))}`;
+  const section = sections.find(({ kind }) => kind === 'meshing');
+  const [seconds, largest] = [section.x[0], section.y[1]];
+  const best = fastestWithin(section, scene, own, error, seconds, largest);
+  return best ? `${time(best.seconds)}, ${best.triangles}` : `not kept: ${shown(Math.min(...own.map(largest.of)))}`;
 }
 
 function meshing(rows) {
