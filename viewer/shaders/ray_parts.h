@@ -124,7 +124,7 @@ float ballsFrom(vec3 origin, vec3 direction, float nearest) {
 /// readings near the surface, of which rising ones count for an eighth, a ray hits, for it goes along a face
 /// or an edge.
 inline constexpr const char* kMarch = R"(
-const int MOST_CLOSE = 24;
+const int MOST_CLOSE = 64;
 const int FREE = 0, BEHIND = 1, ONTO = 2;  // where the next reading is, of the surface
 
 float march(Ray ray, out int status, out int readings) {

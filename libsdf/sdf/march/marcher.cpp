@@ -15,7 +15,7 @@ constexpr const char* kUser = "march";
 // readings within one it hits, of which those that rise count 1 / kFalling.
 constexpr double kBehind = 1.25, kLeastFall = 1.0 / 16, kCandidate = 2.0, kLongest = 8.0,
                  kHair = 4095.0 / 4096;
-constexpr int kMostClose = 24, kFalling = 8;
+constexpr int kMostClose = 64, kFalling = 8;
 constexpr double kRefinedThresholds = 4.0;  // that a refined hit may move on: enough where g falls by 1/4
 
 Error wrongOption(const std::string& what) { return {ErrorKind::Usage, std::string(kUser) + ": " + what}; }
