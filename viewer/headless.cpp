@@ -65,12 +65,8 @@ class Headless {
   }
 
   Status bench(std::ostream& out, const std::string& driver) {
-    ShaderOptions counting = options_.shader;
-    counting.countReadings = true;
     auto renderer = rendererAt(options_.time, options_.shader);
-    auto counter = rendererAt(options_.time, counting);
-    for (const auto* made : {&renderer, &counter})
-      if (!*made) return made->error();
+    if (!renderer) return renderer.error();
     auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8, PixelFormat::Rgba32f});
     if (!target) return target.error();
     const Frame f = frame(options_.time);
@@ -82,8 +78,7 @@ class Headless {
       times.push_back(millisecondsSince(start));
     }
     const double cpu = millisecondsBeforeDrawing(*renderer);
-    if (auto s = counter->draw(f, *target); !s) return s;
-    const auto readings = counter->readings(*target);
+    const auto readings = readingsOn(*target);
     if (!readings) return readings.error();
     const auto drawn = target->picture();
     if (!drawn) return drawn.error();
@@ -100,11 +95,7 @@ class Headless {
                                   {"cpu_ms", cpu},
                                   {"shader_bytes", renderer->shaders().bytes()},
                                   {"lists", renderer->shaders().plan.cells.has_value()},
-                                  {"readings_a_ray",
-                                   {{"primary", readings->primary},
-                                    {"shadow", readings->shadow},
-                                    {"occlusion", readings->occlusion},
-                                    {"reflection", readings->reflection}}},
+                                  {"readings_a_ray", *readings},
                                   {"rays", pixels * options_.samples * options_.samples},
                                   {"pixels_out_of_steps", pixelsOutOfSteps(*drawn)},
                                   {"pixels_out_of_shadow_steps", pixelsOutOfShadowSteps(*drawn)}};
@@ -147,12 +138,28 @@ class Headless {
     return renderer;
   }
 
+  // Of the distance, by rays of each kind, in their share of the primary ones; drawn into the target.
+  Result<nlohmann::ordered_json> readingsOn(const Target& target) {
+    ShaderOptions counting = options_.shader;
+    counting.countReadings = true;
+    auto counter = rendererAt(options_.time, counting);
+    if (!counter) return counter.error();
+    if (auto s = counter->draw(frame(options_.time), target); !s) return s.error();
+    const auto readings = counter->readings(target);
+    if (!readings) return readings.error();
+    return nlohmann::ordered_json{{"primary", readings->primary},
+                                  {"shadow", readings->shadow},
+                                  {"occlusion", readings->occlusion},
+                                  {"reflection", readings->reflection}};
+  }
+
   // Pictures are compared where they should be the same.
   Status compareWith(const Comparison& comparison, Contender& own, const Target& target,
                      nlohmann::ordered_json& report) const {
     Options options = options_;
     for (const auto& [name, value] : comparison.parameters) options.parameters[name] = value;
     options.shader.culling = options.shader.culling && comparison.culling;
+    options.shader.start = comparison.start.value_or(options.shader.start);
     auto scene = loadAt(options.time, options);
     if (!scene) return scene.error();
     LookFunction look = lookOf(*scene, sceneFileOf(options), options.parameters);
@@ -162,10 +169,13 @@ class Headless {
     Contender way{std::move(*renderer), other.frame(options.time)};
     const auto compared = compare(own, way, *options.bench, target);
     if (!compared) return compared.error();
+    const auto readings = other.readingsOn(target);
+    if (!readings) return readings.error();
     nlohmann::ordered_json figures{{"with", comparison.name},
                                    {"frame_ms", compared->milliseconds},
                                    {"other_frame_ms", compared->otherMilliseconds},
-                                   {"ratio", compared->milliseconds / compared->otherMilliseconds}};
+                                   {"ratio", compared->milliseconds / compared->otherMilliseconds},
+                                   {"other_readings_a_ray", *readings}};
     if (comparison.parameters.empty()) figures["rms"] = compared->rms;
     report["compared"].push_back(std::move(figures));
     return okStatus();

@@ -138,11 +138,20 @@ Status checkSequence(const Options& options, bool hasRate) {
 }
 
 Result<Comparison> comparison(const std::string& word) {
-  constexpr const char* kNoCulling = "no-culling";
-  if (word == kNoCulling) return Comparison{word, {}, false};
+  Comparison result{.name = word};
+  if (word == "no-culling") {
+    result.culling = false;
+    return result;
+  }
+  if (Start start{}; choose("--compare", word, kStarts, start)) {
+    result.start = start;
+    return result;
+  }
   auto value = parameters({word});
-  if (!value) return usage("--compare needs no-culling or name=value, got '" + word + "'");
-  return Comparison{word, std::move(*value), true};
+  if (!value)
+    return usage("--compare needs no-culling, raster, cone, plain or name=value, got '" + word + "'");
+  result.parameters = std::move(*value);
+  return result;
 }
 
 Status compare(const std::vector<std::string>& words, Options& options) {
@@ -229,8 +238,8 @@ void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
   whole("--bench", options.bench, "draw N frames and print as JSON what they cost");
   app.add_option(
          "--compare", words.comparisons,
-         "beside --bench, time another way to draw it by turns: no-culling, or name=value for another "
-         "parameter; may be repeated")
+         "beside --bench, time another way to draw it by turns: no-culling, a --start, or name=value for "
+         "another parameter; may be repeated")
       ->type_name("WAY")
       ->allow_extra_args(false);
   app.add_option("--glsl", options.glsl, "write the shader that draws the scene")->type_name("OUT.glsl");

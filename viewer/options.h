@@ -15,9 +15,10 @@ namespace sdf::viewer {
 
 /// A Comparison is another way to draw the scene, beside which --bench times it.
 struct Comparison {
-  std::string name;   ///< as the command line has it
-  Values parameters;  ///< set to these in the other
+  std::string name;     ///< as the command line has it
+  Values parameters{};  ///< set to these in the other
   bool culling = true;
+  std::optional<Start> start{};
 };
 
 /// Options are what the command line says, with defaults for what it does not.
