@@ -572,7 +572,16 @@ TEST_F(Sdfview, ComparesWaysToDrawAScene) {
   EXPECT_FALSE(compared[1].contains("rms"));
 
   const std::string ball = scene(kBall);
-  expectRefused(kUsage, "--compare needs no-culling or name=value, got 'lists'",
+  const Outcome starts =
+      run({ball, "--bench", "1", "--size", "160x120", "--compare", "raster", "--compare", "plain"});
+  ASSERT_EQ(starts.status, 0) << starts.err;
+  const auto byStart = nlohmann::json::parse(starts.out);
+  ASSERT_EQ(byStart["compared"].size(), 2u);
+  const double own = byStart["readings_a_ray"]["primary"];
+  EXPECT_GT(byStart["compared"][1]["other_readings_a_ray"]["primary"], 1.5 * own) << "from the eye";
+  EXPECT_NE(byStart["compared"][0]["other_readings_a_ray"]["primary"], own);
+  for (const auto& one : byStart["compared"]) EXPECT_LE(one["rms"], 1e-3) << one["with"];
+  expectRefused(kUsage, "--compare needs no-culling, raster, cone, plain or name=value, got 'lists'",
                 {ball, "--bench", "1", "--compare", "lists"});
   expectRefused(kUsage, "add --bench or leave --compare out", {ball, "--compare", "no-culling"});
   expectRefused(kScene, "count", {ball, "--bench", "1", "--size", "8x8", "--compare", "count=3"});
@@ -596,6 +605,21 @@ TEST_F(Sdfview, ReportsWhatFramesCost) {
     EXPECT_GT(report["readings_a_ray"][ray].get<double>(), 0.0) << ray;
   EXPECT_FALSE(report["lists"]);
   EXPECT_EQ(report.size(), 14u);
+}
+
+// Above a floor all taps see nothing but the floor, which the farthest tells; in a corner none tells of the
+// others.
+TEST_F(Sdfview, ReadsOcclusionOnceWhereNothingIsNear) {
+  const auto readings = [&](const std::string& walls) {
+    const std::string text = "part('floor', plane())\n" + walls +
+                             "camera{from = {0, 3, 0.1}, to = {0, 0, 0}, fov = 40}\n"
+                             "ambient_occlusion{kind = 'taps', spacing = 0.5, count = 5}\n";
+    const Outcome outcome = run({scene(text), "--bench", "1", "--size", "40x30"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out)["readings_a_ray"]["occlusion"].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(readings(""), 1.0);
+  EXPECT_GT(readings("part('wall', box{0.2, 3, 3}:translate(0.5, 0, 0))\n"), 1.5);
 }
 
 TEST_F(Sdfview, DrawsBenchesAndWritesTheShaderAtOnce) {

@@ -75,7 +75,8 @@ TEST(Light, OfALooseSlopeCostsLittleMoreReadings) {
   const viewer::Readings tight = readings(1.0), loose = readings(10.0);
   EXPECT_LE(loose.primary, 2.5 * tight.primary);
   EXPECT_LE(loose.shadow, 2.5 * tight.shadow);
-  EXPECT_EQ(loose.occlusion, tight.occlusion);
+  // Where the slope is 1 the farthest tap may tell of all others.
+  EXPECT_LE(loose.occlusion, AmbientOcclusion{}.count * tight.occlusion);
 }
 
 TEST(Light, DoesNotDependOnWhetherASlopeIsStatedOrDerived) {

@@ -21,10 +21,6 @@ constexpr std::size_t kLongProgram = 6000;
 constexpr double kLongCones = 100.0;       // operations, of a distance that is not worth a shader of cones
 constexpr std::size_t kLongPasses = 2000;  // the same of several, each of which takes its time beside
 
-std::size_t gradientSize(const Expr& distance) {
-  return topologicalOrder(partsOf(gradientOf(distance))).size();
-}
-
 Obstacles obstaclesOf(const OperandKind& kind, const Plan& plan) {
   const Marched part = marchedOf(kind, plan.rest->bounds);
   Obstacles result{.whole = part, .rest = part};
@@ -126,7 +122,7 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
 
 Obstacles obstaclesOf(const Plan& plan) {
   Obstacles result{plan.whole, plan.rest, plan.planes, plan.balls, {}, plan.kinds.has_value()};
-  result.byTaps = result.shared || gradientSize(plan.whole.distance) > kLongProgram;
+  result.byTaps = result.shared ? !sharesGradients(plan) : gradientSize(plan.whole.distance) > kLongProgram;
   if (!plan.operands.empty()) result.operand = result.shared ? Expr(0.0) : numberOfNearest(plan.operands);
   return result;
 }
@@ -134,7 +130,10 @@ Obstacles obstaclesOf(const Plan& plan) {
 std::string meeting(const Obstacles& obstacles) {
   return std::string(parts::kRest) + (obstacles.planes.empty() ? parts::kNoPlanes : parts::kPlanes) +
          (obstacles.balls.empty() ? "" : parts::kBalls) + (obstacles.rest ? parts::kMarch : parts::kNoMarch) +
-         (obstacles.byTaps ? parts::kGradientByTaps : parts::kGradient) + parts::kNormal + parts::kMeet;
+         (obstacles.byTaps   ? parts::kGradientByTaps
+          : obstacles.shared ? parts::kGradientOfNearest
+                             : parts::kGradient) +
+         parts::kNormal + parts::kMeet;
 }
 
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
@@ -153,10 +152,13 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
       {"BALLS", std::to_string(4 * obstacles.balls.size())},
       {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "1e30")},
       {"DISTANCE_UP_TO(p, enough)", obstacles.shared ? "sdfBoth(p, enough).y" : "sdfDistance(p, vec3(0.0))"},
+      {"IS_FREE", isApart(obstacles.whole) ? "false" : "f >= (1.0 - 1e-5) * h"},
       {"OVER_SURFACE", isApart(obstacles.whole) ? "min(f, h)" : "f"},
       {"PLANES", std::to_string(2 * obstacles.planes.size())},
       {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
-      {"OPERAND", obstacles.operand ? "sdfOperand(p, vec3(0.0))" : "0.0"}};
+      {"OPERAND", !obstacles.operand                      ? "0.0"
+                  : obstacles.shared && !obstacles.byTaps ? "nearestOperand"
+                                                          : "sdfOperand(p, vec3(0.0))"}};
 }
 
 Functions meetingFunctions(const Obstacles& obstacles) {

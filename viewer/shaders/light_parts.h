@@ -240,16 +240,18 @@ float arriving(int i, vec3 p, vec3 l, float far) {
 }
 )";
 
-/// Defines occlusion(p, n), by taps along the normal.
+/// Defines occlusion(p, n), by taps along the normal, the farthest first: where nothing is nearer to it than
+/// p, and slopes are at most 1, nothing is to those below.
 inline constexpr const char* kOcclusionTaps = R"(
 uniform float tapSpacing, tapStrength;
 
 float occlusion(vec3 p, vec3 n) {
   float closed = 0.0;
-  for (int i = 1; i <= TAPS; ++i) {
+  for (int i = TAPS; i > 0; --i) {
     float h = tapSpacing * float(i), f = DISTANCE_UP_TO(p + h * n, h);
-    closed += (h - OVER_SURFACE) / h;
     COUNT_OCCLUSION
+    if (IS_FREE) break;
+    closed += (h - OVER_SURFACE) / h;
   }
   return clamp(1.0 - tapStrength * closed, 0.0, 1.0);
 }

@@ -185,9 +185,20 @@ float march(Ray ray, out int status, out int readings) {
 }
 )";
 
-/// Either defines gradientAt(p): exactly, or by differences where the gradient is too long a program.
+/// Either defines gradientAt(p): exactly, that of the operand which is the nearest there, or by differences
+/// where the gradient is too long a program.
 inline constexpr const char* kGradient = R"(
 vec3 gradientAt(vec3 p) { return sdfGradient(p, vec3(0.0)); }
+)";
+
+inline constexpr const char* kGradientOfNearest = R"(
+float nearestOperand = 0.0;  // of the last gradient
+
+vec3 gradientAt(vec3 p) {
+  vec4 both = sdfNearest(p);
+  nearestOperand = both.w;
+  return both.xyz;
+}
 )";
 
 /// Four corners of a cube: Evans 2006; written as a loop, so that the distance is inlined once.

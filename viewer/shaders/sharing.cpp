@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "sdf/expr/gradient.h"
 #include "sdf/expr/hoist.h"
 #include "sdf/model/model.h"
 
 namespace sdf::viewer {
 namespace {
+
+constexpr std::size_t kLongGradients = 2000;  // operations, which drivers take seconds to compile
 
 // What the loops over the kinds start from.
 std::vector<NumberedOperand> othersAndDrawn(const Plan& plan) {
@@ -140,10 +143,33 @@ std::string Loops::loop(std::size_t i) const {
          "span" + name + ".x" + rest + "; at < span" + name + ".y; at = " + next + "at + " + stride(i) +
          rest + ") {\n    sdfTake" + name + "(" + rowAt(i) + ");\n    " + type_ + " d = " + term +
          ";\n    float i = sdfNearest" + name + "(p, n);\n    if (" + d + " < " + distance() + " || (" + d +
-         " == " + distance() + " && i > number)) number = i;\n    least = min(least, d);\n  }\n";
+         " == " + distance() + " && i > number)) {\n      number = i;\n      place = ivec2(" + name + ", " +
+         rowAt(i) + ");\n    }\n    least = min(least, d);\n  }\n";
+}
+
+// Defines sdfNearest(p) where gradients are shared, else sdfOperand(p, n), the number alone.
+std::string nearest(const Plan& plan, const RowWriter& rows, bool hasBeside, const std::string& beside) {
+  const bool gradients = sharesGradients(plan);
+  if (!gradients && plan.operands.empty()) return "";
+  std::string text = (gradients ? "vec4 sdfNearest(vec3 p) {\n  vec3 n = vec3(0.0);\n"
+                                : "float sdfOperand(vec3 p, vec3 n) {\n") +
+                     std::string("  float number = ") + (hasBeside ? "sdfNearestBeside(p, n)" : "0.0") +
+                     ";\n  ivec2 place = ivec2(-1);\n  sdfLeast(p, " + beside + ", number, place, 0.0);\n";
+  if (!gradients) return text + "  return number;\n}\n";
+  if (hasBeside) text += "  if (place.x < 0) n = sdfGradientBeside(p, n);\n";
+  for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
+    const std::string name = std::to_string(i);
+    text += "  if (place.x == " + name + ") {\n    sdfTake" + name + "(place.y);\n    n = sdfGradient" +
+            name + "(p, n);\n  }\n";
+  }
+  return text + "  return vec4(n, number);\n}\n";
 }
 
 }  // namespace
+
+std::size_t gradientSize(const Expr& distance) {
+  return topologicalOrder(partsOf(gradientOf(distance))).size();
+}
 
 std::vector<Expr> partsOf(const Marched& m) { return {m.step, m.distance, Expr(0.0)}; }
 
@@ -182,30 +208,38 @@ std::string sharing(const Plan& plan, const RowWriter& rows) {
   const std::string beside = from(hasBeside, hasBeside && isApart(besideOf(plan)), "sdfBeside");
   const auto both = [&](const std::string& name, const std::string& start) {
     return "vec2 " + name + "(vec3 p, float enough) {\n  vec3 n = vec3(0.0);\n  float number = 0.0;\n" +
-           "  return vec2(sdfLeast(p, " + start + ", number, enough));\n}\n";
+           "  ivec2 place;\n  return vec2(sdfLeast(p, " + start + ", number, place, enough));\n}\n";
   };
-  std::string text = searches + write.type() + " sdfLeast(vec3 p, " + write.type() +
-                     " least, inout float number, float enough) {\n  vec3 n = vec3(0.0);\n" + loops +
-                     "  return least;\n}\n" + both("sdfBoth", beside) +
-                     "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p, 1e30).y; }\n";
+  std::string text =
+      searches + write.type() + " sdfLeast(vec3 p, " + write.type() +
+      " least, inout float number, inout ivec2 place, float enough) {\n  vec3 n = vec3(0.0);\n" + loops +
+      "  return least;\n}\n" + both("sdfBoth", beside) +
+      "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p, 1e30).y; }\n";
   if (hasPlanes)
     text += both("sdfBothOfRest",
                  from(!others.empty(), !others.empty() && isApart(leastOf(others)), "sdfOthers"));
-  if ((plan.bounces > 0 || !plan.grouped) && !plan.operands.empty())
-    text += "float sdfOperand(vec3 p, vec3 n) {\n  float number = " +
-            (hasBeside ? "sdfNearestBeside(p, n)" : std::string("0.0")) + ";\n  sdfLeast(p, " + beside +
-            ", number, 0.0);\n  return number;\n}\n";
+  if (plan.bounces > 0 || !plan.grouped) text += nearest(plan, rows, hasBeside, beside);
   return text;
+}
+
+bool sharesGradients(const Plan& plan) {
+  std::size_t size = othersAndPlanes(plan).empty() ? 0 : gradientSize(besideOf(plan).distance);
+  for (const OperandKind& kind : plan.kinds->many) size += gradientSize(kind.distance);
+  return size <= kLongGradients;
 }
 
 Functions sharedFunctions(const Plan& plan) {
   Functions functions{
       {"sdfOthers", [&] { return outputsOf(leastOf(othersAndDrawn(plan))); }},
       {"sdfBeside", [&] { return outputsOf(besideOf(plan)); }},
+      {"sdfGradientBeside", [&] { return partsOf(gradientOf(besideOf(plan).distance)); }},
       {"sdfNearestBeside", [&] { return std::vector{numberOfNearest(othersAndPlanes(plan))}; }}};
   for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
     const OperandKind& kind = plan.kinds->many[i];
     functions["sdfKind" + std::to_string(i)] = [&] { return outputsOf(marchedOf(kind)); };
+    functions["sdfGradient" + std::to_string(i)] = [&] {
+      return partsOf(gradientOf(marchedOf(kind).distance));
+    };
     functions["sdfGap" + std::to_string(i)] = [&] { return std::vector{kind.gap}; };
     functions["sdfNearest" + std::to_string(i)] = [&] { return std::vector{kind.nearest}; };
   }
