@@ -75,7 +75,7 @@ TEST(MarchTruth, TellsMissedFromFalseHits) {
 
 TEST(LightTruth, OfABallOverheadIsTheShareThatItCovers) {
   // Seen from below, a ball of radius r at height h covers sin^2 = (r / h)^2 of the sky by the cosine.
-  const Blocker ball{true, {0.0, 2.0, 0.0}, 1.0};
+  const Blocker ball{true, {0.0, 2.0, 0.0}, glm::dvec3(1.0)};
   Vectors below;
   below.add(glm::dvec3(0.0));
   EXPECT_NEAR(lightOf(ball, below, skyDirections(4096), 10.0)[0], 0.75, 1e-3);
@@ -84,7 +84,7 @@ TEST(LightTruth, OfABallOverheadIsTheShareThatItCovers) {
 
 TEST(LightTruth, OfABlockBesideIsHalfWhereItHalvesTheLamp) {
   // The lamp stands overhead, and the block's side is straight above the point.
-  const Blocker block{false, {1.0, 1.0, 0.0}, 1.0 - 1e-9};
+  const Blocker block{false, {1.0, 1.0, 0.0}, glm::dvec3(1.0 - 1e-9)};
   Vectors beside;
   beside.add(glm::dvec3(0.0, -1.0, 0.0));
   const auto lamp = lampDirections({0, 1, 0}, 0.05, 4096);
@@ -94,9 +94,19 @@ TEST(LightTruth, OfABlockBesideIsHalfWhereItHalvesTheLamp) {
   EXPECT_EQ(lightOf(block, beside, lamp, 10.0)[0], 1.0);
 }
 
+TEST(LightTruth, OfAPlateIsThatOfItsSides) {
+  const Blocker plate{false, {0.0, 1.0, 0.0}, {0.5, 0.01, 2.0}};
+  const auto meets = [&](double x, double z) { return plate.meets({x, 0.0, z}, {0, 1, 0}, 10.0); };
+  EXPECT_TRUE(meets(0.49, 1.99));
+  EXPECT_FALSE(meets(0.51, 0.0));
+  EXPECT_FALSE(meets(0.0, 2.01));
+  EXPECT_FALSE(plate.meets({0.0, 0.0, 0.0}, {0, 1, 0}, 0.98));
+  EXPECT_EQ(groundPoints(plate, 4).size(), 16u) << "it covers nothing of the ground that it hovers over";
+}
+
 TEST(LightTruth, PicturesHaveAPlaceForEachPointOfTheSquare) {
   // The block covers the middle four of four by four places.
-  const Blocker block{false, {0.0, 0.5, 0.0}, 0.9};
+  const Blocker block{false, {0.0, 0.5, 0.0}, glm::dvec3(0.9)};
   const Vectors points = groundPoints(block, 4);
   ASSERT_EQ(points.size(), 12u);
   std::vector<double> light(points.size(), 1.0);
