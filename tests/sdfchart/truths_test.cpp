@@ -158,6 +158,21 @@ TEST(DrawnRays, MeetABallWhereItIs) {
   }
 }
 
+TEST(Batches, GrowthIsTimeAndMemoryOfEachStage) {
+  for (const Batch& batch : growthBatches(Extent::Trial)) {
+    double most = 0.0, whole = 0.0;
+    for (Measurement& m : batch.make()) {
+      EXPECT_GE(m.run(&m.row), 0.0);
+      EXPECT_GT(m.row.memory, 0.0) << m.row.key();
+      (m.row.method == "whole" ? whole : most) = std::max(m.row.memory, most);
+      if (m.row.setting == "10 balls") {
+        EXPECT_EQ(m.row.size, 19.0) << "operations: each ball, and a union less";
+      }
+    }
+    EXPECT_GE(whole, most);
+  }
+}
+
 TEST(Batches, MarchingWithoutASlopeFailsWithTheReason) {
   const auto batches = marchingBatches({}, Extent::Trial);
   std::vector<Measurement> all = batches.at(3).make();
