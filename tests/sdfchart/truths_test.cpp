@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
 
 #include "sdf/shape/operators.h"
@@ -170,6 +171,21 @@ TEST(Batches, GrowthIsTimeAndMemoryOfEachStage) {
       }
     }
     EXPECT_GE(whole, most);
+  }
+}
+
+// Differences lose to the rounding of floats as the torus goes away; derivatives far less.
+TEST(Batches, NormalsAreChartedOverTheDistanceToo) {
+  std::map<std::string, double> near, far;
+  for (Measurement& m : normalBatches(Extent::Quick).back().make()) {
+    m.run(&m.row);
+    if (m.row.size == 1.0) near[m.row.method] = m.row.rms;
+    if (m.row.size == 1e4) far[m.row.method] = m.row.rms;
+  }
+  ASSERT_EQ(far.size(), 4u);
+  for (const char* scheme : {"forward", "central", "tetrahedron"}) {
+    EXPECT_GT(far[scheme], 10.0 * near[scheme]) << scheme;
+    EXPECT_GT(far[scheme], 10.0 * far["exact derivatives"]) << scheme;
   }
 }
 
