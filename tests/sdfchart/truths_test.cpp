@@ -145,8 +145,8 @@ TEST(Batches, OfEveryKindMeasureSomething) {
 TEST(DrawnRays, MeetABallWhereItIs) {
   const auto known =
       std::make_shared<KnownRays>(MarchedScene{"ball", sphere(1.0), {1.0, 2.0, 3.0}, 1.2}, 12, 1e-2);
-  std::vector<Measurement> all = drawnRays(known, 3);
-  ASSERT_EQ(all.size(), 12u);
+  std::vector<Measurement> all = drawnRays(known, 3, {1024});
+  ASSERT_EQ(all.size(), 24u);
   for (Measurement& m : all) {
     EXPECT_GT(m.run(&m.row), 0.0);
     // A hit is off by its share of the pixel's cone, 0.03 wide there, and more where the surface is grazed.
@@ -157,6 +157,34 @@ TEST(DrawnRays, MeetABallWhereItIs) {
     EXPECT_EQ(m.row.items, 36.0 * 36.0);
     EXPECT_TRUE(m.row.machine.starts_with("OpenGL: ")) << m.row.machine;
   }
+}
+
+// The two methods of the viewer read differently often, and a ray that may read no more misses.
+TEST(DrawnRays, AreOfEachMethodAndBudget) {
+  const auto known =
+      std::make_shared<KnownRays>(MarchedScene{"ball", sphere(1.0), {1.0, 2.0, 3.0}, 1.2}, 12, 1e-2);
+  std::map<std::string, Row> rows;
+  for (Measurement& m : drawnRays(known, 3, {1024, 3})) {
+    if (m.row.size != 1.0 / 64.0) continue;
+    m.run(&m.row);
+    rows[m.row.scene + ": " + m.row.method] = m.row;
+  }
+  const Row& usual = rows.at("ball, OpenGL: OpenGL, --start plain");
+  const Row& plain = rows.at("ball, OpenGL: OpenGL, --start plain --method plain");
+  const Row& few = rows.at("ball, OpenGL, 3 steps: OpenGL, --start plain --method plain");
+  EXPECT_LT(usual.evaluations, plain.evaluations);
+  EXPECT_EQ(plain.missed, 0.0);
+  EXPECT_GT(few.missed, 0.1);
+  EXPECT_LE(few.evaluations, 3.0);
+}
+
+TEST(DrawnRays, OfTheUsualBudgetAloneAreTheDefault) {
+  const auto known =
+      std::make_shared<KnownRays>(MarchedScene{"ball", sphere(1.0), {1.0, 2.0, 3.0}, 1.2}, 12, 1e-2);
+  std::vector<std::string> usual;
+  for (const Measurement& m : drawnRays(known, 3, {1024, 64}))
+    if (m.row.isDefault == 1.0) usual.push_back(m.row.scene + ": " + m.row.method);
+  EXPECT_EQ(usual, std::vector<std::string>{"ball, OpenGL: OpenGL, --start cone"});
 }
 
 TEST(Batches, GrowthIsTimeAndMemoryOfEachStage) {

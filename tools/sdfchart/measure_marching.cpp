@@ -24,20 +24,18 @@ constexpr NamedMethod kMethods[] = {
     {"bisection", MarchMethod::Bisection},
 };
 
-// The viewer's: auto-relaxed steps that look behind, 1e-5 of the view, 1024 steps (viewer/render/frame.h).
+// The viewer's: auto-relaxed steps that look behind, 1e-5 of the view (viewer/render/frame.h).
 constexpr double kViewersEpsilon = 1e-5;
-constexpr int kViewersSteps = 1024;
 
 Measurement measurement(const std::shared_ptr<KnownRays>& known, const NamedMethod& method, double epsilon,
                         int steps) {
   char setting[64];
   std::snprintf(setting, sizeof setting, "threshold %g", epsilon);
-  Row row{
-      .kind = "marching",
-      .scene = known->scene().name + (steps == kViewersSteps ? "" : ", " + std::to_string(steps) + " steps"),
-      .method = method.name,
-      .setting = setting,
-      .size = epsilon};
+  Row row{.kind = "marching",
+          .scene = budgetName(known->scene().name, steps),
+          .method = method.name,
+          .setting = setting,
+          .size = epsilon};
   row.isDefault = method.lookBehind && epsilon == kViewersEpsilon && steps == kViewersSteps;
   row.items = static_cast<double>(known->rays().size());
   const MarchOptions options{
@@ -71,9 +69,10 @@ std::vector<Batch> marchingBatches(const std::vector<Subject>& files, Extent ext
       byExtent<std::vector<int>>(extent, {kViewersSteps, 64}, {kViewersSteps}, {kViewersSteps});
   std::vector<Batch> batches, drawn;
   for (const MarchedScene& scene : scenes) {
-    const auto known = [scene, extent] {
+    const auto known = [scene, extent, kept = std::make_shared<std::shared_ptr<KnownRays>>()] {
       const double step = byExtent(extent, 1e-3, 2e-3, 4e-3) * scene.radius;
-      return std::make_shared<KnownRays>(scene, byExtent(extent, 64, 32, 12), step);
+      if (!*kept) *kept = std::make_shared<KnownRays>(scene, byExtent(extent, 64, 32, 12), step);
+      return *kept;
     };
     const Batch batch{.weight = byExtent(extent, 25.0, 4.0, 1.0),
                       .runs = byExtent(extent, 5, 3, 1),
@@ -90,7 +89,7 @@ std::vector<Batch> marchingBatches(const std::vector<Subject>& files, Extent ext
     };
     drawn.push_back(batch);
     drawn.back().subject = "drawing " + scene.name;
-    drawn.back().make = [=] { return drawnRays(known(), byExtent(extent, 5, 5, 3)); };
+    drawn.back().make = [=] { return drawnRays(known(), byExtent(extent, 5, 5, 3), budgets); };
   }
   batches.insert(batches.end(), drawn.begin(), drawn.end());
   return batches;
