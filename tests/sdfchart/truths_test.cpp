@@ -6,12 +6,14 @@
 #include <map>
 #include <numbers>
 
+#include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators.h"
 #include "sdf/shape/solids.h"
 #include "sdfchart/drawn_rays.h"
 #include "sdfchart/light_truth.h"
 #include "sdfchart/march_truth.h"
 #include "sdfchart/measurements.h"
+#include "sdfchart/shader_reading.h"
 
 namespace sdf::chart {
 namespace {
@@ -185,6 +187,46 @@ TEST(DrawnRays, OfTheUsualBudgetAloneAreTheDefault) {
   for (const Measurement& m : drawnRays(known, 3, {1024, 64}))
     if (m.row.isDefault == 1.0) usual.push_back(m.row.scene + ": " + m.row.method);
   EXPECT_EQ(usual, std::vector<std::string>{"ball, OpenGL: OpenGL, --start cone"});
+}
+
+TEST(ShaderReading, AgreesWithTheDoubleReading) {
+  const Shape ball = sphere(0.5);
+  std::vector<glm::vec4> points;
+  for (int i = 0; i < 100; ++i) points.emplace_back(0.02f * i - 1.0f, 0.3f, 0.1f * (i % 7), 0.0f);
+  const ShaderReading reading(ball.distance, points, 4);
+  reading.run();
+  const std::vector<float> values = reading.values();
+  ASSERT_EQ(values.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_NEAR(values[i], evaluate(Tape(ball.distance), glm::dvec3(points[i])), 1e-6) << i;
+}
+
+std::vector<Measurement> evaluationsOf(Extent extent, std::size_t batch, const std::string& method) {
+  std::vector<Measurement> all = evaluationBatches(extent).at(batch).make();
+  std::erase_if(all, [&](const Measurement& m) { return m.row.method != method; });
+  return all;
+}
+
+TEST(Batches, ShadersAreJudgedLikeTheOtherReadings) {
+  std::vector<Measurement> all = evaluationsOf(Extent::Trial, 1, "GLSL");
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_GT(all[0].run(&all[0].row), 0.0);
+  EXPECT_GT(all[0].row.rms, 0.0);
+  EXPECT_LT(all[0].row.max, 8.0);  // ulps
+  EXPECT_TRUE(all[0].row.machine.starts_with("OpenGL: ")) << all[0].row.machine;
+}
+
+// What takes too long to compile is told by a smaller one, before anybody has waited for it.
+TEST(Batches, ShadersThatTakeTooLongToCompileFail) {
+  std::vector<Measurement> all = evaluationsOf(Extent::Quick, 4, "GLSL");
+  ASSERT_EQ(all.size(), 1u);
+  ASSERT_EQ(all[0].row.setting, "10000 balls");
+  try {
+    all[0].run(&all[0].row);
+    FAIL() << "it compiled: take more balls";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("to compile"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Batches, GrowthIsTimeAndMemoryOfEachStage) {
