@@ -6,8 +6,9 @@ import { defaultsBehind, fastestWithin, offered } from '../../tools/sdfchart/cha
 import { parsePictures, picturesHtml, pngOfPoints, usualRows } from '../../tools/sdfchart/charts/pictures.mjs';
 import { chartOption, themes } from '../../tools/sdfchart/charts/options.mjs';
 import { axisName, sections } from '../../tools/sdfchart/charts/sections.mjs';
+import { gridSvg } from '../../tools/sdfchart/charts/tables.mjs';
 import { withSummary } from '../../tools/sdfchart/charts/summary.mjs';
-import { fittedExponent, paretoFront, parseResults, shown, slug } from '../../tools/sdfchart/charts/figures.mjs';
+import { distinct, fittedExponent, paretoFront, parseResults, shown, slug } from '../../tools/sdfchart/charts/figures.mjs';
 
 const text = '# made by\nkind,scene,method,seconds,status\nmeshing,ball,"a, ""b""",0.5,ok\nmeshing,ball,c,,failed: why\n';
 const { notes, rows } = parseResults(text);
@@ -98,3 +99,9 @@ const rays = [['plain', 't 1', 0], ['auto', 't 1', 1], ['OpenGL, a', 'c 1', 1], 
   { kind: 'marching', scene: 'ball', method, setting, default: standard, status: 'ok', seconds: 1, items: 1e6, evaluations: i + 1, error_rms: 0.5, machine: 'm' }));
 const marks = readme.match(/<!-- begin[^]*?-->\n/)[0] + readme.match(/<!-- end[^]*?-->/)[0];
 assert.match(withSummary(marks, { rows: rays }), /\| ball \| 1, 1 µs, 0.5 \| 2, 1 µs, 0.5 \| 3, 1 µs, 0.5 \|/);
+
+// The grid of the known failures as a picture: who holds, degrades with a figure, fails, or did not run.
+const known = [['a', 'holds', 'ok'], ['b', 'degrades', 'ok'], ['c', 'fails', 'ok'], ['d', '', 'failed: why']].map(([scene, verdict, status]) => (
+  { kind: 'stability', scene, method: 'm', setting: '', verdict, status, error_max: 0.25 }));
+const grid = gridSvg(known, 'title', distinct);
+for (const words of ['>● holds<', '>◐ degrades 0.25<', '>✕ fails 0.25<', '>✕ did not run<', '>title<']) assert.ok(grid.includes(words), words);
