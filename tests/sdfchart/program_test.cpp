@@ -45,11 +45,35 @@ TEST_F(SdfChart, SaysWhatItNeeds) {
   expectRefusal(run({}), kUsage, {"--output", "--help"});
   expectRefusal(run({"-o", out(), "--only", "colours"}), kUsage, {"--only", "meshing", "'colours'"});
   expectRefusal(run({"-o", out(), "--quick", "--trial"}), kUsage, {"--quick", "--trial"});
+  const std::string ball = scene("return sphere(1)");
+  expectRefusal(run({ball, "-o", out(), "--only", "marching", "--only", "normals"}), kUsage,
+                {"--only normals", "scenes of its own"});
+  expectRefusal(run({"-o", out(), "--draw"}), kUsage, {"--draw", "results.csv", "-o"});
+  EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
 TEST_F(SdfChart, AScriptThatDoesNotRunIsNamed) {
   expectRefusal(run({scene("return spere(1)"), "-o", out(), "-q"}), kScene, {"scene.lua", "spere"});
   expectRefusal(run({(folder / "none.lua").string(), "-o", out(), "-q"}), kFiles, {"none.lua"});
+}
+
+TEST_F(SdfChart, ScenesOfOneNameAreToldApart) {
+  std::filesystem::create_directories(folder / "other");
+  const std::string ball = scene("return sphere(1)"), other = (folder / "other/scene.lua").string();
+  std::ofstream(other) << "return box({1, 1, 1})";
+  expectRefusal(run({ball, other, "-o", out(), "-q", "--trial", "--only", "meshing", "--packages", "/none"}),
+                kNotDrawn, {"/none"});
+  for (const std::string& file : {ball, other})
+    EXPECT_NE(written("results.csv").find("\nmeshing," + file + ",tolerance"), std::string::npos) << file;
+}
+
+TEST_F(SdfChart, AChangedSceneIsNotGoneOnWith) {
+  const auto measure = [&](const char* text) {
+    return run({scene(text), "-o", out(), "-q", "--trial", "--only", "meshing", "--packages", "/none"});
+  };
+  expectRefusal(measure("return sphere(1)"), kNotDrawn, {"/none"});
+  expectRefusal(measure("return sphere(1)"), kNotDrawn, {"/none"});
+  expectRefusal(measure("return sphere(2)"), kUsage, {"results.csv", "scene.lua (", "-o"});
 }
 
 TEST_F(SdfChart, ASceneWithoutASurfaceIsNamed) {
