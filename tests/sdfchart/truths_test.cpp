@@ -9,6 +9,7 @@
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators.h"
 #include "sdf/shape/solids.h"
+#include "sdfchart/cone_starts.h"
 #include "sdfchart/drawn_rays.h"
 #include "sdfchart/light_truth.h"
 #include "sdfchart/march_truth.h"
@@ -60,6 +61,36 @@ TEST(MarchTruth, FindsSliversBetweenItsSteps) {
   const MarchedScene scene{"plate", box(Vec3E(1.0, 1.0, 5e-4)), {0.0, 0.0, 3.0}, 0.5};
   const Rays rays = cameraRays(scene, 8);
   for (const auto& hit : trueHits(take(marchField(scene.shape)), rays, scene, 1e-2)) ASSERT_TRUE(hit);
+}
+
+// Rays are marched together as long as none of them meets anything.
+TEST(ConeStarts, AreBeforeTheSurfaceAndOnTheirWayToIt) {
+  for (const Shape& shape : {sphere(1.0), translate(box(Vec3E(1.0, 0.02, 0.3)), {0.2, 0.1, 0.0})}) {
+    const MarchedScene scene{"", shape, {1.0, 2.0, 3.0}, 1.2};
+    const MarchField field = take(marchField(shape));
+    const Rays rays = cameraRays(scene, 22);  // the last tiles are narrower
+    const auto truth = trueHits(field, rays, scene, 1e-2);
+    const StartedRays started = coneStarts(field, rays, 22);
+    double most = 0.0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_LE(started.rays.tMin[i], truth[i].value_or(rays.tMax[i])) << i;
+      most = std::max(most, started.rays.tMin[i]);
+    }
+    EXPECT_GT(most, 2.0);
+    EXPECT_GT(started.readings, 0.0);
+    EXPECT_LT(started.readings, 1.0);
+  }
+}
+
+TEST(ConeStarts, SpareReadings) {
+  const auto batches = marchingBatches({}, Extent::Quick);
+  std::map<std::string, Row> rows;
+  for (Measurement& m : batches.at(0).make())
+    if (m.row.method == "plain" && m.row.size == 1e-3) m.run(&m.row), rows[m.row.scene] = m.row;
+  const Row &plain = rows.at("smooth: blended balls"), &cones = rows.at("smooth: blended balls, cone starts");
+  EXPECT_LT(cones.evaluations, 0.9 * plain.evaluations);
+  EXPECT_EQ(cones.missed, plain.missed);
+  EXPECT_LT(cones.rms, 2.0 * plain.rms);
 }
 
 TEST(MarchTruth, TellsMissedFromFalseHits) {
@@ -263,7 +294,8 @@ TEST(Batches, MarchingWithoutASlopeFailsWithTheReason) {
   const auto batches = marchingBatches({}, Extent::Trial);
   std::vector<Measurement> all = batches.at(3).make();
   for (Measurement& m : all) {
-    const bool needsSlope = m.row.method != "segment" && m.row.method != "bisection";
+    const bool byBalls = m.row.method != "segment" && m.row.method != "bisection";
+    const bool needsSlope = byBalls || m.row.scene.ends_with(", cone starts");
     if (needsSlope)
       EXPECT_THROW(m.run(&m.row), std::runtime_error) << m.row.method;
     else

@@ -55,7 +55,8 @@ export const sections = [
     kind: 'meshing',
     title: 'Meshing: time against distance from the surface',
     lead: 'Each point is one mesh. Its error is the two-sided distance between mesh and surface, by CGAL: the ' +
-      'larger of both ways. Lines join the settings of a method, from coarse to fine.',
+      'larger of both ways. Lines join the settings of a method, from coarse to fine. The default keeps its tolerance with few ' +
+      'triangles, which takes time: look at it across triangles, too.',
     charts: 'scene', series: 'method',
     x: [seconds, column('triangles', '', -1, 'triangles'), column('file size, .glb', 'bytes', -1, 'file_bytes'),
         column('memory', 'bytes', -1, 'memory_bytes')],
@@ -68,8 +69,8 @@ export const sections = [
   {
     kind: 'marching',
     title: 'Marching: time a ray against depth error',
-    lead: 'Each point is one method at one threshold, over the same rays; scenes that name a number of steps allow a ray no ' +
-      'more. The depth is held to a dense march in double. Rays that should hit and did not, and the other way round, are ' +
+    lead: 'Each point is one method at one threshold, over the same rays; charts that name a number of steps allow a ray no ' +
+      'more, and with cone starts, rays begin where a cone around 4 by 4 of them has come to. The depth is held to a dense march in double. Rays that should hit and did not, and the other way round, are ' +
       'figures of their own. One thread marches, OpenGL takes all that its driver has.',
     charts: 'scene', series: 'method',
     x: [perItem('time a ray', 'µs'), column('readings a ray', '', -1, 'evaluations')],
