@@ -118,9 +118,9 @@ function defaultSeries(series, floor, theme, narrow) {
   return {
     name: 'default', type: 'scatter', symbol: 'circle', symbolSize: 20, silent: true, z: 4, color: theme.text,
     itemStyle: { color: 'transparent', borderColor: theme.text, borderWidth: 2 },
-    data: data.map((p) => ({
+    data: data.map((p, k) => ({
       value: [p.x, Math.max(p.y, floor)],
-      label: { show: !narrow, position: 'top', distance: 3, formatter: 'default', color: theme.text, fontWeight: 'bold',
+      label: { show: !narrow && data.findIndex((other) => other.row.method === p.row.method) === k, position: 'top', distance: 3, formatter: 'default', color: theme.text, fontWeight: 'bold',
         textBorderColor: theme.back, textBorderWidth: 3 },
     })),
   };
