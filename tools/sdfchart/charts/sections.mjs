@@ -69,9 +69,10 @@ export const sections = [
   {
     kind: 'marching',
     title: 'Marching: time a ray against depth error',
-    lead: 'Each point is one method at one threshold, over the same rays; charts that name a number of steps allow a ray no ' +
-      'more, and with cone starts, rays begin where a cone around 4 by 4 of them has come to. The depth is held to a dense march in double. Rays that should hit and did not, and the other way round, are ' +
-      'figures of their own. One thread marches, OpenGL takes all that its driver has.',
+    lead: 'Each point is one method at one threshold, over the same rays. In charts that name a number of steps a ray may take no ' +
+      'more; with cone starts, rays begin where a cone around 4 by 4 of them has come to. The depth is held to a dense march in ' +
+      'double. Rays that should hit and did not, and the other way round, are figures of their own. One thread marches, OpenGL ' +
+      'takes all that its driver has.',
     charts: 'scene', series: 'method',
     x: [perItem('time a ray', 'µs'), column('readings a ray', '', -1, 'evaluations')],
     y: [rms(scenes), largest(scenes), column('missed hits, share of rays', '', -1, 'missed'),
