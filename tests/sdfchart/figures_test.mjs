@@ -48,8 +48,8 @@ const asked = (kind, row) => offered(section(kind), [{ kind, scene: 'ball', sett
 assert.equal(asked('meshing', { method: 'uniform, proven', size: 0.125 }), 'sdf2gltf SCENE --voxel-size 0.125 --certify');
 assert.equal(asked('meshing', { method: 'tolerance', size: 0.01 }), 'sdf2gltf SCENE --tolerance 0.01');
 for (const method of ['+ creases', 'OpenVDB, dense', 'tolerance, voxels of 1/64']) assert.equal(asked('meshing', { method, size: 1 }), undefined);
-const drawn = { method: 'OpenGL, --start cone --method plain', setting: "0.25 of a pixel's cone" };
-assert.equal(asked('marching', { ...drawn, scene: 'ball, OpenGL, 64 steps' }), 'sdfview SCENE --start cone --method plain --steps 64');
+const drawn = { method: 'OpenGL, --start cone', setting: "0.25 of a pixel's cone" };
+assert.equal(asked('marching', { ...drawn, scene: 'ball, OpenGL, 64 steps' }), 'sdfview SCENE --start cone --steps 64');
 assert.equal(asked('marching', { ...drawn, setting: "1 of a pixel's cone" }), undefined);
 assert.equal(asked('marching', { method: 'plain', setting: 'threshold 1e-05' }), undefined);
 const lamp = { scene: 'ball, lamp of 7°' };

@@ -141,9 +141,7 @@ constexpr NamedWay kWays[] = {
     {"OpenGL, --start plain", Method::AutoRelaxed, Start::Plain},
     {"OpenGL, --start cone", Method::AutoRelaxed, Start::Cone},
     {"OpenGL, --start raster", Method::AutoRelaxed, Start::Raster},
-    {"OpenGL, --start plain --method plain", Method::Plain, Start::Plain},
-    {"OpenGL, --start cone --method plain", Method::Plain, Start::Cone},
-    {"OpenGL, --start raster --method plain", Method::Plain, Start::Raster},
+    {"OpenGL, --method plain", Method::Plain, Start::Plain},  // which has no other start
 };
 const double kThresholds[] = {1.0, viewer::Frame{}.threshold, 1.0 / 16.0, 1.0 / 64.0};
 
