@@ -127,8 +127,9 @@ TEST_F(SdfChart, WithoutOpenGlTheRestIsMeasured) {
 }
 
 TEST_F(SdfChart, GoesOnWhereItWasInterrupted) {
-  Command first = command({"-o", out(), "--quick", "--only", "meshing", "--packages", "/none"});
-  first.signalAfter = 0.5;
+  const std::vector<std::string> words{"-o", out(), "--quick", "--only", "shadows", "--packages", "/none"};
+  Command first = command(words);
+  first.signalAfter = 1.0;
   first.signal = SIGINT;
   const Outcome outcome = first.run();
   EXPECT_EQ(outcome.status, kInterrupted) << outcome.err;
@@ -136,6 +137,15 @@ TEST_F(SdfChart, GoesOnWhereItWasInterrupted) {
   const std::string kept = written("results.csv");
   EXPECT_GT(std::count(kept.begin(), kept.end(), '\n'), 2);
   expectRefusal(run({"-o", out(), "-q", "--trial"}), kUsage, {"results.csv", "--quick"});
+  EXPECT_EQ(written("results.csv"), kept);
+
+  EXPECT_EQ(run(words).status, kNotDrawn);
+  const std::string whole = written("results.csv");
+  EXPECT_TRUE(whole.starts_with(kept.substr(0, kept.rfind('\n') + 1)));
+  std::filesystem::rename(folder / "out", folder / "interrupted");
+  EXPECT_EQ(run(words).status, kNotDrawn);
+  const std::string atOnce = written("results.csv");
+  EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), std::count(atOnce.begin(), atOnce.end(), '\n'));
 }
 
 // One that is too far behind, and one that is not, among rows that were written by hand.
