@@ -103,10 +103,12 @@ function lineSeries(s, { x, y, section }, floor, theme, width) {
   };
 }
 
+const frontName = 'Pareto front';
+
 function frontSeries(series, floor, theme) {
   const front = paretoFront(series.flatMap((s) => s.points.map((p) => ({ x: p.x, y: Math.max(p.y, floor) }))));
   return {
-    name: 'Pareto front', type: 'line', step: 'end', symbol: 'none', showSymbol: false, silent: true, z: 1, color: theme.front,
+    name: frontName, type: 'line', step: 'end', symbol: 'none', showSymbol: false, silent: true, z: 1, color: theme.front,
     lineStyle: { color: theme.front, width: 5, opacity: 0.3 }, data: front.map((p) => [p.x, p.y]),
   };
 }
@@ -142,7 +144,8 @@ export function chartOption(asked, theme, width) {
   return {
     animation: false, backgroundColor: theme.back, textStyle: { fontFamily: 'DejaVu Sans, sans-serif' },
     title: title ? { text: title, left: 8, top: 6, textStyle: { color: theme.text, fontSize: narrow ? 13 : 16 } } : undefined,
-    legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 28, itemGap: legendGap(narrow), data: all.map((one) => one.name), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 } },
+    legend: { top: title ? 34 : 4, left: 8, right: 8, itemWidth: 28, itemGap: legendGap(narrow), textStyle: { color: theme.text, fontSize: narrow ? 11 : 12 },
+      data: all.map(({ name }) => (name === frontName ? { name, icon: 'path://M0 0h30v5h-30z' } : { name })) },
     grid: { left: narrow ? 62 : 74, right: rightOf(narrow), top: above, bottom: 56 },
     tooltip: { trigger: 'item', confine: true, formatter: (p) => p.data.told ?? '' },
     xAxis: axis(x, 'x', scene, theme, narrow), yAxis: { ...axis(y, 'y', scene, theme, narrow), ...(zero ? zeroAxis(zero, series, theme.text) : {}) },
