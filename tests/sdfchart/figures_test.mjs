@@ -2,12 +2,13 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { inflateSync } from 'node:zlib';
-import { defaultsBehind, fastestWithin } from '../../tools/sdfchart/charts/choose.mjs';
+import { defaultsBehind, fastestWithin, offered } from '../../tools/sdfchart/charts/choose.mjs';
 import { parsePictures, picturesHtml, pngOfPoints, usualRows } from '../../tools/sdfchart/charts/pictures.mjs';
 import { chartOption, themes } from '../../tools/sdfchart/charts/options.mjs';
-import { sections } from '../../tools/sdfchart/charts/sections.mjs';
+import { axisName, sections } from '../../tools/sdfchart/charts/sections.mjs';
+import { gridSvg } from '../../tools/sdfchart/charts/tables.mjs';
 import { withSummary } from '../../tools/sdfchart/charts/summary.mjs';
-import { fittedExponent, paretoFront, parseResults, shown, slug } from '../../tools/sdfchart/charts/figures.mjs';
+import { distinct, fittedExponent, paretoFront, parseResults, shown, slug } from '../../tools/sdfchart/charts/figures.mjs';
 
 const text = '# made by\nkind,scene,method,seconds,status\nmeshing,ball,"a, ""b""",0.5,ok\nmeshing,ball,c,,failed: why\n';
 const { notes, rows } = parseResults(text);
@@ -40,6 +41,27 @@ const [behind] = defaultsBehind(sections, meshes.map((row, i) => ({ ...row, tria
 assert.equal(behind.best.method, 'm1');
 assert.ok(Math.abs(behind.factor - 3) < 1e-9);
 assert.equal(behind.ok, false);
+
+// What a user says to have a row: nothing for stages alone and for other programs.
+const section = (kind) => sections.find((s) => s.kind === kind);
+const asked = (kind, row) => offered(section(kind), [{ kind, scene: 'ball', setting: '', ...row }]).map((r) => r.asked)[0];
+assert.equal(asked('meshing', { method: 'uniform, proven', size: 0.125 }), 'sdf2gltf SCENE --voxel-size 0.125 --certify');
+assert.equal(asked('meshing', { method: 'tolerance', size: 0.01 }), 'sdf2gltf SCENE --tolerance 0.01');
+for (const method of ['+ creases', 'OpenVDB, dense', 'tolerance, voxels of 1/64']) assert.equal(asked('meshing', { method, size: 1 }), undefined);
+const drawn = { method: 'OpenGL, --start cone', setting: "0.25 of a pixel's cone" };
+assert.equal(asked('marching', { ...drawn, scene: 'ball, OpenGL, 64 steps' }), 'sdfview SCENE --start cone --steps 64');
+assert.equal(asked('marching', { ...drawn, setting: "1 of a pixel's cone" }), undefined);
+assert.equal(asked('marching', { method: 'plain', setting: 'threshold 1e-05' }), undefined);
+const lamp = { scene: 'ball, lamp of 7°' };
+assert.equal(asked('shadows', { ...lamp, method: 'hard', size: 1 }), 'shadows{kind = "hard"}');
+assert.equal(asked('shadows', { ...lamp, method: 'signed', size: 1 }), 'shadows{kind = "signed", sharpness = 8.14}');
+assert.equal(asked('shadows', { ...lamp, method: 'points of the lamp', size: 16 }), 'directional_light{radius = 7}, sdfview SCENE --samples 16');
+assert.equal(asked('occlusion', { method: 'taps, relative', size: 5 }), 'ambient_occlusion{count = 5, strength = 0.2}');
+
+// Axes say what their chart goes over.
+assert.equal(axisName(section('growth').x[0], 'x', 'over the voxels a side (drilled box)'), 'voxels a side');
+assert.equal(axisName(section('normals').x[0], 'x', 'torus 10 from the origin'), 'step (scene units)');
+assert.equal(axisName(section('normals').x[0], 'x', 'over the distance from the origin (torus)'), 'distance from the origin (scene units)');
 
 // The README says what the results say that are kept beside the charts.
 const root = new URL('../../', import.meta.url);
@@ -77,3 +99,9 @@ const rays = [['plain', 't 1', 0], ['auto', 't 1', 1], ['OpenGL, a', 'c 1', 1], 
   { kind: 'marching', scene: 'ball', method, setting, default: standard, status: 'ok', seconds: 1, items: 1e6, evaluations: i + 1, error_rms: 0.5, machine: 'm' }));
 const marks = readme.match(/<!-- begin[^]*?-->\n/)[0] + readme.match(/<!-- end[^]*?-->/)[0];
 assert.match(withSummary(marks, { rows: rays }), /\| ball \| 1, 1 µs, 0.5 \| 2, 1 µs, 0.5 \| 3, 1 µs, 0.5 \|/);
+
+// The grid of the known failures as a picture: who holds, degrades with a figure, fails, or did not run.
+const known = [['a', 'holds', 'ok'], ['b', 'degrades', 'ok'], ['c', 'fails', 'ok'], ['d', '', 'failed: why']].map(([scene, verdict, status]) => (
+  { kind: 'stability', scene, method: 'm', setting: '', verdict, status, error_max: 0.25 }));
+const grid = gridSvg(known, 'title', distinct);
+for (const words of ['>● holds<', '>◐ degrades 0.25<', '>✕ fails 0.25<', '>✕ did not run<', '>title<']) assert.ok(grid.includes(words), words);

@@ -45,11 +45,35 @@ TEST_F(SdfChart, SaysWhatItNeeds) {
   expectRefusal(run({}), kUsage, {"--output", "--help"});
   expectRefusal(run({"-o", out(), "--only", "colours"}), kUsage, {"--only", "meshing", "'colours'"});
   expectRefusal(run({"-o", out(), "--quick", "--trial"}), kUsage, {"--quick", "--trial"});
+  const std::string ball = scene("return sphere(1)");
+  expectRefusal(run({ball, "-o", out(), "--only", "marching", "--only", "normals"}), kUsage,
+                {"--only normals", "scenes of its own"});
+  expectRefusal(run({"-o", out(), "--draw"}), kUsage, {"--draw", "results.csv", "-o"});
+  EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
 TEST_F(SdfChart, AScriptThatDoesNotRunIsNamed) {
   expectRefusal(run({scene("return spere(1)"), "-o", out(), "-q"}), kScene, {"scene.lua", "spere"});
   expectRefusal(run({(folder / "none.lua").string(), "-o", out(), "-q"}), kFiles, {"none.lua"});
+}
+
+TEST_F(SdfChart, ScenesOfOneNameAreToldApart) {
+  std::filesystem::create_directories(folder / "other");
+  const std::string ball = scene("return sphere(1)"), other = (folder / "other/scene.lua").string();
+  std::ofstream(other) << "return box({1, 1, 1})";
+  expectRefusal(run({ball, other, "-o", out(), "-q", "--trial", "--only", "meshing", "--packages", "/none"}),
+                kNotDrawn, {"/none"});
+  for (const std::string& file : {ball, other})
+    EXPECT_NE(written("results.csv").find("\nmeshing," + file + ",tolerance"), std::string::npos) << file;
+}
+
+TEST_F(SdfChart, AChangedSceneIsNotGoneOnWith) {
+  const auto measure = [&](const char* text) {
+    return run({scene(text), "-o", out(), "-q", "--trial", "--only", "meshing", "--packages", "/none"});
+  };
+  expectRefusal(measure("return sphere(1)"), kNotDrawn, {"/none"});
+  expectRefusal(measure("return sphere(1)"), kNotDrawn, {"/none"});
+  expectRefusal(measure("return sphere(2)"), kUsage, {"results.csv", "scene.lua (", "-o"});
 }
 
 TEST_F(SdfChart, ASceneWithoutASurfaceIsNamed) {
@@ -103,8 +127,9 @@ TEST_F(SdfChart, WithoutOpenGlTheRestIsMeasured) {
 }
 
 TEST_F(SdfChart, GoesOnWhereItWasInterrupted) {
-  Command first = command({"-o", out(), "--quick", "--only", "meshing", "--packages", "/none"});
-  first.signalAfter = 0.5;
+  const std::vector<std::string> words{"-o", out(), "--quick", "--only", "shadows", "--packages", "/none"};
+  Command first = command(words);
+  first.signalAfter = 1.0;
   first.signal = SIGINT;
   const Outcome outcome = first.run();
   EXPECT_EQ(outcome.status, kInterrupted) << outcome.err;
@@ -112,6 +137,15 @@ TEST_F(SdfChart, GoesOnWhereItWasInterrupted) {
   const std::string kept = written("results.csv");
   EXPECT_GT(std::count(kept.begin(), kept.end(), '\n'), 2);
   expectRefusal(run({"-o", out(), "-q", "--trial"}), kUsage, {"results.csv", "--quick"});
+  EXPECT_EQ(written("results.csv"), kept);
+
+  EXPECT_EQ(run(words).status, kNotDrawn);
+  const std::string whole = written("results.csv");
+  EXPECT_TRUE(whole.starts_with(kept.substr(0, kept.rfind('\n') + 1)));
+  std::filesystem::rename(folder / "out", folder / "interrupted");
+  EXPECT_EQ(run(words).status, kNotDrawn);
+  const std::string atOnce = written("results.csv");
+  EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), std::count(atOnce.begin(), atOnce.end(), '\n'));
 }
 
 // One that is too far behind, and one that is not, among rows that were written by hand.

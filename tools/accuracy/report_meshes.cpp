@@ -23,6 +23,12 @@ at the voxels' size.
 
 A mean square over this many points is good to a percent.
 
+What these distances cost, by this mesher and by others, is charted ([charts.md](charts.md)):
+
+![Meshes of S2, time against error](charts/meshing.svg)
+
+![Rays to S3, readings against error](charts/marching.svg)
+
 | shape | asked | triangles | reported RMS | max | to the surface RMS | max | to the mesh RMS | max | proven |
 |---|---|---|---|---|---|---|---|---|---|
 )";

@@ -4,27 +4,17 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "opengl.h"
 #include "sdf/scene/scene.h"
-#include "viewer/gpu/context.h"
 #include "viewer/render/renderer.h"
 
 namespace sdf::chart {
 namespace {
 
+using viewer::Method;
 using viewer::Renderer;
 using viewer::Start;
 using viewer::Target;
-
-// Never closed: at the end of the process the driver's own threads may be gone already.
-const viewer::Driver& openedDriver() {
-  static viewer::Context* const context = take(viewer::Context::headless()).release();
-  if (const Status s = context->makeCurrent(); !s) throw std::runtime_error(s.error().message);
-  return context->driver();
-}
-
-void must(const Status& status) {
-  if (!status) throw std::runtime_error(status.error().message);
-}
 
 // The colour of each point is its place, and nothing changes that on its way into the picture.
 Scene placesOf(const MarchedScene& marched) {
@@ -45,19 +35,29 @@ RayStatus statusOf(const glm::vec4& pixel) {
   return glm::vec3(pixel) == nothing ? RayStatus::Miss : RayStatus::Hit;
 }
 
-// What draws one scene's rays from one start; shared by all thresholds.
+// What may change without compiling.
+struct Limits {
+  double threshold;
+  int steps;
+};
+
+// What draws one scene's rays by one method and from one start; shared by all thresholds and budgets.
 class Drawing {
  public:
-  Drawing(std::shared_ptr<KnownRays> known, int times, Start start)
-      : known_(std::move(known)), times_(times), side_(times * known_->side()), start_(start) {}
+  Drawing(std::shared_ptr<KnownRays> known, int times, Method method, Start start)
+      : known_(std::move(known)),
+        times_(times),
+        side_(times * known_->side()),
+        method_(method),
+        start_(start) {}
 
   double rays() const { return static_cast<double>(side_) * side_; }
 
   /// Draws a frame, and returns the seconds that it took; compiles first what is drawn with.
-  double draw(double threshold) {
+  double draw(const Limits& limits) {
     if (!renderer_) open();
     return secondsOf([&] {
-      must(renderer_->draw(frame(threshold), *target_));
+      must(renderer_->draw(frame(limits), *target_));
       viewer::finish();
     });
   }
@@ -79,9 +79,9 @@ class Drawing {
   }
 
   /// Readings a ray of such a frame, those of the cones included.
-  double readings(double threshold) {
+  double readings(const Limits& limits) {
     if (!counter_) counter_ = take(Renderer::make(scene_, options(true)));
-    must(counter_->draw(frame(threshold), *target_));
+    must(counter_->draw(frame(limits), *target_));
     return take(counter_->readings(*target_)).primary;
   }
 
@@ -90,7 +90,8 @@ class Drawing {
 
  private:
   viewer::ShaderOptions options(bool countReadings) const {
-    return {.view = viewer::View::Material, .start = start_, .countReadings = countReadings};
+    return {
+        .view = viewer::View::Material, .method = method_, .start = start_, .countReadings = countReadings};
   }
   void open() {
     openedDriver();
@@ -99,56 +100,79 @@ class Drawing {
     target_ =
         take(Target::create(side_, side_, {viewer::PixelFormat::Rgba32f, viewer::PixelFormat::Rgba32f}));
   }
-  viewer::Frame frame(double threshold) const {
+  viewer::Frame frame(const Limits& limits) const {
     viewer::Frame frame = viewer::frameOf(viewer::LookFunction(scene_), {}, 1.0);
     frame.filter = false;
-    frame.threshold = threshold;
+    frame.threshold = limits.threshold;
+    frame.maxSteps = limits.steps;
     return frame;
   }
 
   const std::shared_ptr<KnownRays> known_;
   const int times_, side_;
+  const Method method_;
   const Start start_;
   Scene scene_;
   std::optional<Renderer> renderer_, counter_;
   std::optional<Target> target_;
 };
 
-Measurement measurement(const std::shared_ptr<Drawing>& drawing, Row row, double threshold) {
+Measurement measurement(const std::shared_ptr<Drawing>& drawing, Row row, const Limits& limits) {
   row.items = drawing->rays();
-  return {row, [drawing, threshold](Row* judged) {
-            if (judged) drawing->draw(threshold);  // warms up: compiles, and makes the targets
-            const double seconds = drawing->draw(threshold);
+  return {row, [drawing, limits](Row* judged) {
+            if (judged) drawing->draw(limits);  // warms up: compiles, and makes the targets
+            const double seconds = drawing->draw(limits);
             if (judged) {
               judged->machine = drawing->driver();
               judgeHits(drawing->hits(), drawing->known().truth(), *judged);
-              judged->evaluations = drawing->readings(threshold);
+              judged->evaluations = drawing->readings(limits);
               judged->truth = kSliver;
             }
             return seconds;
           }};
 }
 
-constexpr std::pair<const char*, Start> kStarts[] = {{"OpenGL, --start plain", Start::Plain},
-                                                     {"OpenGL, --start cone", Start::Cone},
-                                                     {"OpenGL, --start raster", Start::Raster}};
+struct NamedWay {
+  const char* name;
+  Method method;
+  Start start;
+};
+constexpr NamedWay kWays[] = {
+    {"OpenGL, --start plain", Method::AutoRelaxed, Start::Plain},
+    {"OpenGL, --start cone", Method::AutoRelaxed, Start::Cone},
+    {"OpenGL, --start raster", Method::AutoRelaxed, Start::Raster},
+    {"OpenGL, --method plain", Method::Plain, Start::Plain},  // which has no other start
+};
 const double kThresholds[] = {1.0, viewer::Frame{}.threshold, 1.0 / 16.0, 1.0 / 64.0};
+
+bool isUsual(const NamedWay& way, const Limits& limits) {
+  const viewer::ShaderOptions usual{};
+  const viewer::Frame frame{};
+  return way.method == usual.method && way.start == usual.start && limits.threshold == frame.threshold &&
+         limits.steps == frame.maxSteps;
+}
 
 }  // namespace
 
-std::vector<Measurement> drawnRays(const std::shared_ptr<KnownRays>& known, int times) {
+std::vector<Measurement> drawnRays(const std::shared_ptr<KnownRays>& known, int times,
+                                   const std::vector<int>& budgets) {
+  std::vector<std::shared_ptr<Drawing>> drawings;
+  for (const NamedWay& way : kWays)
+    drawings.push_back(std::make_shared<Drawing>(known, times, way.method, way.start));
   std::vector<Measurement> all;
-  for (const auto& [name, start] : kStarts) {
-    const auto drawing = std::make_shared<Drawing>(known, times, start);
-    for (const double threshold : kThresholds) {
-      char setting[64];
-      std::snprintf(setting, sizeof setting, "%g of a pixel's cone", threshold);
-      Row row{.kind = "marching", .scene = known->scene().name, .method = name, .setting = setting};
-      row.size = threshold;
-      row.isDefault = start == viewer::ShaderOptions{}.start && threshold == viewer::Frame{}.threshold;
-      all.push_back(measurement(drawing, row, threshold));
-    }
-  }
+  for (const int steps : budgets)
+    for (std::size_t i = 0; i < drawings.size(); ++i)
+      for (const double threshold : kThresholds) {
+        char setting[64];
+        std::snprintf(setting, sizeof setting, "%g of a pixel's cone", threshold);
+        Row row{.kind = "marching",
+                .scene = budgetName(known->scene().name + ", OpenGL", steps),
+                .method = kWays[i].name,
+                .setting = setting,
+                .size = threshold};
+        row.isDefault = isUsual(kWays[i], {threshold, steps});
+        all.push_back(measurement(drawings[i], row, {threshold, steps}));
+      }
   return all;
 }
 

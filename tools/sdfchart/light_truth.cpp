@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 
 #include "sdf/shape/operators.h"
@@ -25,10 +26,10 @@ bool meetsBall(const glm::dvec3& from, const glm::dvec3& d, double radius, doubl
   return last > 0.0 && first < reach;
 }
 
-bool meetsBlock(const glm::dvec3& from, const glm::dvec3& d, double half, double reach) {
+bool meetsBlock(const glm::dvec3& from, const glm::dvec3& d, const glm::dvec3& half, double reach) {
   double first = 0.0, last = reach;
   for (int axis = 0; axis < 3; ++axis) {
-    const double a = (-half - from[axis]) / d[axis], b = (half - from[axis]) / d[axis];
+    const double a = (-half[axis] - from[axis]) / d[axis], b = (half[axis] - from[axis]) / d[axis];
     first = std::max(first, std::min(a, b));
     last = std::min(last, std::max(a, b));
   }
@@ -42,12 +43,10 @@ glm::dvec3 groundPoint(int i, int n) {
 
 }  // namespace
 
-Shape Blocker::shape() const {
-  return translate(ball ? sphere(size) : box(Vec3E(Expr(size))), Vec3E(centre));
-}
+Shape Blocker::shape() const { return translate(ball ? sphere(half.x) : box(Vec3E(half)), Vec3E(centre)); }
 
 bool Blocker::meets(const glm::dvec3& p, const glm::dvec3& d, double reach) const {
-  return ball ? meetsBall(p - centre, d, size, reach) : meetsBlock(p - centre, d, size, reach);
+  return ball ? meetsBall(p - centre, d, half.x, reach) : meetsBlock(p - centre, d, half, reach);
 }
 
 Vectors groundPoints(const Blocker& blocker, int n) {
@@ -56,7 +55,7 @@ Vectors groundPoints(const Blocker& blocker, int n) {
     const glm::dvec3 p = groundPoint(i, n);
     const glm::dvec3 q = glm::abs(p - blocker.centre);
     const bool inside =
-        blocker.ball ? glm::length(q) < blocker.size : std::max({q.x, q.y, q.z}) <= blocker.size;
+        blocker.ball ? glm::length(q) < blocker.half.x : glm::all(glm::lessThanEqual(q, blocker.half));
     if (!inside) points.add(p);
   }
   return points;

@@ -1,4 +1,4 @@
-// Light on the ground beside a ball or a block, by rays of their own: no distance is read.
+// Light on the ground under a ball or a block, by rays of their own: no distance is read.
 #pragma once
 #include <glm/vec3.hpp>
 #include <string>
@@ -13,7 +13,7 @@ namespace sdf::chart {
 struct Blocker {
   bool ball;  ///< else a block
   glm::dvec3 centre;
-  double size;  ///< radius, or half the block's side
+  glm::dvec3 half;  ///< of the block's sides; x: the ball's radius
 
   /// The library's shape of it, without the ground.
   Shape shape() const;

@@ -2,9 +2,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
 #include "bench/machine.h"
 #include "charts.h"
@@ -38,6 +42,8 @@ Result<std::vector<Subject>> subjectsOf(const Options& options) {
   for (const auto& file : options.scenes) {
     Result<Subject> subject = loadSubject(file);
     if (!subject) return subject.error();
+    const bool taken = std::ranges::count(options.scenes, file.stem(), &std::filesystem::path::stem) > 1;
+    if (taken) subject->name = file.string();  // rows and charts go by names
     subjects.push_back(std::move(*subject));
   }
   return subjects;
@@ -62,13 +68,24 @@ std::vector<Batch> batchesOf(const Options& options, const std::vector<Subject>&
   return all;
 }
 
+// Tells a scene file's text from what it was before (FNV-1a).
+std::string mark(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::uint32_t hash = 2166136261u;
+  for (std::istreambuf_iterator<char> c(in), end; c != end; ++c)
+    hash = (hash ^ static_cast<unsigned char>(*c)) * 16777619u;
+  char text[16];
+  std::snprintf(text, sizeof text, " (%08x)", static_cast<unsigned>(hash));
+  return text;
+}
+
 // What a run must have in common with the one that it goes on with.
 std::string madeBy(const Options& options) {
   std::string text = std::string("sdfchart ") + version() +
                      (options.quick   ? " --quick"
                       : options.trial ? " --trial"
                                       : "");
-  for (const auto& scene : options.scenes) text += " " + scene.string();
+  for (const auto& scene : options.scenes) text += " " + scene.string() + mark(scene);
   return text + "; seed 1";
 }
 
@@ -89,7 +106,15 @@ Status measure(const Options& options, RunProgress& progress) {
   return runBatches(batchesOf(options, *subjects), *results, bench::machine(), progress);
 }
 
+// Is there something to be drawn?
+Status checkMeasured(const Options& options) {
+  if (!options.drawOnly || std::filesystem::exists(options.output / "results.csv")) return okStatus();
+  return Error{ErrorKind::Usage, "--draw: there is no '" + (options.output / "results.csv").string() +
+                                     "'; name the folder of a run with -o, or leave --draw out"};
+}
+
 int run(const Options& options) {
+  if (Status s = checkMeasured(options); !s) return fail(s.error());
   if (Status s = makeFolder(options.output); !s) return fail(s.error());
   RunProgress progress(!options.quiet, ::isatty(STDERR_FILENO) == 1);
   stopOnSignals();

@@ -61,6 +61,10 @@ double halved(const Tape& tape, const Rays& rays, std::size_t i, RootBracket bra
 
 }  // namespace
 
+std::string budgetName(const std::string& scene, int steps) {
+  return steps == kViewersSteps ? scene : scene + ", " + std::to_string(steps) + " steps";
+}
+
 std::vector<MarchedScene> marchedScenes(bool all) {
   const glm::dvec3 from(2.0, 1.6, 3.4);
   std::vector<MarchedScene> scenes{{"smooth: blended balls", bench::measuringShape(2), from, 2.0},

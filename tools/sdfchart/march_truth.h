@@ -9,6 +9,12 @@
 
 namespace sdf::chart {
 
+/// Steps that the viewer's rays may take (viewer/render/frame.h).
+inline constexpr int kViewersSteps = 1024;
+
+/// The name of a scene whose rays may take so many steps.
+std::string budgetName(const std::string& scene, int steps);
+
 /// Along a ray, the thinnest solid that the truth is sure to know; scene units.
 inline constexpr double kSliver = 1e-5;
 

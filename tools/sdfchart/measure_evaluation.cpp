@@ -9,6 +9,7 @@
 #include "measurements.h"
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
+#include "shader_reading.h"
 
 namespace sdf::chart {
 namespace {
@@ -29,6 +30,8 @@ struct Points {
   glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
   Rows rows() const { return {x.data(), y.data(), z.data()}; }
 };
+
+Expr ballsOf(int count) { return bench::balls(count, 0.06).distance; }
 
 // A union of balls, its tape, and points to read it at.
 struct Scene {
@@ -108,6 +111,53 @@ std::vector<std::pair<std::string, std::int64_t>> instructionSets() {
   return sets;
 }
 
+// So many times each point that a reading by OpenGL takes some milliseconds.
+int timesFor(const Scene& scene) {
+  constexpr double kWork = 1e8;
+  const double once = scene.operations() * static_cast<double>(scene.points.size());
+  return static_cast<int>(std::clamp(kWork / once, 1.0, 64.0));
+}
+
+std::vector<glm::vec4> texels(const Points& points) {
+  std::vector<glm::vec4> all;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    all.emplace_back(points.x[i], points.y[i], points.z[i], 0.0f);
+  return all;
+}
+
+// The shader of so many balls. Compiling takes Mesa about the 3/2 power of the operations, and cannot be
+// stopped: a quarter of the balls goes first, and says whether the whole would take too long.
+std::unique_ptr<ShaderReading> compiledShader(int count, const Scene& scene, double mostSeconds) {
+  constexpr int kSoonCompiled = 100;
+  constexpr double kGrowth = 8.0;
+  if (const int fewer = count / 4; fewer >= kSoonCompiled) {
+    const double seconds = secondsOf([&] { compiledShader(fewer, scene, mostSeconds); });
+    if (kGrowth * seconds > mostSeconds) {
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "OpenGL took %.2g s to compile %d balls; four times as many would take more than %g s",
+                    seconds, fewer, mostSeconds);
+      throw std::runtime_error(text);
+    }
+  }
+  return std::make_unique<ShaderReading>(ballsOf(count), texels(scene.points), timesFor(scene));
+}
+
+Measurement inShader(const std::shared_ptr<const Scene>& scene, Row row, int count, double compileSeconds) {
+  row.method = "GLSL";
+  row.items = static_cast<double>(scene->points.size()) * timesFor(*scene);
+  return {row, [scene, count, compileSeconds,
+                reading = std::make_shared<std::unique_ptr<ShaderReading>>()](Row* judged) {
+            if (!*reading) *reading = compiledShader(count, *scene, compileSeconds);
+            const double seconds = secondsOfShort([&] { (*reading)->run(); });
+            if (judged) {
+              judged->machine = ShaderReading::driver();
+              judge(scene->tape, scene->points, (*reading)->values(), *judged);
+            }
+            return seconds;
+          }};
+}
+
 // The tape that holds in a box around a point of the surface, a sixteenth of the region long.
 std::shared_ptr<const Scene> specialised(const Tape& tape) {
   const glm::dvec3 middle(0.06, 1.7 * std::sin(0.0), 0.0);  // on the first ball
@@ -120,8 +170,8 @@ std::shared_ptr<const Scene> specialised(const Tape& tape) {
   return std::make_shared<const Scene>(Scene{found, pointsFor(found, box)});
 }
 
-std::vector<Measurement> ofBalls(int count) {
-  const Tape tape(bench::balls(count, 0.06).distance);
+std::vector<Measurement> ofBalls(int count, double compileSeconds) {
+  const Tape tape(ballsOf(count));
   const Box region = Box::centred(glm::dvec3(bench::kRegion));
   const auto scene = std::make_shared<const Scene>(Scene{tape, pointsFor(tape, region)});
   const Row row{.kind = "evaluation",
@@ -129,7 +179,12 @@ std::vector<Measurement> ofBalls(int count) {
                 .setting = std::to_string(count) + " balls",
                 .size = scene->operations()};
   std::vector<Measurement> all{inDouble(scene, row)};
-  for (const auto& [name, set] : instructionSets()) all.push_back(inBatches(scene, row, name, set));
+  const std::string best = BatchEvaluator::targetName();
+  for (const auto& [name, set] : instructionSets()) {
+    all.push_back(inBatches(scene, row, name, set));
+    all.back().row.isDefault = name == best;
+  }
+  all.push_back(inShader(scene, row, count, compileSeconds));
   const auto near = specialised(tape);
   all.push_back(inBatches(near, row, "specialised, best set", 0));
   all.back().row.evaluations = near->operations() / scene->operations();
@@ -138,8 +193,8 @@ std::vector<Measurement> ofBalls(int count) {
 
 }  // namespace
 
-std::vector<Batch> evaluationBatches(const Extent extent) {
-  const auto counts = byExtent<std::vector<int>>(extent, {1, 3, 10, 30, 100, 300, 1000, 3000, 10'000, 25'000},
+std::vector<Batch> evaluationBatches(Extent extent, double compileSeconds) {
+  const auto counts = byExtent<std::vector<int>>(extent, {1, 3, 10, 30, 100, 300, 1000, 3000, 10'000, 50'000},
                                                  {1, 10, 100, 1000, 10'000}, {1, 10});
   std::vector<Batch> batches;
   for (const int count : counts)
@@ -147,7 +202,7 @@ std::vector<Batch> evaluationBatches(const Extent extent) {
                        .weight = 1.0 + count / 5000.0,
                        .runs = byExtent(extent, 9, 3, 1),
                        .budget = 10.0,
-                       .make = [count] { return ofBalls(count); }});
+                       .make = [=] { return ofBalls(count, compileSeconds); }});
   return batches;
 }
 

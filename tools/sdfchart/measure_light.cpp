@@ -7,6 +7,7 @@
 #include "measurements.h"
 #include "sdf/march/ambient_occlusion.h"
 #include "sdf/march/shadow.h"
+#include "sdf/scene/scene.h"
 #include "sdf/shape/operators.h"
 #include "sdf/shape/solids.h"
 
@@ -132,14 +133,17 @@ std::vector<Measurement> ofSky(const std::string& what, const Blocker& blocker, 
     const std::string setting = std::to_string(count) + " taps";
     add("taps, halving", setting, count, byTaps(TapWeights::Halving, count, 1.0));
     add("taps, relative", setting, count, byTaps(TapWeights::Relative, count, 1.0 / count));
+    all.back().row.isDefault = count == AmbientOcclusion{}.count;  // of the same strength, too
   }
   for (const int count : {16, 64, 256}) add("rays", std::to_string(count) + " rays", count, byRays(count));
   return all;
 }
 
 const std::vector<std::pair<std::string, Blocker>>& blockers() {
-  static const std::vector<std::pair<std::string, Blocker>> all{{"ball", {true, {0.0, 0.8, 0.0}, 0.5}},
-                                                                {"block", {false, {0.0, 0.5, 0.0}, 0.5}}};
+  static const std::vector<std::pair<std::string, Blocker>> all{
+      {"ball", {true, {0.0, 0.8, 0.0}, glm::dvec3(0.5)}},
+      {"block", {false, {0.0, 0.5, 0.0}, glm::dvec3(0.5)}},
+      {"plate of 0.02", {false, {0.0, 0.8, 0.0}, {0.5, 0.01, 0.5}}}};
   return all;
 }
 

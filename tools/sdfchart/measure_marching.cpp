@@ -1,6 +1,7 @@
 // Methods of marching at their thresholds: time and readings a ray against what they hit.
 #include <glm/geometric.hpp>
 
+#include "cone_starts.h"
 #include "drawn_rays.h"
 #include "march_truth.h"
 #include "measurements.h"
@@ -24,30 +25,44 @@ constexpr NamedMethod kMethods[] = {
     {"bisection", MarchMethod::Bisection},
 };
 
-// The viewer's: auto-relaxed steps that look behind, 1e-5 of the view, 1024 steps (viewer/render/frame.h).
+// The viewer's: auto-relaxed steps that look behind, 1e-5 of the view (viewer/render/frame.h).
 constexpr double kViewersEpsilon = 1e-5;
-constexpr int kViewersSteps = 1024;
+
+// What rays may do: how many steps, and where they start.
+struct Allowed {
+  int steps;
+  bool cones = false;
+};
 
 Measurement measurement(const std::shared_ptr<KnownRays>& known, const NamedMethod& method, double epsilon,
-                        int steps) {
+                        const Allowed& allowed) {
   char setting[64];
   std::snprintf(setting, sizeof setting, "threshold %g", epsilon);
-  Row row{
-      .kind = "marching",
-      .scene = known->scene().name + (steps == kViewersSteps ? "" : ", " + std::to_string(steps) + " steps"),
-      .method = method.name,
-      .setting = setting,
-      .size = epsilon};
-  row.isDefault = method.lookBehind && epsilon == kViewersEpsilon && steps == kViewersSteps;
+  Row row{.kind = "marching",
+          .scene = budgetName(known->scene().name + (allowed.cones ? ", cone starts" : ""), allowed.steps),
+          .method = method.name,
+          .setting = setting,
+          .size = epsilon};
+  row.isDefault =
+      method.lookBehind && epsilon == kViewersEpsilon && allowed.steps == kViewersSteps && !allowed.cones;
   row.items = static_cast<double>(known->rays().size());
-  const MarchOptions options{
-      .method = method.method, .epsilon = epsilon, .maxSteps = steps, .lookBehind = method.lookBehind};
-  return {row, [known, options](Row* judged) {
+  const MarchOptions options{.method = method.method,
+                             .epsilon = epsilon,
+                             .maxSteps = allowed.steps,
+                             .lookBehind = method.lookBehind};
+  return {row, [known, options, cones = allowed.cones](Row* judged) {
             Marcher marcher = take(Marcher::make(known->field(), options));
             Hits hits;
-            const double seconds = secondsOf([&] { hits = take(marcher.trace(known->rays())); });
+            double before = 0.0;
+            const double seconds = secondsOf([&] {
+              if (!cones) return void(hits = take(marcher.trace(known->rays())));
+              const StartedRays started = coneStarts(known->field(), known->rays(), known->side());
+              before = started.readings;
+              hits = take(marcher.trace(started.rays));
+            });
             if (judged) {
               judgeHits(hits, known->truth(), *judged);
+              judged->evaluations += before;
               judged->truth = kSliver;
             }
             return seconds;
@@ -71,9 +86,10 @@ std::vector<Batch> marchingBatches(const std::vector<Subject>& files, Extent ext
       byExtent<std::vector<int>>(extent, {kViewersSteps, 64}, {kViewersSteps}, {kViewersSteps});
   std::vector<Batch> batches, drawn;
   for (const MarchedScene& scene : scenes) {
-    const auto known = [scene, extent] {
+    const auto known = [scene, extent, kept = std::make_shared<std::shared_ptr<KnownRays>>()] {
       const double step = byExtent(extent, 1e-3, 2e-3, 4e-3) * scene.radius;
-      return std::make_shared<KnownRays>(scene, byExtent(extent, 64, 32, 12), step);
+      if (!*kept) *kept = std::make_shared<KnownRays>(scene, byExtent(extent, 64, 32, 12), step);
+      return *kept;
     };
     const Batch batch{.weight = byExtent(extent, 25.0, 4.0, 1.0),
                       .runs = byExtent(extent, 5, 3, 1),
@@ -82,15 +98,18 @@ std::vector<Batch> marchingBatches(const std::vector<Subject>& files, Extent ext
     batches.back().subject = "marching " + scene.name;
     batches.back().make = [=] {
       const auto rays = known();
+      std::vector<Allowed> allowed;
+      for (const int steps : budgets) allowed.push_back({steps});
+      allowed.push_back({kViewersSteps, true});
       std::vector<Measurement> all;
-      for (const int steps : budgets)
+      for (const Allowed& rule : allowed)
         for (const NamedMethod& method : kMethods)
-          for (const double epsilon : thresholds) all.push_back(measurement(rays, method, epsilon, steps));
+          for (const double epsilon : thresholds) all.push_back(measurement(rays, method, epsilon, rule));
       return all;
     };
     drawn.push_back(batch);
     drawn.back().subject = "drawing " + scene.name;
-    drawn.back().make = [=] { return drawnRays(known(), byExtent(extent, 5, 5, 3)); };
+    drawn.back().make = [=] { return drawnRays(known(), byExtent(extent, 5, 5, 3), budgets); };
   }
   batches.insert(batches.end(), drawn.begin(), drawn.end());
   return batches;

@@ -60,15 +60,19 @@ Measurement measurement(const std::shared_ptr<const Torus>& torus, Row row, cons
           }};
 }
 
+constexpr std::pair<const char*, NormalMethod> kSchemes[] = {{"forward", NormalMethod::Forward},
+                                                             {"central", NormalMethod::Central},
+                                                             {"tetrahedron", NormalMethod::Tetrahedron}};
+constexpr const char* kExact = "exact derivatives";
+
+std::size_t pointsFor(Extent extent) { return byExtent<std::size_t>(extent, 4096, 2048, 512); }
+
 std::vector<Measurement> awayFromOrigin(double away, Extent extent) {
-  const auto torus = std::make_shared<const Torus>(away, byExtent<std::size_t>(extent, 4096, 2048, 512));
+  const auto torus = std::make_shared<const Torus>(away, pointsFor(extent));
   const int factor = byExtent(extent, 1, 2, 6);  // powers of two between steps
-  constexpr std::pair<const char*, NormalMethod> kSchemes[] = {{"forward", NormalMethod::Forward},
-                                                               {"central", NormalMethod::Central},
-                                                               {"tetrahedron", NormalMethod::Tetrahedron}};
   char scene[64];
   std::snprintf(scene, sizeof scene, "torus %g from the origin", away);
-  Row row{.scene = scene, .method = "exact derivatives", .setting = "no step"};
+  Row row{.scene = scene, .method = kExact, .setting = "no step"};
   row.isDefault = 1.0;
   std::vector<Measurement> all{measurement(torus, row, {})};
   row.isDefault = 0.0;
@@ -82,17 +86,44 @@ std::vector<Measurement> awayFromOrigin(double away, Extent extent) {
   return all;
 }
 
+// At one step, the usual one, over the distance.
+std::vector<Measurement> overDistance(Extent extent) {
+  constexpr int kPower = -10;
+  std::vector<Measurement> all;
+  for (const double away : byExtent<std::vector<double>>(extent, {1.0, 10.0, 100.0, 1e3, 1e4, 1e5},
+                                                         {1.0, 10.0, 100.0, 1e3, 1e4}, {1.0})) {
+    const auto torus = std::make_shared<const Torus>(away, pointsFor(extent));
+    char setting[64];
+    std::snprintf(setting, sizeof setting, "%g away", away);
+    Row row{.scene = "over the distance from the origin (torus, step 2^" + std::to_string(kPower) + ")",
+            .method = kExact,
+            .setting = setting,
+            .size = away};
+    row.isDefault = 1.0;
+    all.push_back(measurement(torus, row, {}));
+    row.isDefault = 0.0;
+    for (const auto& [name, method] : kSchemes) {
+      row.method = name;
+      all.push_back(measurement(torus, row, {.method = method, .step = std::exp2(kPower)}));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<Batch> normalBatches(Extent extent) {
   const auto places = byExtent<std::vector<double>>(extent, {0.0, 10.0, 100.0, 1000.0}, {0.0, 100.0}, {0.0});
   std::vector<Batch> batches;
-  for (const double away : places)
+  const auto add = [&](std::function<std::vector<Measurement>()> make) {
     batches.push_back({.subject = "normals",
                        .weight = byExtent(extent, 6.0, 1.0, 0.5),
                        .runs = byExtent(extent, 9, 3, 1),
                        .budget = 5.0,
-                       .make = [away, extent] { return awayFromOrigin(away, extent); }});
+                       .make = std::move(make)});
+  };
+  for (const double away : places) add([away, extent] { return awayFromOrigin(away, extent); });
+  add([extent] { return overDistance(extent); });
   return batches;
 }
 

@@ -25,8 +25,9 @@ std::vector<Batch> normalBatches(Extent extent);
 /// Errors of the light in the shadows of lamps of some sizes, and of ambient occlusion.
 std::vector<Batch> shadowBatches(Extent extent);
 std::vector<Batch> occlusionBatches(Extent extent);
-/// Points a second and rounding of the readings, over the number of operations.
-std::vector<Batch> evaluationBatches(Extent extent);
+/// Points a second and rounding of the readings, over the number of operations. A shader that would take
+/// longer than so many seconds to compile is a failure.
+std::vector<Batch> evaluationBatches(Extent extent, double compileSeconds = 20.0);
 /// Time of each stage of meshing, and memory, over voxels, operations and parts.
 std::vector<Batch> growthBatches(Extent extent);
 /// The known failures. Quick are those of formulas, marching and blends.

@@ -19,17 +19,28 @@ double statusBytes(const std::string& name) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+// Sets the peak back to what is held now; false where the system does not let us.
+bool forgetPeak() {
+  std::ofstream refs("/proc/self/clear_refs");
+  refs << "5" << std::flush;
+  return static_cast<bool>(refs);
+}
+
 }  // namespace
 
 MemoryPeak::MemoryPeak() {
 #ifdef __GLIBC__
   ::malloc_trim(0);
 #endif
-  std::ofstream refs("/proc/self/clear_refs");
-  refs << "5" << std::flush;
-  before_ = refs ? statusBytes("VmRSS:") : std::numeric_limits<double>::quiet_NaN();
+  before_ = forgetPeak() ? statusBytes("VmRSS:") : std::numeric_limits<double>::quiet_NaN();
 }
 
 double MemoryPeak::bytes() const { return statusBytes("VmHWM:") - before_; }
+
+double MemoryPeak::restart() {
+  const double most = bytes();
+  forgetPeak();
+  return most;
+}
 
 }  // namespace sdf::chart

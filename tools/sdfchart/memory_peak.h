@@ -10,6 +10,8 @@ class MemoryPeak {
   MemoryPeak();
   /// Most bytes since then beyond those held then; not a number where the system does not tell.
   double bytes() const;
+  /// bytes(), and forgets that there were so many: the next are the most from here on.
+  double restart();
 
  private:
   double before_ = 0.0;

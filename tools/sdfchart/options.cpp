@@ -62,6 +62,10 @@ Result<std::variant<Options, command_line::Answer>> parseOptions(int argc, const
   for (const std::string& kind : options.only)
     if (std::find(kinds().begin(), kinds().end(), kind) == kinds().end())
       return command_line::usage("--only takes " + listed(kinds(), ", ") + "; got '" + kind + "'");
+  for (const std::string& kind : options.only)
+    if (!options.scenes.empty() && kind != "meshing" && kind != "marching")
+      return command_line::usage("scene files are meshed and marched; --only " + kind +
+                                 " measures scenes of its own: leave the file or the option out");
   if (options.quick && options.trial) return command_line::usage("take --quick or --trial, not both");
   return Parsed(std::move(options));
 }

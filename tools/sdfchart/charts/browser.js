@@ -13,22 +13,42 @@ function draw(box) {
 }
 const drawAll = () => boxes.forEach(draw);
 
-for (const select of document.querySelectorAll('select'))
+for (const select of document.querySelectorAll('select[data-kind]'))
   select.addEventListener('change', () => {
     const { kind, along } = select.dataset;
     chosen[kind] = { ...chosen[kind], [along]: +select.value };
     boxes.filter((box) => box.dataset.kind === kind).forEach(draw);
   });
+const chooser = document.getElementById('chooser');
+let costs; // of the section whose scene is chosen
+
+// The figures that a choice can be cheap in are those along x of which less is better.
+function listCosts(section) {
+  const figures = section.x.filter((figure) => figure.better < 0);
+  if (costs?.[0] === figures[0]) return;
+  costs = figures;
+  chooser.elements.cost.replaceChildren(...costs.map((figure, i) => new Option(figure.name, i)));
+}
+
+// The least error, and whose it is.
+function nearest(section, scene, among, off) {
+  const known = among.filter((row) => row.kind === section.kind && row.scene === scene && row.status === 'ok' && off.of(row) >= 0);
+  const best = known.sort((a, b) => off.of(a) - off.of(b))[0];
+  return best ? `${best.method}, ${best.setting}: ${shown(off.of(best))} ${off.unit}` : 'none, for all failed';
+}
+
 function choose() {
   const [kind, scene] = JSON.parse(chooser.elements.scene.value);
   const section = sections.find((s) => s.kind === kind);
-  const error = +chooser.elements.error.value, [time, off] = [section.x[0], section.y[0]];
-  const best = fastestWithin(section, scene, rows, error);
+  listCosts(section);
+  const cost = costs[+chooser.elements.cost.value], off = section.y[0];
+  const among = chooser.elements.offered.checked ? offered(section, rows) : rows;
+  const best = fastestWithin(section, scene, among, +chooser.elements.error.value, cost);
   chooser.querySelector('output').textContent = best
-    ? `→ ${best.method}, ${best.setting}: error ${shown(off.of(best))} ${off.unit} in ${shown(time.of(best))} ${time.unit}`
-    : '→ nothing that was measured keeps it';
+    ? `→ ${best.method}, ${best.setting}: error ${shown(off.of(best))} ${off.unit}, ${cost.name} ${shown(cost.of(best))} ${cost.unit}`.trimEnd() +
+      (best.asked ? ` — ${best.asked}` : '')
+    : `→ nothing that was measured keeps it; the nearest is ${nearest(section, scene, among, off)}`;
 }
-const chooser = document.getElementById('chooser');
 if (chooser) {
   chooser.addEventListener('input', choose);
   chooser.addEventListener('submit', (event) => event.preventDefault());

@@ -8,6 +8,10 @@ export function fastestWithin(section, scene, rows, error, cost = section.x[0], 
     .sort((a, b) => cost.of(a) - cost.of(b))[0];
 }
 
+/// The rows that a user can ask a program for, each with what is to be said (`asked`).
+export const offered = (section, rows) =>
+  rows.map((row) => ({ ...row, asked: row.kind === section.kind ? section.command?.(row) : undefined })).filter((row) => row.asked);
+
 /// For each default of the sections that say what theirs are chosen for (`held`): the row that is no less right at
 /// the least of that cost, how many times as much the default costs, and whether that is more than is allowed.
 export function defaultsBehind(sections, rows) {

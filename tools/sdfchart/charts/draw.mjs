@@ -9,6 +9,7 @@ import { chartOption, themes } from './options.mjs';
 import { chartName, pageOf } from './page.mjs';
 import { parsePictures } from './pictures.mjs';
 import { sections } from './sections.mjs';
+import { gridSvg } from './tables.mjs';
 
 const [packages, results, folder] = process.argv.slice(2);
 const require = createRequire(resolve(packages, 'package.json'));
@@ -32,14 +33,22 @@ function pngOf(svg) {
   return new Resvg(svg, { font, fitTo: { mode: 'zoom', value: 2 } }).render().asPng();
 }
 
+function write(name, svg) {
+  writeFileSync(join(folder, `${name}.svg`), svg);
+  writeFileSync(join(folder, `${name}.png`), pngOf(svg));
+}
+
+function drawGrid(section, rows) {
+  const own = rows.filter((row) => row.kind === section.kind);
+  if (own.length) write(section.kind, gridSvg(own, section.title, distinct));
+}
+
 function drawSection(section, rows) {
   for (const scene of distinct(rows.filter((row) => row.kind === section.kind), 'scene'))
     for (const [i, j] of section.drawn) {
       const [x, y] = [section.x[i], section.y[j]];
       const svg = svgOf({ section, scene, x, y, rows, title: `${section.title.split(':')[0]}, ${scene}` });
-      const name = join(folder, chartName(section, scene, x, y));
-      writeFileSync(`${name}.svg`, svg);
-      writeFileSync(`${name}.png`, pngOf(svg));
+      write(chartName(section, scene, x, y), svg);
     }
 }
 
@@ -47,7 +56,7 @@ function drawSection(section, rows) {
 const inlined = (files) => files.map(read).join('\n').replace(/^import .*\n/gm, '').replace(/^export /gm, '');
 
 const { notes, rows } = parseResults(readFileSync(results, 'utf8'));
-for (const section of sections) if (!section.grid) drawSection(section, rows);
+for (const section of sections) (section.grid ? drawGrid : drawSection)(section, rows);
 const lights = join(dirname(results), 'pictures.csv');
 writeFileSync(join(folder, 'index.html'), pageOf({
   sections, rows, notes, pictures: parsePictures(existsSync(lights) ? readFileSync(lights, 'utf8') : ''), style: read('style.css'),

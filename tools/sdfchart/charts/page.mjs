@@ -28,7 +28,7 @@ function sectionHtml(section, rows, pictures) {
 
 // A form that names the fastest setting for a scene and an error, and what the defaults cost.
 function chooserHtml(sections, rows) {
-  const options = sections.filter((s) => s.pareto).flatMap((s) =>
+  const options = sections.filter((s) => s.command).flatMap((s) =>
     distinct(rows.filter((row) => row.kind === s.kind), 'scene')
       .map((scene) => `<option value="${escaped(JSON.stringify([s.kind, scene]))}">${s.kind}: ${escaped(scene)}</option>`));
   const behind = defaultsBehind(sections, rows).map(({ row, best, cost, factor }) =>
@@ -37,7 +37,9 @@ function chooserHtml(sections, rows) {
   if (!options.length) return '';
   return `<section id="choose"><h2>Choose for me</h2>
 <form id="chooser"><label>scene <select name="scene">${options.join('')}</select></label>
-<label>error of at most <input name="error" type="number" step="any" min="0" value="0.001"></label> <output></output></form>
+<label>error of at most <input name="error" type="number" step="any" min="0" value="0.001"></label>
+<label>with the least <select name="cost"></select></label>
+<label><input name="offered" type="checkbox" checked> of what the programs offer</label> <output></output></form>
 <details><summary>Table: the defaults beside the cheapest that is no less right</summary><div class="wide"><table>
 <thead><tr><th>kind</th><th>scene</th><th>default</th><th>cheapest as right</th><th>the default takes</th></tr></thead>
 <tbody>${behind.join('\n')}</tbody></table></div></details></section>`;

@@ -10,6 +10,8 @@ const charts = {
   meshing: 'meshing-drilled-box-time-error-root-mean-square',
   marching: 'marching-smooth-blended-balls-readings-a-ray-error-root-mean-square',
   shadows: 'shadows-ball-lamp-of-7-time-a-point-error-root-mean-square',
+  growth: 'growth-over-the-voxels-a-side-drilled-box-size-time',
+  stability: 'stability',
   evaluation: 'evaluation-unions-of-balls-operations-of-the-scene-points-a-second',
 };
 mkdirSync(docs, { recursive: true });

@@ -30,15 +30,16 @@ function meshing(rows) {
 
 function marching(rows) {
   const own = rows.filter((row) => row.kind === 'marching' && row.status === 'ok');
-  const isDrawn = (row) => row.method.startsWith('OpenGL');
+  const isDrawn = (row) => row.method.startsWith('OpenGL') && !row.method.includes('--method');
+  const seen = (row) => row.scene.replace(/, OpenGL$/, '');
   const usual = own.filter((row) => row.default === 1);
   const columns = [...usual.filter((row) => !isDrawn(row)).slice(0, 1), ...usual.filter(isDrawn).slice(0, 1)]
     .flatMap((row) => distinct(own.filter((r) => r.setting === row.setting), 'method')
-      .filter((method) => method === 'plain' || method === row.method || method.startsWith('OpenGL'))
+      .filter((method) => method === 'plain' || method === row.method || isDrawn({ method }))
       .map((method) => ({ method, setting: row.setting })));
   const cell = (row) => (row ? `${shown(row.evaluations)}, ${shown((1e6 * row.seconds) / row.items)} µs, ${shown(row.error_rms)}` : '');
-  const lines = distinct(usual, 'scene').map((scene) => [scene, ...columns.map(({ method, setting }) =>
-    cell(own.find((row) => row.scene === scene && row.method === method && row.setting === setting)))]);
+  const lines = [...new Set(usual.map(seen))].map((scene) => [scene, ...columns.map(({ method, setting }) =>
+    cell(own.find((row) => seen(row) === scene && row.method === method && row.setting === setting)))]);
   return 'Rays, at the thresholds of the viewer: readings of the distance a ray, time a ray, and the error of the depth (root mean ' +
     'square). The first are marched by one thread, those of OpenGL by all that the driver has\n\n' +
     table(['', ...columns.map(({ method }) => method)], lines);

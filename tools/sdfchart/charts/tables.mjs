@@ -34,3 +34,28 @@ export function gridOf(rows, distinct) {
   return `<table class="grid"><thead><tr><th>case</th>${methods.map((m) => `<th>${escaped(m)}</th>`).join('')}</tr></thead>` +
     `<tbody>${body.join('\n')}</tbody></table>`;
 }
+
+// As style.css has them on light.
+const fills = { holds: '#d5ecd9', degrades: '#fdeebf', fails: '#f6c9c0' };
+
+/// The same grid as an SVG, without what the methods do.
+export function gridSvg(rows, title, distinct) {
+  const methods = distinct(rows, 'method'), cases = distinct(rows, 'scene');
+  const [left, wide, line, above] = [400, 290, 22, 70];
+  const width = left + wide * methods.length + 10, height = above + line * cases.length + 10;
+  const text = (x, y, words, more = '') => `<text x="${x}" y="${y}"${more}>${escaped(words)}</text>`;
+  const bold = ' font-weight="bold"';
+  const cell = (row, i, k) => {
+    if (!row) return '';
+    const verdict = row.status === 'ok' ? row.verdict : 'fails';
+    const words = row.status === 'ok' ? `${signs[verdict]} ${verdict}${verdict === 'holds' ? '' : ` ${shown(row.error_max)}`}` : '✕ did not run';
+    const [x, y] = [left + wide * k, above + line * i];
+    return `<rect x="${x}" y="${y}" width="${wide - 2}" height="${line - 2}" fill="${fills[verdict]}"/>${text(x + 8, y + 14, words)}`;
+  };
+  const lines = cases.map((name, i) => text(10, above + line * i + 14, name) +
+    methods.map((method, k) => cell(rows.find((row) => row.scene === name && row.method === method), i, k)).join(''));
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" ` +
+    `font-family="DejaVu Sans, sans-serif" font-size="12" fill="#1a1a1a"><rect width="100%" height="100%" fill="#ffffff"/>` +
+    text(10, 26, title, `${bold} font-size="16"`) + text(10, above - 10, 'case', bold) +
+    methods.map((method, k) => text(left + wide * k + 8, above - 10, method, bold)).join('') + lines.join('\n') + '</svg>\n';
+}
