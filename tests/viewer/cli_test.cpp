@@ -555,6 +555,27 @@ TEST_F(Sdfview, KeepsWhatItSamplesOfMeshesUnlessToldNotTo) {
   EXPECT_EQ(drawn({}), plain);
 }
 
+TEST_F(Sdfview, TellsWhatMeshesCostAndHowFarOffTheirSamplesAre) {
+  std::ofstream(folder / "tip.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const Outcome outcome = run({scene("local tip = mesh('tip.obj', {voxels = 32}) part('drawn', tip) "
+                                     "part('cut', tip:translate(2, 0, 0) - sphere(0.3)) shadows{}"),
+                               "--bench", "1", "--size", "64x48", "--no-cache"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["drawn_triangles"], 4);
+  EXPECT_GT(report["triangles_ms"].get<double>(), 0.0);
+  ASSERT_EQ(report["fields"].size(), 1u);
+  const auto& field = report["fields"][0];
+  EXPECT_EQ(field["triangles"], 4);
+  EXPECT_DOUBLE_EQ(field["voxel"].get<double>(), 1.0 / 32.0);
+  EXPECT_GT(field["ready_ms"].get<double>(), 0.0);
+  EXPECT_GT(field["bricks"].get<int>(), 0);
+  EXPECT_GT(field["error_rms"].get<double>(), 0.0);
+  EXPECT_LE(field["error_rms"].get<double>(), field["error_max"].get<double>());
+  EXPECT_LE(field["error_max"].get<double>(), 0.1);
+}
+
 // Two like pictures, and one of fewer parts, which is not held against it.
 TEST_F(Sdfview, ComparesWaysToDrawAScene) {
   const Outcome outcome = run({std::string(SDF_SOURCE_DIR) + "/samples/bench/v_parts.lua", "--bench", "3",
