@@ -295,6 +295,8 @@ Status runHeadless(const Options& options, std::ostream& out) {
   auto scene = loadAt(options.time, options);
   if (!scene) return scene.error();
   for (const std::string& note : scene->notes) std::cerr << "sdfview: warning: " << note << '\n';
+  for (const std::string& why : scene->missing)
+    std::cerr << "sdfview: warning: " << why << "; the rest is shown\n";
   LookFunction look = lookOf(*scene, sceneFileOf(options), options.parameters);
   std::optional<Box> fitTo;
   if (options.fit)
