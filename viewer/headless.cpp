@@ -8,9 +8,11 @@
 #include "command_line/frames.h"
 #include "sdf/base/file.h"
 #include "sdf/script/script.h"
+#include "sdf/triangles/mesh_field.h"
 #include "viewer/comparison.h"
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/picture.h"
+#include "viewer/render/drawn_meshes.h"
 #include "viewer/render/in_view.h"
 #include "viewer/render/legend.h"
 #include "viewer/render/mesh_view.h"
@@ -99,6 +101,7 @@ class Headless {
                                   {"rays", pixels * options_.samples * options_.samples},
                                   {"pixels_out_of_steps", pixelsOutOfSteps(*drawn)},
                                   {"pixels_out_of_shadow_steps", pixelsOutOfShadowSteps(*drawn)}};
+    if (auto s = tellOfMeshes(renderer->shaders(), f, report); !s) return s;
     Contender own{std::move(*renderer), f};
     for (const Comparison& comparison : options_.comparisons)
       if (auto s = compareWith(comparison, own, *target, report); !s) return s;
@@ -118,6 +121,50 @@ class Headless {
   }
 
  private:
+  // What meshes of files cost, and how far off the samples of their distances are, in voxels.
+  Status tellOfMeshes(const SceneShaders& shaders, const Frame& f, nlohmann::ordered_json& report) const {
+    std::vector<ShaderVolume> volumes = shaders.picture.volumes;
+    for (const HitShaders& pass : shaders.hits)
+      volumes.insert(volumes.end(), pass.volumes.begin(), pass.volumes.end());
+    std::vector<std::shared_ptr<const MeshField>> fields;
+    for (const ShaderVolume& volume : volumes) {
+      auto field = std::dynamic_pointer_cast<const MeshField>(volume.payload);
+      if (field && std::ranges::find(fields, field) == fields.end()) fields.push_back(std::move(field));
+    }
+    for (const auto& field : fields) {
+      const Bricks& bricks = field->bricks();
+      report["fields"].push_back({{"triangles", field->mesh().triangles.size()},
+                                  {"ready_ms", 1e3 * field->seconds()},
+                                  {"voxel", bricks.voxel},
+                                  {"bricks", bricks.count},
+                                  {"error_max", bricks.worst / bricks.voxel},
+                                  {"error_rms", bricks.rms / bricks.voxel}});
+    }
+    if (shaders.plan.drawn.empty()) return okStatus();
+    auto meshes = DrawnMeshes::make(shaders);
+    if (!meshes) return meshes.error();
+    constexpr int kLayers = 4;  // as many as triangles fill
+    auto target =
+        Target::create(options_.width, options_.height, std::vector(kLayers, PixelFormat::Rgba32f), true);
+    if (!target) return target.error();
+    const Shot shot(f, options_.width, options_.height, Extent(scene_));
+    meshes->prepare(f);
+    std::vector<double> times;
+    for (int i = 0; i <= *options_.bench; ++i) {
+      target->clearDepth();
+      finish();
+      const auto start = Clock::now();
+      const DrawingMode nearest = nearestWins();
+      meshes->draw(shot);
+      finish();
+      times.push_back(millisecondsSince(start));
+    }
+    times.erase(times.begin());
+    report["drawn_triangles"] = meshes->triangles();
+    report["triangles_ms"] = median(times);
+    return check("draw the triangles of meshes");
+  }
+
   std::filesystem::path nameOf(int i) const {
     return options_.frames ? command_line::frameName(*options_.picture, i + 1) : *options_.picture;
   }
@@ -258,6 +305,8 @@ Status runHeadless(const Options& options, std::ostream& out) {
   auto scene = loadAt(options.time, options);
   if (!scene) return scene.error();
   for (const std::string& note : scene->notes) std::cerr << "sdfview: warning: " << note << '\n';
+  for (const std::string& why : scene->missing)
+    std::cerr << "sdfview: warning: " << why << "; the rest is shown\n";
   LookFunction look = lookOf(*scene, sceneFileOf(options), options.parameters);
   std::optional<Box> fitTo;
   if (options.fit)

@@ -116,6 +116,52 @@ TEST_F(Meshes, FilesElsewhereAreRefused) {
   EXPECT_TRUE(run(text).ok());
 }
 
+// What a broken mesh is part of goes on without it, as if there were nothing where it is.
+TEST_F(Meshes, ThatAreMissingAreLeftOutWhereThatIsAllowed) {
+  options_.withoutMissing = true;
+  const auto sameAs = [&](const std::string& text, const std::string& other) {
+    const Scene scene = sceneOf(text);
+    ASSERT_EQ(scene.missing.size(), 1u) << text;
+    EXPECT_EQ(scene.missing[0], here(":1: " + (std::filesystem::canonical(scenes()) / "bad.glb").string() +
+                                     ": cannot be read"));
+    EXPECT_EQ(scene.whole().distance, sceneOf(other).whole().distance) << text;
+    EXPECT_EQ(scene.parts.size(), sceneOf(other).parts.size()) << text;
+  };
+  const std::string bad = R"(local bad = mesh("bad.glb") )";
+  sameAs(bad + "part('a', bad) part('b', box(1))", "part('b', box(1))");
+  sameAs(bad + "part('a', bad:translate(1, 2, 3):round(0.1):twist(10):paint('#f00')) return box(1)",
+         "return box(1)");
+  sameAs(bad + "return bad | box(1) | sphere(2), bad", "return box(1) | sphere(2)");
+  sameAs(bad + "return union({bad, box(1), bad:scale(2), sphere(2)}, 0.2)",
+         "return union({box(1), sphere(2)}, 0.2)");
+  sameAs(bad + "return box(1) - bad, bad - box(1)", "return box(1)");
+  sameAs(bad + "return box(1) ~ bad, box(1) & bad", "return box(1)");
+  sameAs(bad + "part('a', bad:displace(function(x, y, z) return 0.1 * sin(x) end)) part('b', box(1))",
+         "part('b', box(1))");
+  sameAs(bad + "return box(1):translate(2, 0, 0), morph(bad, box(1), 0.5)",
+         "return box(1):translate(2, 0, 0)");
+}
+
+TEST_F(Meshes, ThatAreMissingAreErrorsWhereNothingIsLeft) {
+  options_.withoutMissing = true;
+  EXPECT_EQ(errorOf(R"(return mesh("../box.glb"))"),
+            here(":1: mesh: '../box.glb' lies outside of the scene's folder; move it there, or allow its "
+                 "folder with --allow-dir " +
+                 std::filesystem::canonical(folder_.path()).string()));
+  EXPECT_NE(errorOf(R"(return mesh("film.glb"), mesh("flat.glb"))").find("enclose nothing"),
+            std::string::npos);
+  EXPECT_NE(errorOf(R"(return box(1), mesh("box.glb", {voxels = 8}))")
+                .find("voxels must be from 16 to 1024, got 8"),
+            std::string::npos)
+      << "a slip of the script's own";
+}
+
+TEST_F(Meshes, ThatAreMissingAreFollowed) {
+  options_.withoutMissing = true;
+  EXPECT_EQ(sceneOf(R"(return box(1), mesh("bad.glb"))").files,
+            std::vector{(std::filesystem::canonical(scenes()) / "bad.glb").string()});
+}
+
 TEST_F(Meshes, BadArgumentsAreNamed) {
   EXPECT_NE(errorOf("return mesh(1)").find("mesh: the file must be a text"), std::string::npos);
   EXPECT_NE(errorOf(R"(return mesh("box.glb", {voxels = 8}))").find("voxels must be from 16 to 1024, got 8"),

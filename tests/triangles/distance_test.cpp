@@ -155,6 +155,33 @@ TEST(TriangleDistance, OfAnyHeapOfTrianglesHasSlopeOne) {
   }
 }
 
+// Signs that follow from the reading before, or from the patch that is nearest, are those of the winding
+// number.
+TEST(TriangleDistance, AlongAWayIsTheSame) {
+  std::mt19937 random(6);
+  TriangleMesh heap;
+  for (int i = 0; i < 20; ++i) heap.positions.emplace_back(randomIn(random, 1.0));
+  for (int i = 0; i < 40; ++i) heap.triangles.emplace_back(random() % 20, random() % 20, random() % 20);
+  TriangleMesh moved = bumpyTorus(24);
+  for (glm::vec3& p : moved.positions) p += glm::vec3(0.3f, 0.1f, 0.0f);
+  for (const TriangleMesh& mesh : {heap, together(bumpyTorus(24), moved), bumpyTorus(24)}) {
+    const ClosedTriangles all = closed(mesh);
+    const TriangleDistance distance(all);
+    const TriangleTree tree(all.points, all.triangles);
+    DistanceAlong along(distance);
+    glm::dvec3 p(0.0);
+    for (int i = 0; i < 20000; ++i) {
+      p = i % 100 == 0 ? randomIn(random, 1.5) : p + randomIn(random, 0.05);
+      const TriangleDistance::Read read = distance.read(p), next = along(p);
+      ASSERT_EQ(next.distance, read.distance) << i;
+      ASSERT_EQ(next.gradient, read.gradient) << i;
+      if (std::abs(read.distance) > 1e-9) {
+        ASSERT_EQ(read.distance<0.0, std::abs(tree.winding(p))> 0.5) << i;
+      }
+    }
+  }
+}
+
 TEST(TriangleTree, HoldsWhatIsVeryUneven) {
   TriangleMesh mesh;
   for (int i = 0; i < 120; ++i) {

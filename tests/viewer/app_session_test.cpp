@@ -218,6 +218,24 @@ camera{from = {0, 0, 60}, to = {0, 0, 0}})");
   EXPECT_NEAR(session.scene().whole().bounds.max.x, 100.0, 1e-5);
 }
 
+TEST_F(SessionTest, ShowsTheRestWhereAMeshIsBroken) {
+  const std::filesystem::path mesh = folder / "solid.obj";
+  std::ofstream(mesh) << "no mesh";
+  write(R"(part("ball", sphere(0.5)) part("solid", mesh("solid.obj", {voxels = 16})))");
+  Session session = open();
+  EXPECT_NE(session.message().find("ball.lua:1: "), std::string::npos) << session.message();
+  EXPECT_NE(session.message().find("solid.obj"), std::string::npos) << session.message();
+  EXPECT_EQ(session.scene().whole().bounds.max.x, 0.5);
+  writeTetrahedron(mesh, 10);
+  session.followFile();
+  EXPECT_EQ(session.message(), "");
+  EXPECT_NEAR(session.scene().whole().bounds.max.x, 10.0, 1e-6);
+  std::ofstream(mesh) << "no mesh";
+  session.followFile();
+  EXPECT_NE(session.message().find("solid.obj"), std::string::npos) << session.message();
+  EXPECT_EQ(session.scene().whole().bounds.max.x, 0.5);
+}
+
 // The camera of a scene that has none follows the window's shape and the file, and not the clock.
 TEST_F(SessionTest, FitsTheSceneWhereItHasNoCamera) {
   write("return sphere(3):translate(time, 0, 0)");

@@ -306,6 +306,31 @@ TEST_F(Sdfview, ReadsMeshesFromFoldersThatAreAllowed) {
   std::filesystem::remove_all(folder / "scenes");
 }
 
+TEST_F(Sdfview, ShowsTheRestWhereAMeshIsBroken) {
+  const std::string rest = "camera{from = {3, 2, 4}, to = {0, 0, 0}} part('ball', sphere(1))";
+  const Picture ball = drawn(rest, {});
+  std::ofstream(folder / "empty.glb");
+  std::ofstream(folder / "nan.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 nan 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  std::ofstream(folder / "draco.gltf")
+      << R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_draco_mesh_compression"],
+    "extensionsRequired": ["KHR_draco_mesh_compression"]})";
+  for (const auto& [name, why] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"empty.glb", "it is empty"},
+           {"nan.obj", "1 of its 4 vertices have coordinates that are no finite numbers"},
+           {"draco.gltf", "it requires 'KHR_draco_mesh_compression', which is unknown here"},
+           {"gone.stl", "No such file"},
+           {"../up.glb", "lies outside of the scene's folder"}}) {
+    const std::string file = scene(rest + "\npart('mesh', mesh('" + name + "'):round(0.1) | sphere(0.5))");
+    const Outcome outcome = run({file, "--render", at("a.png"), "--size", "32x24"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("sdfview: warning: " + file + ":2: ", 0), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    EXPECT_TRUE(outcome.err.ends_with("; the rest is shown\n")) << outcome.err;
+    EXPECT_EQ(read(at("a.png")).bytes, ball.bytes) << name;
+  }
+}
+
 TEST_F(Sdfview, DrawsAFieldWithBoundsBesideWhatHasNone) {
   const std::string ball =
       "field(function(x, y, z) return x * x + y * y + z * z - 1 end, "
@@ -553,6 +578,27 @@ TEST_F(Sdfview, KeepsWhatItSamplesOfMeshesUnlessToldNotTo) {
   EXPECT_EQ(drawn({}), plain);
   EXPECT_FALSE(std::filesystem::is_empty(kept));
   EXPECT_EQ(drawn({}), plain);
+}
+
+TEST_F(Sdfview, TellsWhatMeshesCostAndHowFarOffTheirSamplesAre) {
+  std::ofstream(folder / "tip.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const Outcome outcome = run({scene("local tip = mesh('tip.obj', {voxels = 32}) part('drawn', tip) "
+                                     "part('cut', tip:translate(2, 0, 0) - sphere(0.3)) shadows{}"),
+                               "--bench", "1", "--size", "64x48", "--no-cache"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["drawn_triangles"], 4);
+  EXPECT_GT(report["triangles_ms"].get<double>(), 0.0);
+  ASSERT_EQ(report["fields"].size(), 1u);
+  const auto& field = report["fields"][0];
+  EXPECT_EQ(field["triangles"], 4);
+  EXPECT_DOUBLE_EQ(field["voxel"].get<double>(), 1.0 / 32.0);
+  EXPECT_GT(field["ready_ms"].get<double>(), 0.0);
+  EXPECT_GT(field["bricks"].get<int>(), 0);
+  EXPECT_GT(field["error_rms"].get<double>(), 0.0);
+  EXPECT_LE(field["error_rms"].get<double>(), field["error_max"].get<double>());
+  EXPECT_LE(field["error_max"].get<double>(), 0.1);
 }
 
 // Two like pictures, and one of fewer parts, which is not held against it.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "sdf/shape/booleans.h"
 #include "sdf/shape/place.h"
@@ -99,6 +100,71 @@ TEST(MeshSamples, AreAsGoodAsTheySay) {
       EXPECT_NEAR(read[i][0], truth, 1.5 * bricks.worst + 1e-5) << i;
     }
   }
+}
+
+/// A point near an edge of a triangle.
+glm::dvec3 besideAnEdge(const TriangleMesh& mesh, double off, std::mt19937& random) {
+  const glm::uvec3& t = mesh.triangles[random() % mesh.triangles.size()];
+  const auto k = static_cast<int>(random() % 3);
+  const double along = std::uniform_real_distribution<double>()(random);
+  return glm::mix(glm::dvec3(mesh.positions[t[k]]), glm::dvec3(mesh.positions[t[(k + 1) % 3]]), along) +
+         randomIn(random, off);
+}
+
+TriangleMesh turned(TriangleMesh mesh) {
+  const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), 0.6, glm::dvec3(0.3, 1.0, 0.2)));
+  for (glm::vec3& p : mesh.positions) p = glm::vec3(turn * glm::dvec3(p));
+  return mesh;
+}
+
+// Within a voxel of the surface a tenth of one, where distances have kinks, too: at edges of a right angle,
+// at a tip, in the middle of a strip that is thinner than a voxel, and along folds of any angle.
+TEST(MeshSamples, KeepATenthOfAVoxelBesideSharpEdges) {
+  const auto context = viewer::Context::headless();
+  ASSERT_TRUE(context.ok() && (*context)->makeCurrent().ok());
+  TriangleMesh spike;
+  spike.positions = {{0.0f, 3.0f, 0.0f}, {0.1f, 0.0f, 0.0f}, {-0.1f, 0.0f, 0.1f}, {-0.1f, 0.0f, -0.1f}};
+  spike.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  const TriangleMesh meshes[] = {boxOf({-1.0f, -0.7f, -0.8f}, {1.0f, 0.7f, 0.8f}),
+                                 turned(boxOf({-1.0f, -0.7f, -0.8f}, {1.0f, 0.7f, 0.8f})),
+                                 turned(boxOf({-1.0f, -0.007f, -0.03f}, {1.0f, 0.007f, 0.03f})),
+                                 spike,
+                                 turned(spike),
+                                 bumpyTorus(9, 0.2)};
+  for (std::size_t i = 0; i < std::size(meshes); ++i) {
+    const auto made = MeshField::make(meshes[i], 64);
+    ASSERT_TRUE(made.ok());
+    const double voxel = (*made)->bricks().voxel;
+    EXPECT_LE((*made)->bricks().worst, 0.1 * voxel) << i;
+    const Vec3E p = position();
+    const Expr f = Expr::payload({*made}, {p.x, p.y, p.z});
+    std::mt19937 random(2);
+    std::vector<Place> points;
+    while (points.size() < 30000) {
+      const glm::vec3 at(besideAnEdge(meshes[i], 1.5 * voxel, random));
+      if (std::abs((*made)->value(at)) <= voxel) points.push_back({at, glm::vec3(0.0f)});
+    }
+    const auto read = readByShader({&f, 1}, points);
+    double worst = 0.0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      worst = std::max(worst, std::abs(read[k][0] - (*made)->value(points[k].p)));
+    EXPECT_LE(worst, 0.1 * voxel) << i;
+  }
+}
+
+// Where there are edges everywhere not all of them get finer bricks, and that is told.
+TEST(MeshSamples, OfTooManyEdgesSayThatTheyAreWorse) {
+  TriangleMesh boxes;
+  for (int i = 0; i < 512; ++i) {
+    const glm::vec3 at(i % 8, i / 8 % 8, i / 64);
+    boxes = together(boxes, boxOf(at, at + glm::vec3(0.47f)));
+  }
+  const auto made = MeshField::make(boxes, 32);
+  ASSERT_TRUE(made.ok());
+  const Bricks& bricks = (*made)->bricks();
+  EXPECT_GT(bricks.worst, 0.1 * bricks.voxel);
+  EXPECT_LE(bricks.count,
+            2 * static_cast<std::size_t>(bricks.cells.x * bricks.cells.y * bricks.cells.z) + 16384);
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look,
       built_{showsMesh(controls.view) ? View::Picture : controls.view, controls.method, {}},
       ran_(read()) {
   watchFiles();
+  tellMissing();
 }
 
 Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool countReadings) {
@@ -100,6 +101,7 @@ Status Session::load(const Built& wanted) {
 
   scene_ = std::move(*scene);
   watchFiles();
+  tellMissing();
   look_ = std::move(look);
   renderer_ = std::move(*made);
   built_ = wanted;
@@ -123,6 +125,12 @@ void Session::watchFiles() {
     watched.emplace(file, known == watched_.end() ? Watch(file) : known->second);
   }
   watched_ = std::move(watched);
+}
+
+void Session::tellMissing() {
+  missingMessage_.clear();
+  for (const std::string& why : scene_.missing)
+    missingMessage_ += (missingMessage_.empty() ? "" : "\n") + why;
 }
 
 void Session::followFile() {

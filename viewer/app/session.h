@@ -125,9 +125,12 @@ class Session {
   Status exportMesh(const std::filesystem::path& target) const;
 
   const Scene& scene() const { return scene_; }
-  /// Says what is wrong with the file or else with what the controls last asked for; "" if all is well.
+  /// Says what is wrong with the file, or else with what the controls last asked for, or else what is missing
+  /// of the scene; "" if all is well.
   const std::string& message() const {
-    return !fileMessage_.empty() ? fileMessage_ : !buildMessage_.empty() ? buildMessage_ : meshMessage_;
+    for (const std::string* one : {&fileMessage_, &buildMessage_, &meshMessage_})
+      if (!one->empty()) return *one;
+    return missingMessage_;
   }
   Renderer& renderer() { return renderer_; }
   const Renderer& renderer() const { return renderer_; }
@@ -168,6 +171,8 @@ class Session {
   Values values() const;
   /// Watches what the scene has read; what it read before counts as read then.
   void watchFiles();
+  /// Says what the scene is made without.
+  void tellMissing();
   /// The present values of what the script has read.
   Values read() const;
 
@@ -179,7 +184,7 @@ class Session {
   Renderer renderer_;
   Built built_;
   Values ran_;  ///< what read() was when the script was last run
-  std::string fileMessage_, buildMessage_, meshMessage_;
+  std::string fileMessage_, buildMessage_, meshMessage_, missingMessage_;
   int compilations_ = 1, meshes_ = 0, edition_ = 0;  // the last: of the file
   std::shared_ptr<const MeshView> mesh_;
   std::unique_ptr<MeshJob> job_;  // from the first mesh on

@@ -107,6 +107,14 @@ void DrawnMeshes::prepare(const Frame& frame) {
   }
 }
 
+std::size_t DrawnMeshes::triangles() const {
+  std::size_t count = 0;
+  for (const Drawn& drawn : drawn_)
+    for (const ShownMesh::Range& range : models_[drawn.model].ranges)
+      count += static_cast<std::size_t>(range.count);
+  return count;
+}
+
 void DrawnMeshes::draw(const Shot& shot) const {
   shot.set(program_, {});
   program_.set("colorTexture", kColorUnit);

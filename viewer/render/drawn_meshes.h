@@ -29,6 +29,8 @@ class DrawnMeshes {
   void prepare(const Frame& frame);
   /// Draws the shot's sample of all into the target that is bound, where they are nearest.
   void draw(const Shot& shot) const;
+  /// How many triangles that are.
+  std::size_t triangles() const;
 
  private:
   enum class Looks { Hit = 1, Drawn = 3, Meshed = 4 };  // the status of hits, as parts::kCamera has it

@@ -10,6 +10,7 @@ namespace sdf::viewer {
 Result<Scene> SceneFile::load(ScriptOptions options) const {
   options.readMesh = readMesh;
   options.folders = folders;
+  options.withoutMissing = true;
   if (cached) options.meshCache = BrickCache::usersFolder();
   return loadScene(path, options);
 }

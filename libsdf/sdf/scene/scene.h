@@ -100,7 +100,8 @@ struct Scene {
   Tone tone = Tone::Linear;
   std::optional<double> gamma;     ///< none: sRGB output; 1: raw values. After the tone
   std::vector<std::string> notes;  ///< what its author should know of it, a line each
-  std::vector<std::string> files;  ///< that its script has read beside its own, by their whole paths
+  std::vector<std::string> missing;  ///< why meshes that it names are not in it, a line each
+  std::vector<std::string> files;    ///< that its script has read beside its own, by their whole paths
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);

@@ -24,6 +24,7 @@ class Call {
  public:
   Call(lua_State* L, const CatalogEntry& entry) : L_(L), entry_(entry) {}
 
+  /// Returns a failed shape where one among the arguments is missing that it cannot do without.
   Shape run() {
     gather();
     std::vector<Argument> values;
@@ -31,12 +32,29 @@ class Call {
     if (next_ <= last_)
       raise(L_, entry_.name + ": too many arguments, the first one too many is " + describe(L_, next_) +
                     "; write " + usageOf(entry_));
+    for (Argument& value : values)
+      if (const auto missing = leaveOut(value)) return *missing;
     Shape result = build(entry_, std::move(values));
+    if (!result.ok()) raise(L_, *result.error);
     if (result.formulaAt.empty()) result.formulaAt = formulaAt_;
     return result;
   }
 
  private:
+  // What is missing (isMissing) adds nothing to unions, and takes nothing away. A shape that is made of it
+  // alone is missing, too.
+  std::optional<Shape> leaveOut(Argument& value) const {
+    if (const auto* shape = std::get_if<Shape>(&value))
+      return isMissing(*shape) ? std::optional(*shape) : std::nullopt;
+    auto* shapes = std::get_if<std::vector<Shape>>(&value);
+    if (!shapes || std::ranges::none_of(*shapes, isMissing)) return {};
+    const Shape first = *std::ranges::find_if(*shapes, isMissing);
+    const bool needsAll = entry_.name == "intersection", needsFirst = entry_.name == "difference";
+    if (needsAll || (needsFirst && isMissing(shapes->front()))) return first;
+    std::erase_if(*shapes, isMissing);
+    return shapes->empty() ? std::optional(first) : std::nullopt;
+  }
+
   // Finds the table of named fields, and spreads a table that stands for the argument list.
   void gather() {
     last_ = lua_gettop(L_);
@@ -231,7 +249,7 @@ int pushFormulaShape(lua_State* L, Shape shape) {
 
 int callEntry(lua_State* L) {
   const auto* entry = static_cast<const CatalogEntry*>(lua_touserdata(L, lua_upvalueindex(1)));
-  return pushGood(L, Call(L, *entry).run());
+  return pushShape(L, Call(L, *entry).run()), 1;
 }
 
 // Some names mean a function of numbers as well, which is the second upvalue: round(2.5), round(shape, 0.1).
@@ -247,6 +265,7 @@ int callEntryOrNumberFunction(lua_State* L) {
 int callDisplace(lua_State* L) {
   const bool free = lua_isfunction(L, 2) || (isFormula(L, 2) && dependsOnSpace(exprAt(L, 2)));
   if (!testShape(L, 1) || lua_gettop(L) != 2 || !free) return callEntry(L);
+  if (isMissing(*testShape(L, 1))) return pushShape(L, *testShape(L, 1)), 1;
   return pushFormulaShape(L, displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula")));
 }
 
@@ -276,7 +295,7 @@ int applySign(lua_State* L) {
   for (int i = 1; i <= 2; ++i)
     if (!testShape(L, i))
       raise(L, std::string("'") + s.sign + "' needs a shape on both sides, got " + describe(L, i));
-  return pushGood(L, Call(L, *findEntry(s.entry)).run());
+  return pushShape(L, Call(L, *findEntry(s.entry)).run()), 1;
 }
 
 int freeForm(lua_State* L) {
@@ -295,14 +314,21 @@ int importedMesh(lua_State* L) {
   const std::string name = readText(L, 1, f.name + ": the file");
   const FieldValues given = readFields(L, 2, f);
   if (!c.options.readMesh) raise(L, "mesh: this program reads no mesh files");
-  const auto file = permitted(name, c.file, c.options);
-  if (!file) raise(L, file.error().message);
-  const auto read = meshField(*file, valueOr(given, "voxels", 128), c.options.readMesh, c.options.meshCache);
-  if (!read) raise(L, read.error().message);
+  const int voxels = valueOr(given, "voxels", 128);
+  if (const Status s = MeshField::checkVoxels(voxels); !s) raise(L, f.name + ": " + s.error().message);
   const auto addOnce = [](std::vector<std::string>& all, const std::string& one) {
     if (std::ranges::find(all, one) == all.end()) all.push_back(one);
   };
+  const auto goOnWithout = [&](const std::string& why) {
+    if (!c.options.withoutMissing) raise(L, why);
+    addOnce(c.scene.missing, c.file + ":" + std::to_string(currentLine(L)) + ": " + why);
+    return pushShape(L, Shape::failed(why)), 1;
+  };
+  const auto file = permitted(name, c.file, c.options);
+  if (!file) return goOnWithout(file.error().message);
   addOnce(c.scene.files, file->string());
+  const auto read = meshField(*file, voxels, c.options.readMesh, c.options.meshCache);
+  if (!read) return goOnWithout(read.error().message);
   if (!read->note.empty()) addOnce(c.scene.notes, name + ": " + read->note);
   return pushGood(L, triangleSolid(read->field));
 }

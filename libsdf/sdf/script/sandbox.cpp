@@ -99,7 +99,7 @@ int addReturned(lua_State* L) {
     if (!shape && count == 1 && lua_isnil(L, i)) return 0;
     if (!shape) raise(L, "the script must return shapes, returned " + describe(L, i));
     if (shape->dimension != 3) raise(L, "the shape that the script returns is flat; extrude or revolve it");
-    c.scene.add("", *shape);
+    if (!isMissing(*shape)) c.scene.add("", *shape);
   }
   return 0;
 }

@@ -50,6 +50,8 @@ Result<Scene> runScene(const std::string& text, const std::string& name, const S
   ScriptContext context(name, options);
   if (const Status ran = runInSandbox(context, source); !ran) return ran.error();
   if (const Status known = checkOverrides(context.scene, options, name); !known) return known.error();
+  if (context.scene.parts.empty() && !context.scene.missing.empty())
+    return Error{ErrorKind::Scene, context.scene.missing.front()};
   if (context.scene.parts.empty())
     return sceneError(name, "the scene is empty; add a shape with part(name, shape) or return one");
   const auto isSet = [&](const char* name) { return context.settingLines.contains(name); };

@@ -36,6 +36,9 @@ struct ScriptOptions {
   std::filesystem::path meshCache{};
   /// Folders, beside the scene's own, from which it may read.
   std::vector<std::filesystem::path> folders{};
+  /// A mesh that cannot be had is no error: the scene is made without it, and says so (Scene::missing). Where
+  /// nothing is left then it is one.
+  bool withoutMissing = false;
 };
 
 /// Runs a scene file. Errors (ErrorKind::Scene; Files if it cannot be read) name file and line and what was

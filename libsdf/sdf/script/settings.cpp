@@ -83,7 +83,7 @@ int addPart(lua_State* L) {
   if (name.empty()) raise(L, "part: the name must not be empty");
   if (std::ranges::find(scene.parts, name, &Part::name) != scene.parts.end())
     raise(L, "part '" + name + "' exists already; give each part a name of its own");
-  scene.add(name, shape);
+  if (!isMissing(shape)) scene.add(name, shape);
   lua_settop(L, 2);
   return 1;
 }

@@ -52,6 +52,9 @@ void pushMaterial(lua_State* L, MaterialPtr material);
 bool isNumeric(lua_State* L, int index);
 bool isFormula(lua_State* L, int index);
 const Shape* testShape(lua_State* L, int index);
+/// Does the shape stand for a mesh that the scene is made without (ScriptOptions::withoutMissing)? No other
+/// failed shape is ever a script's value.
+inline bool isMissing(const Shape& shape) { return !shape.ok(); }
 const MaterialPtr* testMaterial(lua_State* L, int index);
 
 /// Has the table at `index` a field with a name?

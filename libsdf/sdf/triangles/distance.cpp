@@ -58,6 +58,7 @@ TriangleDistance::TriangleDistance(ClosedTriangles triangles)
       tree_(triangles_.points, triangles_.triangles) {
   setNormals();
   if (triangles_.manifold && !tree_.crosses() && normalsTellSides()) signBy_ = SignBy::Normals;
+  if (signBy_ == SignBy::Winding) setPatches();
 }
 
 std::array<glm::dvec3, 3> TriangleDistance::corners(std::uint32_t triangle) const {
@@ -112,6 +113,51 @@ bool TriangleDistance::normalsTellSides() const {
   return true;
 }
 
+void TriangleDistance::setPatches() {
+  const std::vector<glm::uvec3>& all = triangles_.triangles;
+  const auto count = static_cast<std::uint32_t>(all.size());
+  patches_.resize(count);
+  std::vector<std::uint32_t> patch(count);
+  std::iota(patch.begin(), patch.end(), 0u);
+  const auto rootOf = [&](std::uint32_t i) {
+    while (patch[i] != i) i = patch[i] = patch[patch[i]];
+    return i;
+  };
+  struct Edge {
+    int triangles = 0;
+    std::uint32_t first = 0, place = 0;  // of those that cross nothing; and which of its edges it is
+  };
+  FlatMap<Edge> edges;
+  const auto edgeAt = [&](std::uint32_t i, int k) -> Edge& {
+    const std::uint32_t a = all[i][k], b = all[i][(k + 1) % 3];
+    return edges.insert(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), Edge{0, count, 0}).first;
+  };
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (int k = 0; k < 3; ++k) ++edgeAt(i, k).triangles;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    patches_[i].known = !tree_.crosses(i);
+    for (int k = 0; patches_[i].known && k < 3; ++k) {
+      Edge& edge = edgeAt(i, k);
+      if (edge.triangles != 2) continue;
+      if (edge.first == count) {
+        edge.first = i, edge.place = static_cast<std::uint32_t>(k);
+        continue;
+      }
+      patch[rootOf(i)] = rootOf(edge.first);
+      patches_[i].joined |= 1u << k, patches_[edge.first].joined |= 1u << edge.place;
+    }
+  }
+  std::vector<std::uint32_t> largest(count, count);
+  const auto sizeOf = [&](std::uint32_t i) { return glm::length(areaOf(corners(i))); };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::uint32_t& best = largest[rootOf(i)];
+    if (best == count || sizeOf(i) > sizeOf(best)) best = i;
+  }
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (patches_[i].known && largest[rootOf(i)] == i) patches_[rootOf(i)].inside = sidesOf(i);
+  for (std::uint32_t i = 0; i < count; ++i) patches_[i].inside = patches_[rootOf(i)].inside;
+}
+
 std::array<bool, 2> TriangleDistance::sidesOf(std::uint32_t triangle) const {
   const std::array<glm::dvec3, 3> t = corners(triangle);
   const glm::dvec3 area = areaOf(t), middle = (t[0] + t[1] + t[2]) / 3.0;
@@ -142,14 +188,21 @@ glm::dvec3 TriangleDistance::pseudonormal(const NearestPoint& nearest) const {
 
 bool TriangleDistance::isInside(const glm::dvec3& p, const NearestPoint& nearest,
                                 const glm::dvec3& way) const {
-  if (signBy_ == SignBy::Normals) return glm::dot(pseudonormal(nearest), way) < 0.0;
-  return isWoundAround(p);
+  const auto isBehind = [&] { return glm::dot(pseudonormal(nearest), way) < 0.0; };
+  if (signBy_ == SignBy::Normals) return isBehind();
+  const Patch& patch = patches_[nearest.triangle];
+  const bool isFace = nearest.feature == Feature::Face,
+             isEdge = !isFace && nearest.feature < Feature::Corner0;
+  const bool told =
+      patch.known && (isFace || (isEdge && (patch.joined >> cornerOf(nearest.feature) & 1) != 0));
+  return told ? patch.inside[isBehind() ? 1 : 0] : isWoundAround(p);
 }
 
-TriangleDistance::Read TriangleDistance::read(const glm::dvec3& p, std::uint32_t hint) const {
+TriangleDistance::Read TriangleDistance::read(const glm::dvec3& p, std::uint32_t hint,
+                                              std::optional<bool> known) const {
   const NearestPoint nearest = tree_.nearest(p, hint);
   auto [distance, way] = precise(p, corners(nearest.triangle), nearest.feature);
-  const bool inside = distance > 0.0 && isInside(p, nearest, way);
+  const bool inside = distance > 0.0 && (known ? *known : isInside(p, nearest, way));
   if (way == glm::dvec3(0.0)) {  // on an edge or a corner
     const glm::dvec3 normal = pseudonormal(nearest);
     const double length = glm::length(normal);
@@ -157,6 +210,15 @@ TriangleDistance::Read TriangleDistance::read(const glm::dvec3& p, std::uint32_t
     return {distance, way, nearest.triangle};
   }
   return {inside ? -distance : distance, inside ? -way : way, nearest.triangle};
+}
+
+TriangleDistance::Read DistanceAlong::operator()(const glm::dvec3& p) {
+  constexpr double kSurely = 0.999;  // of the ball, for rounding
+  std::optional<bool> inside;
+  if (glm::distance(p, last_) < kSurely * std::abs(read_.distance)) inside = read_.distance < 0.0;
+  read_ = distance_.read(p, read_.triangle, inside);
+  last_ = p;
+  return read_;
 }
 
 }  // namespace sdf

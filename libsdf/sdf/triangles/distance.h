@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "sdf/triangles/closed.h"
@@ -42,9 +43,12 @@ class TriangleDistance {
   /// that is nearest it is computed in twice the precision of a double (Dekker 1971). The sign is that of the
   /// pseudonormal there, weighted by angles (Baerentzen, Aanaes 2005), or of the winding number. `hint` as in
   /// TriangleTree::nearest. Cost: some log n.
-  Read read(const glm::dvec3& p, std::uint32_t hint = 0) const;
+  Read read(const glm::dvec3& p, std::uint32_t hint = 0) const { return read(p, hint, {}); }
 
  private:
+  friend class DistanceAlong;
+  /// The same where it is known, or not, that p is inside.
+  Read read(const glm::dvec3& p, std::uint32_t hint, std::optional<bool> inside) const;
   std::array<glm::dvec3, 3> corners(std::uint32_t triangle) const;
   glm::dvec3 pseudonormal(const NearestPoint& nearest) const;
   bool isInside(const glm::dvec3& p, const NearestPoint& nearest, const glm::dvec3& way) const;
@@ -53,12 +57,34 @@ class TriangleDistance {
   /// Is the solid before a triangle, where its normal points to, and behind it?
   std::array<bool, 2> sidesOf(std::uint32_t triangle) const;
   bool isWoundAround(const glm::dvec3& p) const;
+  void setPatches();
 
   ClosedTriangles triangles_;
   glm::dvec3 min_, max_;
   TriangleTree tree_;
   std::vector<glm::vec3> pointNormals_, edgeNormals_;  // by point; by triangle and edge
   SignBy signBy_ = SignBy::Winding;
+  // Where the winding number tells the inside: what lies before and behind each triangle that crosses no
+  // other, which is the same for all that hang together over edges of two, and which of its edges are such.
+  struct Patch {
+    std::array<bool, 2> inside{};
+    std::uint8_t joined = 0;  // bits
+    bool known = false;
+  };
+  std::vector<Patch> patches_;  // by triangle
+};
+
+/// Reads the distance at points one after the other, faster where each is near the one before: it begins with
+/// the triangle that was nearest, and there is no surface in the ball around a point up to its distance.
+class DistanceAlong {
+ public:
+  explicit DistanceAlong(const TriangleDistance& distance) : distance_(distance) {}
+  TriangleDistance::Read operator()(const glm::dvec3& p);
+
+ private:
+  const TriangleDistance& distance_;
+  glm::dvec3 last_{0.0};
+  TriangleDistance::Read read_{};  // there
 };
 
 }  // namespace sdf

@@ -1,5 +1,6 @@
 #include "sdf/triangles/mesh_field.h"
 
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -10,27 +11,39 @@ namespace {
 
 bool isFinite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 double ulpUp(double v) { return std::nextafter(v, HUGE_VAL); }
 
 }  // namespace
 
+Status MeshField::checkVoxels(int voxels) {
+  constexpr int kLeast = 16, kMost = 1024;
+  if (voxels >= kLeast && voxels <= kMost) return okStatus();
+  return Error{ErrorKind::Scene, "voxels must be from 16 to 1024, got " + std::to_string(voxels)};
+}
+
 Result<std::shared_ptr<const MeshField>> MeshField::make(TriangleMesh mesh, int voxels,
                                                          const std::filesystem::path& cache) {
-  constexpr int kLeast = 16, kMost = 1024;
+  if (const Status s = checkVoxels(voxels); !s) return s.error();
+  const auto start = std::chrono::steady_clock::now();
   const auto error = [](const std::string& what) { return Error{ErrorKind::Scene, what}; };
-  if (voxels < kLeast || voxels > kMost)
-    return error("voxels must be from 16 to 1024, got " + std::to_string(voxels));
   ClosedTriangles triangles = closed(mesh);
   if (triangles.triangles.empty()) return error("no triangle of this mesh has an area");
   std::shared_ptr<const MeshField> field(new MeshField(std::move(mesh), std::move(triangles), voxels, cache));
   if (!field->distance().hasInside())
     return error("the triangles of this mesh enclose nothing: it is no solid");
+  field->seconds_ = secondsSince(start);
   return field;
 }
 
 const Bricks& MeshField::bricks() const {
   std::call_once(sampled_, [&] {
+    const auto start = std::chrono::steady_clock::now();
     bricks_ = cache_.empty() ? bricksOf(distance_, voxels_) : BrickCache(cache_).bricks(distance_, voxels_);
+    seconds_ = seconds_ + secondsSince(start);
   });
   return *bricks_;
 }
@@ -67,26 +80,19 @@ double MeshField::rounding(const glm::dvec3& p) const {
 }
 
 void MeshField::values(const PayloadRows& p, std::size_t count, float* out) const {
-  std::uint32_t hint = 0;
+  DistanceAlong along(distance_);
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 at(p[0][i], p[1][i], p[2][i]);
-    if (!isFinite(at)) {
-      out[i] = static_cast<float>(glm::length(at));
-      continue;
-    }
-    const TriangleDistance::Read read = distance_.read(at, hint);
-    out[i] = static_cast<float>(read.distance);
-    hint = read.triangle;
+    out[i] = static_cast<float>(isFinite(at) ? along(at).distance : glm::length(at));
   }
 }
 
 void MeshField::gradients(const PayloadRows& p, std::size_t count, const std::array<float*, 4>& out) const {
-  std::uint32_t hint = 0;
+  DistanceAlong along(distance_);
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 at(p[0][i], p[1][i], p[2][i]);
-    TriangleDistance::Read read{glm::length(at), glm::dvec3(NAN), hint};
-    if (isFinite(at)) read = distance_.read(at, hint);
-    hint = read.triangle;
+    TriangleDistance::Read read{glm::length(at), glm::dvec3(NAN), 0};
+    if (isFinite(at)) read = along(at);
     out[0][i] = static_cast<float>(read.distance);
     for (int k = 0; k < 3; ++k) out[k + 1][i] = static_cast<float>(read.gradient[k]);
   }

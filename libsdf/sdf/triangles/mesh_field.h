@@ -1,5 +1,6 @@
 // Triangle meshes as functions of a point.
 #pragma once
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -19,7 +20,9 @@ namespace sdf {
 /// middle, more or less half the diagonal; in a shader it is interpolated between samples.
 class MeshField : public Payload {
  public:
-  /// The distance to a mesh, after `closed`. `voxels` (16 to 1024): how many of them a shader's samples have
+  /// Whether a shader's samples may have so many voxels along the longest side: 16 to 1024. Error: Scene.
+  static Status checkVoxels(int voxels);
+  /// The distance to a mesh, after `closed`. `voxels` (checkVoxels): how many of them a shader's samples have
   /// along the longest side; they are kept in the folder `cache`, if that is not empty (BrickCache). Errors
   /// (Scene): other voxels, a mesh that encloses nothing. Cost: n log n.
   static Result<std::shared_ptr<const MeshField>> make(TriangleMesh mesh, int voxels = 128,
@@ -29,6 +32,8 @@ class MeshField : public Payload {
   const TriangleDistance& distance() const { return distance_; }
   /// The samples, which are taken when they are first asked for.
   const Bricks& bricks() const;
+  /// How long it took until the distance could be read, and the samples, if they were asked for.
+  double seconds() const { return seconds_; }
 
   double value(const glm::dvec3& p) const override;
   ValueAndGradient gradient(const glm::dvec3& p) const override;
@@ -49,6 +54,7 @@ class MeshField : public Payload {
   std::filesystem::path cache_;
   mutable std::once_flag sampled_;
   mutable std::optional<Bricks> bricks_;
+  mutable std::atomic<double> seconds_{0.0};
 };
 
 }  // namespace sdf

@@ -241,7 +241,8 @@ double TriangleTree::winding(const glm::dvec3& p) const {
   return sum;
 }
 
-bool TriangleTree::crosses(std::uint32_t triangle) const {
+bool TriangleTree::crosses(std::uint32_t triangle, bool onlyLater) const {
+  if (hasNoArea(points_, triangles_[triangle])) return true;
   const Extent own = extentOf(points_, triangles_[triangle]);
   std::array<std::uint32_t, kDeepest> open;
   std::size_t left = 0;
@@ -252,15 +253,19 @@ bool TriangleTree::crosses(std::uint32_t triangle) const {
         glm::any(glm::lessThan(node.max, own.min)) || glm::any(glm::lessThan(own.max, node.min));
     if (apart) continue;
     if (node.count == 0) open[left++] = node.first, open[left++] = node.first + 1;
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-      if (order_[i] > triangle && cross(points_, triangles_[triangle], triangles_[order_[i]])) return true;
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const std::uint32_t other = order_[i];
+      if (other == triangle || (onlyLater && other < triangle) || hasNoArea(points_, triangles_[other]))
+        continue;
+      if (cross(points_, triangles_[triangle], triangles_[other])) return true;
+    }
   }
   return false;
 }
 
 bool TriangleTree::crosses() const {
   for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-    if (hasNoArea(points_, triangles_[i]) || crosses(i)) return true;
+    if (crosses(i, true)) return true;
   return false;
 }
 

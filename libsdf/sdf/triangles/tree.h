@@ -39,6 +39,8 @@ class TriangleTree {
 
   /// Do two triangles have a point in common beyond the corners and edges that they share?
   bool crosses() const;
+  /// The same of one triangle and all others, or only those of a greater number. One without an area does.
+  bool crosses(std::uint32_t triangle, bool onlyLater = false) const;
 
  private:
   struct Node {
@@ -52,7 +54,6 @@ class TriangleTree {
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth);
   void setDipoles();
   double windingOf(std::uint32_t triangle, const glm::dvec3& p) const;
-  bool crosses(std::uint32_t triangle) const;
 
   const std::vector<glm::vec3>& points_;
   const std::vector<glm::uvec3>& triangles_;
