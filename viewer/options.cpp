@@ -214,7 +214,8 @@ void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
       [&](const std::string& word) { return split(word, options.split); });
   add("--method", "NAME", "how rays are marched: auto (auto-relaxed) or plain",
       [&](const std::string& word) { return choose("--method", word, kMethods, options.shader.method); });
-  add("--start", "NAME", "where rays start: raster (where they enter a hull), cone or plain (at the eye)",
+  add("--start", "NAME",
+      "where rays of --method auto start: raster (where they enter a hull), cone or plain (at the eye)",
       [&](const std::string& word) { return choose("--start", word, kStarts, options.shader.start); });
   app.add_option("-D", words.parameters, "set a parameter of the scene; may be repeated")
       ->type_name("name=value")
