@@ -152,6 +152,31 @@ TEST(MeshSamples, KeepATenthOfAVoxelBesideSharpEdges) {
   }
 }
 
+// What is rounded or blended reaches out of the mesh's box: there, too, distances are such, not less. Those
+// to a box are convex, so that interpolation makes them larger, if anything.
+TEST(MeshSamples, AreDistancesAroundTheBox) {
+  const auto context = viewer::Context::headless();
+  ASSERT_TRUE(context.ok() && (*context)->makeCurrent().ok());
+  const auto made = MeshField::make(boxOf({-1.0f, -0.7f, -0.8f}, {1.0f, 0.7f, 0.8f}), 64);
+  ASSERT_TRUE(made.ok());
+  const double voxel = (*made)->bricks().voxel, side = 4.0 * voxel;
+  const Vec3E p = position();
+  const Expr f = Expr::payload({*made}, {p.x, p.y, p.z});
+  std::mt19937 random(3);
+  std::vector<Place> points;
+  while (points.size() < 10000) {
+    const glm::vec3 at(randomIn(random, 1.5));
+    if (glm::any(glm::greaterThan(glm::abs(at), glm::vec3(1.49f, 1.19f, 1.29f)))) continue;
+    if ((*made)->value(at) > voxel) points.push_back({at, glm::vec3(0.0f)});
+  }
+  const auto read = readByShader({&f, 1}, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double truth = (*made)->value(points[i].p);
+    EXPECT_GE(read[i][0], truth - 0.01 * voxel) << i;
+    EXPECT_LE(read[i][0], truth + 0.375 * side * side / std::max(truth - std::sqrt(3.0) * side, side)) << i;
+  }
+}
+
 // Where there are edges everywhere not all of them get finer bricks, and that is told.
 TEST(MeshSamples, OfTooManyEdgesSayThatTheyAreWorse) {
   TriangleMesh boxes;

@@ -98,8 +98,8 @@ struct Scene {
   bool glossyReflections = false;       ///< mirrored rays are spread over the lobe of Phong's highlight
   std::optional<double> maxDistance{};  ///< how far the camera sees; none: see viewLengths
   Tone tone = Tone::Linear;
-  std::optional<double> gamma;     ///< none: sRGB output; 1: raw values. After the tone
-  std::vector<std::string> notes;  ///< what its author should know of it, a line each
+  std::optional<double> gamma;       ///< none: sRGB output; 1: raw values. After the tone
+  std::vector<std::string> notes;    ///< what its author should know of it, a line each
   std::vector<std::string> missing;  ///< why meshes that it names are not in it, a line each
   std::vector<std::string> files;    ///< that its script has read beside its own, by their whole paths
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a file begins with; to be changed with what samples are, or how they are written.
-constexpr std::string_view kFormat = "libsdf bricks 2\n";
+constexpr std::string_view kFormat = "libsdf bricks 3\n";
 constexpr const char* kExtension = ".bricks";
 
 /// FNV-1a, by Fowler, Noll and Vo (1991), of words instead of bytes.

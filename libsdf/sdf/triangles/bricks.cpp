@@ -16,7 +16,10 @@
 namespace sdf {
 namespace {
 
-constexpr int kMargin = 2;  // voxels around the box
+// Around the box distances are known, and not only bounds of them, so far, in voxels: what is rounded,
+// blended or given a shell reaches out there.
+int marginOf(int voxels) { return std::min(voxels / 4, 64); }
+
 // A part that is farther off than this where it is looked at, in voxels, gets a brick of its own: room is
 // left for where it is not. On the third level nothing whose slope is 1 is off by more than half a diagonal
 // of a sixteenth.
@@ -214,7 +217,7 @@ Bricks bricksOf(const TriangleDistance& distance, int voxels) {
   Bricks out;
   const glm::dvec3 sides = distance.max() - distance.min();
   out.voxel = std::max({sides.x, sides.y, sides.z}) / voxels;
-  out.cells = glm::ivec3(glm::ceil((sides / out.voxel + 2.0 * kMargin) / double{kCell}));
+  out.cells = glm::ivec3(glm::ceil((sides / out.voxel + 2.0 * marginOf(voxels)) / double{kCell}));
   out.origin = 0.5 * (distance.min() + distance.max()) - 0.5 * kCell * out.voxel * glm::dvec3(out.cells);
   sampleGrid(distance, out);
   std::vector<Wanted> wanted;

@@ -9,13 +9,13 @@
 
 namespace sdf {
 
-/// The solid's box, and somewhat more, is divided into cells of 4 voxels a side. Cells within a cell's side
-/// of the surface have a brick of 5³ samples, a voxel apart; in all others the distance is interpolated
-/// between their corners. A voxel of a brick in which that is seen to be off by more than 0.06, as beside
-/// sharp edges, has a brick of its own, and so once more; as long as that is no more than as many again and
-/// 16,384. In a cell without a brick the distance is too large by 3 s^2 / (8 D) at most, where s is a
-/// cell's side and D >= s the least distance in the cell: no ray that goes so far passes a wall of more
-/// than 1.5 voxels.
+/// The solid's box, and a quarter of its longest side around it (64 voxels at most), is divided into cells of
+/// 4 voxels a side. Cells within a cell's side of the surface have a brick of 5³ samples, a voxel apart; in
+/// all others the distance is interpolated between their corners. A voxel of a brick in which that is seen to
+/// be off by more than 0.06, as beside sharp edges, has a brick of its own, and so once more; as long as that
+/// is no more than as many again and 16,384. In a cell without a brick the distance is too large by 3 s^2 /
+/// (8 D) at most, where s is a cell's side and D >= s the least distance in the cell: no ray that goes so far
+/// passes a wall of more than 1.5 voxels.
 struct Bricks {
   double voxel = 0.0;      ///< scene units
   glm::dvec3 origin{0.0};  ///< the first cell's least corner
