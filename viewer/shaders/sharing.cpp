@@ -148,7 +148,7 @@ std::string Loops::loop(std::size_t i) const {
 }
 
 // Defines sdfNearest(p) where gradients are shared, else sdfOperand(p, n), the number alone.
-std::string nearest(const Plan& plan, const RowWriter& rows, bool hasBeside, const std::string& beside) {
+std::string nearest(const Plan& plan, bool hasBeside, const std::string& beside) {
   const bool gradients = sharesGradients(plan);
   if (!gradients && plan.operands.empty()) return "";
   std::string text = (gradients ? "vec4 sdfNearest(vec3 p) {\n  vec3 n = vec3(0.0);\n"
@@ -218,7 +218,7 @@ std::string sharing(const Plan& plan, const RowWriter& rows) {
   if (hasPlanes)
     text += both("sdfBothOfRest",
                  from(!others.empty(), !others.empty() && isApart(leastOf(others)), "sdfOthers"));
-  if (plan.bounces > 0 || !plan.grouped) text += nearest(plan, rows, hasBeside, beside);
+  if (plan.bounces > 0 || !plan.grouped) text += nearest(plan, hasBeside, beside);
   return text;
 }
 
