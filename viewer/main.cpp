@@ -20,6 +20,8 @@ sdf::Status run(const sdf::viewer::Options& o) {
   controls.time = o.time;
   controls.view = o.shader.view;
   controls.method = o.shader.method;
+  controls.start = o.shader.start;
+  controls.culling = o.shader.culling;
   controls.mesh = o.mesh;
   controls.meshFile = o.meshFile;
   controls.split = o.split;

@@ -134,6 +134,19 @@ TEST_F(SessionTest, AnotherViewOrMethodCompilesOnce) {
   EXPECT_EQ(session.compilations(), 3);
 }
 
+TEST_F(SessionTest, RaysStartWhereItIsTold) {
+  start.start = Start::Plain;
+  Session session = open();
+  EXPECT_FALSE(session.renderer().shaders().plan.cones);
+  session.controls.start = Start::Raster;
+  session.settle();
+  EXPECT_EQ(session.compilations(), 2);
+  EXPECT_TRUE(session.renderer().shaders().plan.hull);
+  session.controls.culling = false;
+  session.settle();
+  EXPECT_FALSE(session.renderer().shaders().plan.options.culling);
+}
+
 TEST_F(SessionTest, TheClockRunsWhilePlaying) {
   start.time = 1.5;
   Session session = open();

@@ -21,6 +21,7 @@ constexpr const char* kViews[] = {"Picture",  "Normals",        "Steps",        
                                   "Mesh",     "Mesh and edges", "Picture | mesh", "Mesh error"};
 static_assert(std::size(kViews) == static_cast<std::size_t>(View::Count));
 constexpr const char* kMethods[] = {"Auto-relaxed", "Plain"};
+constexpr const char* kStarts[] = {"Hull", "Cones", "Eye"};
 constexpr int kMostSamples = 6, kFewestSteps = 8, kMostSteps = 4096;
 
 template <class Enum, std::size_t N>
@@ -179,6 +180,7 @@ void clock(Session& session) {
 void marching(Controls& controls) {
   choice("view", controls.view, kViews);
   choice("method", controls.method, kMethods);
+  choice("start", controls.start, kStarts);
   ImGui::SliderInt("steps", &controls.maxSteps, kFewestSteps, kMostSteps, "at most %d", kLogarithmic);
   ImGui::SliderInt("samples", &controls.samples, 1, kMostSamples, "%d a side", kClamped);
 }

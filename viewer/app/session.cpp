@@ -41,7 +41,7 @@ Result<Session> Session::open(const SceneFile& file, Controls controls) {
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file, controls.parameters);
   const View view = showsMesh(controls.view) ? View::Picture : controls.view;  // until there is a mesh
-  auto renderer = build(*scene, {view, controls.method, {}});
+  auto renderer = build(*scene, {view, controls.method, controls.start, controls.culling, {}});
   if (!renderer) return renderer.error();
   return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer));
 }
@@ -53,14 +53,22 @@ Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look,
       scene_(std::move(scene)),
       look_(std::move(look)),
       renderer_(std::move(renderer)),
-      built_{showsMesh(controls.view) ? View::Picture : controls.view, controls.method, {}},
+      built_{showsMesh(controls.view) ? View::Picture : controls.view,
+             controls.method,
+             controls.start,
+             controls.culling,
+             {}},
       ran_(read()) {
   watchFiles();
   tellMissing();
 }
 
 Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool countReadings) {
-  const ShaderOptions options{.view = wanted.view, .method = wanted.method, .countReadings = countReadings};
+  const ShaderOptions options{.view = wanted.view,
+                              .method = wanted.method,
+                              .start = wanted.start,
+                              .countReadings = countReadings,
+                              .culling = wanted.culling};
   return Renderer::make(withSurfaceParameters(scene, wanted.materials), options);
 }
 
@@ -82,6 +90,8 @@ void Session::settle() {
     buildMessage_ = made.error().message;
     controls.view = built_.view;
     controls.method = built_.method;
+    controls.start = built_.start;
+    controls.culling = built_.culling;
     controls.editedMaterials = built_.materials;
     return;
   }

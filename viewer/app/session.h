@@ -53,6 +53,8 @@ struct Controls {
   double split = Frame{}.split;
   View view = View::Picture;
   Method method = Method::AutoRelaxed;
+  Start start = Start::Cone;
+  bool culling = true;
   int samples = 1;
   int maxSteps = Frame{}.maxSteps;
   bool operator==(const Controls&) const = default;
@@ -152,6 +154,8 @@ class Session {
   struct Built {
     View view;
     Method method;
+    Start start;
+    bool culling;
     std::set<std::string> materials;
     bool operator==(const Built&) const = default;
   };

@@ -9,7 +9,7 @@ namespace sdf::viewer {
 Session::Built Session::wanted(const std::set<std::string>& materials) const {
   const bool hasMesh = mesh_ && (controls.view != View::Error || mesh_->errors);
   const View view = showsMesh(controls.view) && !hasMesh ? View::Picture : controls.view;
-  return {view, controls.method, materials};
+  return {view, controls.method, controls.start, controls.culling, materials};
 }
 
 MeshOrder Session::meshOrder() const {
