@@ -41,23 +41,22 @@ Result<Session> Session::open(const SceneFile& file, Controls controls) {
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file, controls.parameters);
   const View view = showsMesh(controls.view) ? View::Picture : controls.view;  // until there is a mesh
-  auto renderer = build(*scene, {view, controls.method, controls.start, controls.culling, {}});
+  Built built{view, controls.method, controls.start, controls.culling, {}};
+  auto renderer = build(*scene, built);
   if (!renderer) return renderer.error();
-  return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer));
+  return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer),
+                 std::move(built));
 }
 
-Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer)
+Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer,
+                 Built built)
     : controls(std::move(start)),
       file_(std::move(file)),
       watch_(file_.path),
       scene_(std::move(scene)),
       look_(std::move(look)),
       renderer_(std::move(renderer)),
-      built_{showsMesh(controls.view) ? View::Picture : controls.view,
-             controls.method,
-             controls.start,
-             controls.culling,
-             {}},
+      built_(std::move(built)),
       ran_(read()) {
   watchFiles();
   tellMissing();

@@ -159,7 +159,7 @@ class Session {
     std::set<std::string> materials;
     bool operator==(const Built&) const = default;
   };
-  Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer);
+  Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer, Built built);
   static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
   /// Replaces scene and renderer by what the file says for the controls' values. On an error both stay.
   Status load(const Built& wanted);
