@@ -122,7 +122,7 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
 
 Obstacles obstaclesOf(const Plan& plan) {
   Obstacles result{plan.whole, plan.rest, plan.planes, plan.balls, {}, plan.kinds.has_value()};
-  result.byTaps = result.shared ? !sharesGradients(plan) : gradientSize(plan.whole.distance) > kLongProgram;
+  result.byTaps = result.shared ? !plan.gradients : gradientSize(plan.whole.distance) > kLongProgram;
   if (!plan.operands.empty()) result.operand = result.shared ? Expr(0.0) : numberOfNearest(plan.operands);
   return result;
 }

@@ -6,6 +6,7 @@
 #include "sdf/model/model.h"
 #include "sdf/shape/booleans.h"
 #include "viewer/shaders/filter.h"
+#include "viewer/shaders/sharing.h"
 #include "viewer/shaders/source.h"
 
 namespace sdf::viewer {
@@ -161,6 +162,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   plan.planes = std::move(parts.planes);
   plan.drawn = std::move(parts.drawn);
   if (mayGroup) planKinds(parts.operands, plan);
+  plan.gradients = plan.kinds && sharesGradients(plan);
   if (auto s = planRest(std::move(parts.others), scene, plan); !s) return s.error();
   plan.cones = plan.rest && options.method == Method::AutoRelaxed && options.start != Start::Plain &&
                !stepsCount && !plan.lens && !plan.meshed;

@@ -82,6 +82,7 @@ struct Plan {
   /// The operands of the rest but those that are drawn as triangles, if there are such, or some are of a kind
   /// whose formula they share: then the whole's distance is read by loops over the kinds' groups.
   std::optional<Kinds> kinds;
+  bool gradients = false;  ///< normals are the gradient of the nearest group: see sharesGradients
   /// What names the groups that can be the nearest at a place, if there are so many that the loops are over
   /// these alone.
   std::optional<CellSorter> cells;

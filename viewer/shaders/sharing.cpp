@@ -149,13 +149,12 @@ std::string Loops::loop(std::size_t i) const {
 
 // Defines sdfNearest(p) where gradients are shared, else sdfOperand(p, n), the number alone.
 std::string nearest(const Plan& plan, bool hasBeside, const std::string& beside) {
-  const bool gradients = sharesGradients(plan);
-  if (!gradients && plan.operands.empty()) return "";
-  std::string text = (gradients ? "vec4 sdfNearest(vec3 p) {\n  vec3 n = vec3(0.0);\n"
-                                : "float sdfOperand(vec3 p, vec3 n) {\n") +
+  if (!plan.gradients && plan.operands.empty()) return "";
+  std::string text = (plan.gradients ? "vec4 sdfNearest(vec3 p) {\n  vec3 n = vec3(0.0);\n"
+                                     : "float sdfOperand(vec3 p, vec3 n) {\n") +
                      std::string("  float number = ") + (hasBeside ? "sdfNearestBeside(p, n)" : "0.0") +
                      ";\n  ivec2 place = ivec2(-1);\n  sdfLeast(p, " + beside + ", number, place, 0.0);\n";
-  if (!gradients) return text + "  return number;\n}\n";
+  if (!plan.gradients) return text + "  return number;\n}\n";
   if (hasBeside) text += "  if (place.x < 0) n = sdfGradientBeside(p, n);\n";
   for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
     const std::string name = std::to_string(i);
