@@ -6,6 +6,7 @@
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
 #include "viewer/gpu/texels.h"
+#include "viewer/render/frame.h"
 
 namespace sdf::chart {
 namespace {
@@ -26,11 +27,9 @@ viewer::Program compiled(const Expr& distance) {
   writer.add("read", {&distance, 1});
   viewer::Program program =
       take(viewer::Program::overScreen("#version 330 core\n" + writer.source() + kMain));
-  const std::vector<double> values = writer.uniforms().uniform({});
-  std::vector<glm::vec4> vectors((values.size() + 3) / 4);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    vectors[i / 4][static_cast<int>(i % 4)] = static_cast<float>(values[i]);
-  if (!vectors.empty()) program.set("sdfValues", vectors);
+  viewer::UniformValues values(writer.uniforms());
+  values.move({});
+  if (!values.vectors().empty()) program.set("sdfValues", values.vectors());
   program.set("points", 0);
   return program;
 }
