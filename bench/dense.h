@@ -1,7 +1,7 @@
 // Meshing without skipping anything: what the sparse mesher is measured against.
 #pragma once
 #include "handwritten.h"
-#include "sdf/mesh/narrow_band.h"
+#include "sdf/mesh/band/narrow_band.h"
 
 namespace sdf::bench {
 

@@ -8,12 +8,16 @@
 
 #include "benches.h"
 #include "dense.h"
-#include "sdf/mesh/balance.h"
-#include "sdf/mesh/narrow_band.h"
-#include "sdf/mesh/sharpen.h"
-#include "sdf/mesh/stages.h"
-#include "sdf/mesh/tips.h"
-#include "sdf/mesh/uncross.h"
+#include "sdf/mesh/band/narrow_band.h"
+#include "sdf/mesh/creases/sharpen.h"
+#include "sdf/mesh/creases/tips.h"
+#include "sdf/mesh/edit/feature_mesh.h"
+#include "sdf/mesh/edit/uncross.h"
+#include "sdf/mesh/measure/distance.h"
+#include "sdf/mesh/mesh.h"
+#include "sdf/mesh/refine/balance.h"
+#include "sdf/mesh/surface/local_field.h"
+#include "sdf/mesh/surface/project.h"
 #include "shapes.h"
 
 namespace sdf::bench {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "command_line/frames.h"
 #include "sdf/base/version.h"
-#include "sdf/gltf/read_mesh.h"
+#include "sdf/meshfile/read_mesh.h"
 #include "viewer/gpu/picture.h"
 
 namespace sdf::viewer {

@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "accuracy/operator_blends.h"
+#include "accuracy/operators/operator_blends.h"
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

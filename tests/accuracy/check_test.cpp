@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "accuracy/meshes.h"
-#include "sdf/shape/solids.h"
+#include "accuracy/solids/meshes.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

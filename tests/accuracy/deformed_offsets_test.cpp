@@ -12,11 +12,11 @@
 #include <sstream>
 #include <string>
 
-#include "accuracy/offset_cases.h"
+#include "accuracy/operators/offset_cases.h"
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 

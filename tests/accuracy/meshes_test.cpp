@@ -4,13 +4,13 @@
 #include <cmath>
 #include <random>
 
-#include "accuracy/mesh_cases.h"
-#include "accuracy/meshes.h"
-#include "accuracy/operator_meshes.h"
+#include "accuracy/meshes/mesh_cases.h"
+#include "accuracy/operators/operator_meshes.h"
+#include "accuracy/solids/meshes.h"
 #include "bench/shapes.h"
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "accuracy/operator_cases.h"
+#include "accuracy/operators/operator_cases.h"
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 

@@ -1,7 +1,7 @@
 // Every operator of the catalog, held to the same operation on meshes.
 #include <gtest/gtest.h>
 
-#include "accuracy/operator_cases.h"
+#include "accuracy/operators/operator_cases.h"
 #include "sdf/shape/catalog.h"
 
 namespace sdf::accuracy {

@@ -8,8 +8,8 @@
 #include <span>
 #include <sstream>
 
-#include "accuracy/primitive_cases.h"
 #include "accuracy/rows.h"
+#include "accuracy/solids/primitive_cases.h"
 #include "sdf/shape/catalog.h"
 
 namespace sdf::accuracy {

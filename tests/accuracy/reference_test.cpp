@@ -1,5 +1,5 @@
 // The references themselves, against distances that are known.
-#include "accuracy/reference.h"
+#include "reference/reference.h"
 
 #include <gtest/gtest.h>
 

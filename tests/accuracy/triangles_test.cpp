@@ -1,7 +1,7 @@
 // Distances to triangle meshes held to exact arithmetic.
 #include <gtest/gtest.h>
 
-#include "accuracy/exact_distance.h"
+#include "reference/exact_distance.h"
 #include "sdf/triangles/distance.h"
 #include "support/triangle_meshes.h"
 

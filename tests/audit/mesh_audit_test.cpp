@@ -10,7 +10,7 @@
 #include "../bench/shapes.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/script/script.h"
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/place.h"
 #include "support/mesh_audit.h"
 
 namespace sdf::test {

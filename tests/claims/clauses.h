@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "claims/subject.h"
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/place.h"
 
 namespace sdf::test {
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "claims/readings.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::test {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/script/script.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

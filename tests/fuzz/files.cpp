@@ -5,7 +5,7 @@
 
 #include "fuzz/targets.h"
 #include "sdf/base/file.h"
-#include "sdf/gltf/read_formats.h"
+#include "sdf/meshfile/read_formats.h"
 
 namespace sdf::fuzz {
 namespace {

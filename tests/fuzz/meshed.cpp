@@ -14,7 +14,7 @@
 #include "fuzz/bytes.h"
 #include "fuzz/shapes.h"
 #include "fuzz/targets.h"
-#include "sdf/gltf/formats.h"
+#include "sdf/gltf/gltf.h"
 #include "sdf/mesh/mesher.h"
 
 namespace sdf::fuzz {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "fuzz/targets.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
 
 namespace sdf::fuzz {
 namespace {

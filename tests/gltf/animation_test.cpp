@@ -5,8 +5,8 @@
 
 #include "gltf/read_back.h"
 #include "gltf/synthetic.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
 #include "support/folder.h"
 
 namespace sdf {

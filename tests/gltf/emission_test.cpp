@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "gltf/synthetic.h"
-#include "sdf/gltf/srgb.h"
+#include "sdf/base/srgb.h"
 
 namespace sdf {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "gltf/read_back.h"
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 #include "sdf/gltf/primitive.h"
 #include "support/folder.h"
 #include "synthetic.h"

@@ -5,12 +5,12 @@
 #include <map>
 
 #include "gltf/manifold_read.h"
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 #include "sdf/gltf/primitive.h"
 #include "sdf/mesh/mesher.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 #include "support/folder.h"
 #include "synthetic.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 
 namespace sdf {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "gltf/decoded.h"
+#include "sdf/export/compress.h"
 #include "sdf/gltf/animation.h"
-#include "sdf/gltf/compress.h"
 #include "support/folder.h"
 #include "synthetic.h"
 

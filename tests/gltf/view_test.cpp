@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

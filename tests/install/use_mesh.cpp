@@ -1,11 +1,11 @@
 // A program that makes a scene in C++, meshes it and writes a glTF file.
 #include <cstdio>
 
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/scene/scene.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 int main() {
   sdf::Scene scene;

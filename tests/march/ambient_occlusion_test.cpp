@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "march/scenes.h"
-#include "sdf/shape/booleans.h"
+#include "sdf/shape/operators/booleans.h"
 
 namespace sdf {
 namespace {

@@ -2,7 +2,7 @@
 #include "march/scenes.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/march/oracle.h"
-#include "sdf/shape/deform.h"
+#include "sdf/shape/operators/deform.h"
 #include "shape/cases.h"
 
 namespace sdf {

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "march/scenes.h"
-#include "sdf/shape/flats.h"
+#include "sdf/shape/solids/flats.h"
 
 namespace sdf {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "march/scenes.h"
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/pattern.h"
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/pattern.h"
+#include "sdf/shape/operators/place.h"
 
 namespace sdf {
 namespace {

@@ -1,7 +1,7 @@
 // Rays that look behind the surface: past edges, through films and thin plates.
 #include "march/scenes.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/place.h"
 
 namespace sdf {
 namespace {

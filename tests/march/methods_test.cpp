@@ -4,11 +4,11 @@
 #include "march/scenes.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/march/oracle.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/pattern.h"
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/pattern.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/flats.h"
 
 namespace sdf {
 namespace {

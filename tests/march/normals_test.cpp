@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "march/scenes.h"
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/place.h"
 
 namespace sdf {
 namespace {

@@ -1,8 +1,8 @@
 // Every shape of the catalog in a picture: normals at smooth places are those of the surface around a pixel.
 #include "march/scenes.h"
 #include "sdf/march/normals.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
 #include "shape/cases.h"
 #include "support/smooth_normals.h"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sdf/march/march.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::test {
 

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "march/scenes.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/place.h"
 
 namespace sdf {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesh/scenes.h"
-#include "sdf/mesh/feature_mesh.h"
+#include "sdf/mesh/edit/feature_mesh.h"
 
 namespace sdf::test {
 

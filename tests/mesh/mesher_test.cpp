@@ -10,8 +10,8 @@
 
 #include "mesh/scenes.h"
 #include "sdf/eval/batch.h"
-#include "sdf/shape/deform.h"
-#include "sdf/shape/flats.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/solids/flats.h"
 #include "support/payloads.h"
 
 namespace sdf::test {

@@ -9,7 +9,7 @@
 #include "mesh/scenes.h"
 #include "sdf/eval/promise.h"
 #include "sdf/mesh/mesher.h"
-#include "sdf/shape/deform.h"
+#include "sdf/shape/operators/deform.h"
 
 namespace sdf::test {
 namespace {

@@ -7,13 +7,13 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "sdf/mesh/band/narrow_band.h"
 #include "sdf/mesh/mesher.h"
-#include "sdf/mesh/narrow_band.h"
-#include "sdf/mesh/stages.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/pattern.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/mesh/surface/local_field.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/pattern.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::test {
 

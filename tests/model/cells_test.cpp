@@ -8,12 +8,12 @@
 #include <random>
 
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
 
-#include "sdf/shape/operators.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
 #include "support/payloads.h"
 
 namespace sdf {

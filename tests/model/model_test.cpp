@@ -9,8 +9,8 @@
 #include <random>
 
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sdf/scene/patterns.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "script/run.h"
 #include "sdf/shape/catalog.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

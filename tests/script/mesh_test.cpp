@@ -11,25 +11,27 @@
 namespace sdf::test {
 namespace {
 
-// Files are empty; which mesh they hold follows from their names.
-Result<ReadMesh> readNothing(const std::filesystem::path& file) {
-  const TriangleMesh box = boxOf(glm::vec3(-1.0f), glm::vec3(1.0f));
-  if (file.stem() == "box") return ReadMesh{box, {}};
-  if (file.stem() == "open")
-    return ReadMesh{without(box, [](std::size_t i) { return i < 2; }), {"a picture is missing"}};
-  if (file.stem() == "film") return ReadMesh{without(box, [](std::size_t i) { return i >= 2; }), {}};
-  if (file.stem() == "flat") return ReadMesh{without(box, [](std::size_t) { return true; }), {}};
-  if (file.stem() == "twice") return ReadMesh{together(box, boxOf(glm::vec3(0.0f), glm::vec3(2.0f))), {}};
-  return Error{ErrorKind::Files, file.string() + ": cannot be read"};
+// An .obj file of these triangles.
+void writeObj(const std::filesystem::path& file, const TriangleMesh& mesh, const std::string& first = {}) {
+  std::ofstream out(file);
+  out << first;
+  for (const glm::vec3& p : mesh.positions) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const glm::uvec3& t : mesh.triangles)
+    out << "f " << t.x + 1 << ' ' << t.y + 1 << ' ' << t.z + 1 << '\n';
 }
 
 class Meshes : public testing::Test {
  protected:
   Meshes() {
     for (const char* folder : {"scenes", "elsewhere"}) std::filesystem::create_directory(folder_ / folder);
-    for (const char* name : {"box", "open", "film", "flat", "twice", "bad"}) touch(scenes() / name);
+    const TriangleMesh box = boxOf(glm::vec3(-1.0f), glm::vec3(1.0f));
+    writeObj(scenes() / "box.obj", box);
+    writeObj(scenes() / "open.obj", without(box, [](std::size_t i) { return i < 2; }), "mtllib none.mtl\n");
+    writeObj(scenes() / "film.obj", without(box, [](std::size_t i) { return i >= 2; }));
+    writeObj(scenes() / "twice.obj", together(box, boxOf(glm::vec3(0.0f), glm::vec3(2.0f))));
+    std::ofstream(scenes() / "flat.obj") << "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n";
+    std::ofstream(scenes() / "bad.obj") << "f 1 2 3\n";
   }
-  static void touch(const std::filesystem::path& stem) { std::ofstream(stem.string() + ".glb").put('x'); }
   Result<Scene> run(const std::string& text) const {
     return runScene(text, (scenes() / "scene.lua").string(), options_);
   }
@@ -48,70 +50,68 @@ class Meshes : public testing::Test {
   std::filesystem::path scenes() const { return folder_ / "scenes"; }
 
   Folder folder_;
-  ScriptOptions options_{.readMesh = readNothing};
+  ScriptOptions options_{};
 };
 
 TEST_F(Meshes, AreShapesLikeAnyOther) {
-  const Scene scene = sceneOf(R"(return mesh("box.glb"):translate(1, 0, 0):round(0.25) - sphere(0.5))");
+  const Scene scene = sceneOf(R"(return mesh("box.obj"):translate(1, 0, 0):round(0.25) - sphere(0.5))");
   const Shape whole = scene.whole();
   EXPECT_DOUBLE_EQ(at(whole.distance, 3.0, 0.0, 0.0), 0.75);
   EXPECT_DOUBLE_EQ(at(whole.distance, 0.0, 0.0, 0.0), 0.5);
   EXPECT_TRUE(scene.notes.empty());
 }
 
+// A field that lives is one node; a file that was read anew is another.
 TEST_F(Meshes, AreReadOnceWhileTheyLive) {
-  int count = 0;
-  options_.readMesh = [&](const std::filesystem::path& file) { return ++count, readNothing(file); };
-  const std::string text = R"(return mesh("box.glb"))";
-  {
-    const Scene first = sceneOf(text), second = sceneOf(text);
-    EXPECT_EQ(count, 1);
-    EXPECT_EQ(first.parts[0].shape.distance, second.parts[0].shape.distance);
-    const Scene finer = sceneOf(R"(return mesh("box.glb", {voxels = 64}))");
-    EXPECT_EQ(count, 2);
-    std::filesystem::last_write_time(scenes() / "box.glb",
-                                     std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
-    const Scene third = sceneOf(text);
-    EXPECT_EQ(count, 3);
-  }
-  const Scene again = sceneOf(text);
-  EXPECT_EQ(count, 4);
+  const std::string text = R"(return mesh("box.obj"))";
+  const auto distanceOf = [](const Scene& scene) { return scene.parts[0].shape.distance; };
+  const Scene first = sceneOf(text), second = sceneOf(text);
+  EXPECT_EQ(distanceOf(first), distanceOf(second));
+  const Scene finer = sceneOf(R"(return mesh("box.obj", {voxels = 64}))");
+  EXPECT_FALSE(distanceOf(finer) == distanceOf(first));
+  std::filesystem::last_write_time(scenes() / "box.obj",
+                                   std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+  const Scene third = sceneOf(text);
+  EXPECT_FALSE(distanceOf(third) == distanceOf(first));
 }
 
 TEST_F(Meshes, WhatWasMendedIsNoted) {
-  EXPECT_EQ(sceneOf(R"(return mesh("open.glb"))").notes,
-            std::vector<std::string>{"open.glb: a picture is missing; 1 hole was closed"});
-  const auto notes = sceneOf(R"(return mesh("twice.glb") | mesh("twice.glb"):translate(5, 0, 0))").notes;
+  auto notes = sceneOf(R"(return mesh("open.obj"))").notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(notes[0].starts_with("open.obj: ") && notes[0].find("none.mtl") != std::string::npos &&
+              notes[0].ends_with("; 1 hole was closed"))
+      << notes[0];
+  notes = sceneOf(R"(return mesh("twice.obj") | mesh("twice.obj"):translate(5, 0, 0))").notes;
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0],
-            "twice.glb: its surface crosses or touches itself, or is turned inside out: inside is what it "
+            "twice.obj: its surface crosses or touches itself, or is turned inside out: inside is what it "
             "winds around");
 }
 
 TEST_F(Meshes, WithoutAnInsideAreRefused) {
-  const std::string film = (std::filesystem::canonical(scenes()) / "film.glb").string();
-  EXPECT_EQ(errorOf(R"(return mesh("film.glb"))"),
+  const std::string film = (std::filesystem::canonical(scenes()) / "film.obj").string();
+  EXPECT_EQ(errorOf(R"(return mesh("film.obj"))"),
             here(":1: " + film + ": the triangles of this mesh enclose nothing: it is no solid"));
-  EXPECT_NE(errorOf(R"(return mesh("flat.glb"))").find("no triangle of this mesh has an area"),
+  EXPECT_NE(errorOf(R"(return mesh("flat.obj"))").find("no triangle of this mesh has an area"),
             std::string::npos);
 }
 
 TEST_F(Meshes, TheReadersErrorIsShown) {
-  EXPECT_NE(errorOf(R"(return mesh("bad.glb"))").find("bad.glb: cannot be read"), std::string::npos);
+  EXPECT_NE(errorOf(R"(return mesh("bad.obj"))").find("bad.obj: cannot be read"), std::string::npos);
 }
 
 TEST_F(Meshes, FilesElsewhereAreRefused) {
   const std::filesystem::path other = std::filesystem::canonical(folder_ / "elsewhere");
-  touch(other / "box");
-  const std::string outside = (other / "box.glb").string();
+  std::filesystem::copy_file(scenes() / "box.obj", other / "box.obj");
+  const std::string outside = (other / "box.obj").string();
   const std::string text = "return mesh(\"" + outside + "\")";
   EXPECT_EQ(errorOf(text), here(":1: mesh: '" + outside +
                                 "' lies outside of the scene's folder; move it there, or allow its "
                                 "folder with --allow-dir " +
                                 other.string()));
-  EXPECT_NE(errorOf(R"(return mesh("../box.glb"))").find("lies outside"), std::string::npos);
-  std::filesystem::create_symlink(outside, scenes() / "link.glb");
-  EXPECT_NE(errorOf(R"(return mesh("link.glb"))").find("lies outside"), std::string::npos);
+  EXPECT_NE(errorOf(R"(return mesh("../box.obj"))").find("lies outside"), std::string::npos);
+  std::filesystem::create_symlink(outside, scenes() / "link.obj");
+  EXPECT_NE(errorOf(R"(return mesh("link.obj"))").find("lies outside"), std::string::npos);
   options_.folders = {other};
   EXPECT_TRUE(run(text).ok());
 }
@@ -122,12 +122,12 @@ TEST_F(Meshes, ThatAreMissingAreLeftOutWhereThatIsAllowed) {
   const auto sameAs = [&](const std::string& text, const std::string& other) {
     const Scene scene = sceneOf(text);
     ASSERT_EQ(scene.missing.size(), 1u) << text;
-    EXPECT_EQ(scene.missing[0], here(":1: " + (std::filesystem::canonical(scenes()) / "bad.glb").string() +
+    EXPECT_EQ(scene.missing[0], here(":1: " + (std::filesystem::canonical(scenes()) / "bad.obj").string() +
                                      ": cannot be read"));
     EXPECT_EQ(scene.whole().distance, sceneOf(other).whole().distance) << text;
     EXPECT_EQ(scene.parts.size(), sceneOf(other).parts.size()) << text;
   };
-  const std::string bad = R"(local bad = mesh("bad.glb") )";
+  const std::string bad = R"(local bad = mesh("bad.obj") )";
   sameAs(bad + "part('a', bad) part('b', box(1))", "part('b', box(1))");
   sameAs(bad + "part('a', bad:translate(1, 2, 3):round(0.1):twist(10):paint('#f00')) return box(1)",
          "return box(1)");
@@ -144,13 +144,13 @@ TEST_F(Meshes, ThatAreMissingAreLeftOutWhereThatIsAllowed) {
 
 TEST_F(Meshes, ThatAreMissingAreErrorsWhereNothingIsLeft) {
   options_.withoutMissing = true;
-  EXPECT_EQ(errorOf(R"(return mesh("../box.glb"))"),
-            here(":1: mesh: '../box.glb' lies outside of the scene's folder; move it there, or allow its "
+  EXPECT_EQ(errorOf(R"(return mesh("../box.obj"))"),
+            here(":1: mesh: '../box.obj' lies outside of the scene's folder; move it there, or allow its "
                  "folder with --allow-dir " +
                  std::filesystem::canonical(folder_.path()).string()));
-  EXPECT_NE(errorOf(R"(return mesh("film.glb"), mesh("flat.glb"))").find("enclose nothing"),
+  EXPECT_NE(errorOf(R"(return mesh("film.obj"), mesh("flat.obj"))").find("enclose nothing"),
             std::string::npos);
-  EXPECT_NE(errorOf(R"(return box(1), mesh("box.glb", {voxels = 8}))")
+  EXPECT_NE(errorOf(R"(return box(1), mesh("box.obj", {voxels = 8}))")
                 .find("voxels must be from 16 to 1024, got 8"),
             std::string::npos)
       << "a slip of the script's own";
@@ -158,17 +158,15 @@ TEST_F(Meshes, ThatAreMissingAreErrorsWhereNothingIsLeft) {
 
 TEST_F(Meshes, ThatAreMissingAreFollowed) {
   options_.withoutMissing = true;
-  EXPECT_EQ(sceneOf(R"(return box(1), mesh("bad.glb"))").files,
-            std::vector{(std::filesystem::canonical(scenes()) / "bad.glb").string()});
+  EXPECT_EQ(sceneOf(R"(return box(1), mesh("bad.obj"))").files,
+            std::vector{(std::filesystem::canonical(scenes()) / "bad.obj").string()});
 }
 
 TEST_F(Meshes, BadArgumentsAreNamed) {
   EXPECT_NE(errorOf("return mesh(1)").find("mesh: the file must be a text"), std::string::npos);
-  EXPECT_NE(errorOf(R"(return mesh("box.glb", {voxels = 8}))").find("voxels must be from 16 to 1024, got 8"),
+  EXPECT_NE(errorOf(R"(return mesh("box.obj", {voxels = 8}))").find("voxels must be from 16 to 1024, got 8"),
             std::string::npos);
-  EXPECT_NE(errorOf(R"(return mesh("box.glb", {fine = 8}))").find("unknown field 'fine'"), std::string::npos);
-  options_.readMesh = {};
-  EXPECT_EQ(errorOf(R"(return mesh("box.glb"))"), here(":1: mesh: this program reads no mesh files"));
+  EXPECT_NE(errorOf(R"(return mesh("box.obj", {fine = 8}))").find("unknown field 'fine'"), std::string::npos);
 }
 
 }  // namespace

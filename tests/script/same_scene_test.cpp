@@ -7,8 +7,8 @@
 
 #include "script/run.h"
 #include "sdf/scene/patterns.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "script/run.h"
 #include "sdf/eval/glsl.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
 #include "support/settings.h"
 
 namespace sdf {

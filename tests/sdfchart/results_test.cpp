@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sdfchart/measure.h"
+#include "sdfchart/measure/measure.h"
 #include "support/folder.h"
 
 namespace sdf::chart {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "accuracy/reference.h"
-#include "sdfchart/mesh_truth.h"
+#include "reference/reference.h"
+#include "sdfchart/truth/mesh_truth.h"
 
 namespace sdf::chart {
 namespace {

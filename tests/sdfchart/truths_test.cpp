@@ -7,14 +7,14 @@
 #include <numbers>
 
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
-#include "sdfchart/cone_starts.h"
-#include "sdfchart/drawn_rays.h"
-#include "sdfchart/light_truth.h"
-#include "sdfchart/march_truth.h"
-#include "sdfchart/measurements.h"
-#include "sdfchart/shader_reading.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
+#include "sdfchart/measure/measurements.h"
+#include "sdfchart/peers/cone_starts.h"
+#include "sdfchart/peers/drawn_rays.h"
+#include "sdfchart/peers/shader_reading.h"
+#include "sdfchart/truth/light_truth.h"
+#include "sdfchart/truth/march_truth.h"
 
 namespace sdf::chart {
 namespace {

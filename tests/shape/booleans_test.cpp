@@ -1,13 +1,13 @@
-#include "sdf/shape/booleans.h"
+#include "sdf/shape/operators/booleans.h"
 
 #include <set>
 
 #include "claim_checks.h"
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/shape/deform.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

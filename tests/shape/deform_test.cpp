@@ -1,12 +1,12 @@
-#include "sdf/shape/deform.h"
+#include "sdf/shape/operators/deform.h"
 
 #include <numbers>
 
 #include "claim_checks.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 #include "support/bind.h"
 
 namespace sdf {

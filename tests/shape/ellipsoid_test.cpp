@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "sdf/shape/flats.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 #include "support/evaluate.h"
 
 namespace sdf {

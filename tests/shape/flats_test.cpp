@@ -1,4 +1,4 @@
-#include "sdf/shape/flats.h"
+#include "sdf/shape/solids/flats.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Forms of distances, found again in the graph.
-#include "sdf/shape/forms.h"
+#include "sdf/shape/calibrate/forms.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <random>
 
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 #include "shape/cases.h"
 #include "support/evaluate.h"
 

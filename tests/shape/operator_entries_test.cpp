@@ -2,9 +2,9 @@
 #include <numbers>
 
 #include "claim_checks.h"
-#include "sdf/shape/entries.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/catalog/entries.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

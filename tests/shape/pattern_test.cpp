@@ -1,13 +1,13 @@
-#include "sdf/shape/pattern.h"
+#include "sdf/shape/operators/pattern.h"
 
 #include <numbers>
 
 #include "claim_checks.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 #include "support/bind.h"
 
 namespace sdf {

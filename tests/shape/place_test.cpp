@@ -1,11 +1,11 @@
-#include "sdf/shape/place.h"
+#include "sdf/shape/operators/place.h"
 
 #include <numbers>
 
 #include "claim_checks.h"
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf/shape/solids.h"
+#include "sdf/shape/solids/solids.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <functional>
 #include <numbers>
 
-#include "sdf/shape/booleans.h"
-#include "sdf/shape/deform.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
 #include "shape/cases.h"
 
 namespace sdf {

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "accuracy/reference.h"
+#include "reference/reference.h"
 #include "sdf/eval/batch.h"
 #include "sdf/model/model.h"
 

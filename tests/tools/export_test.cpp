@@ -7,7 +7,8 @@
 #include <numbers>
 
 #include "exported.h"
-#include "sdf/mesh/stages.h"
+#include "sdf/mesh/measure/topology.h"
+#include "sdf/mesh/mesh.h"
 
 namespace sdf {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reference.h"
+#include "reference/reference.h"
 #include "sdf/shape/shape.h"
 
 namespace sdf::accuracy {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "mesh_cases.h"
-#include "operator_cases.h"
-#include "primitive_cases.h"
+#include "accuracy/meshes/mesh_cases.h"
+#include "accuracy/operators/operator_cases.h"
+#include "accuracy/solids/primitive_cases.h"
 #include "report.h"
 #include "sdf/base/file.h"
 

@@ -4,9 +4,9 @@
 #include <ostream>
 #include <span>
 
+#include "accuracy/meshes/mesh_cases.h"
+#include "accuracy/operators/offset_cases.h"
 #include "failures/failure_case.h"
-#include "mesh_cases.h"
-#include "offset_cases.h"
 #include "rows.h"
 
 namespace sdf::accuracy {

@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "memory.h"
-#include "sdf/gltf/bake.h"
-#include "sdf/gltf/compress.h"
-#include "sdf/gltf/read_mesh.h"
+#include "sdf/export/bake.h"
+#include "sdf/export/compress.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/script/script.h"
 #include "timed.h"
@@ -56,11 +55,8 @@ Status FrameExport::load(double time, std::optional<double>& voxelSize) {
 Status FrameExport::loadParts(double time) {
   progress_.setSubject(subject_);
   progress_.beginStage("script");
-  const ScriptOptions script{.values = options_.parameters,
-                             .time = time,
-                             .fixed = true,
-                             .readMesh = readMesh,
-                             .folders = options_.folders};
+  const ScriptOptions script{
+      .values = options_.parameters, .time = time, .fixed = true, .folders = options_.folders};
   Result<Scene> loaded = stage(report.total, "script", [&] { return loadScene(options_.scene, script); });
   if (!loaded) return loaded.error();
   Result<Scene> chosen = selected(std::move(*loaded), options_);

@@ -7,7 +7,7 @@
 #include "options.h"
 #include "progress_line.h"
 #include "report.h"
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 #include "sdf/mesh/mesher.h"
 
 namespace sdf::exporter {

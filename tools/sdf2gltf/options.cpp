@@ -9,7 +9,7 @@
 #include "memory.h"
 #include "sdf/base/file.h"
 #include "sdf/base/version.h"
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 
 namespace sdf::exporter {
 

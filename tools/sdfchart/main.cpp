@@ -13,9 +13,9 @@
 #include "bench/machine.h"
 #include "charts.h"
 
-#include "measurements.h"
 #include "options.h"
 #include "sdf/base/version.h"
+#include "sdfchart/measure/measurements.h"
 
 namespace sdf::chart {
 namespace {

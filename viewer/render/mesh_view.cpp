@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "sdf/gltf/read_mesh.h"
+#include "sdf/meshfile/read_mesh.h"
 
 namespace sdf::viewer {
 namespace {

@@ -20,7 +20,7 @@ struct SceneFile {
 
   bool operator==(const SceneFile&) const = default;
 
-  /// Runs the file with these options, and a reader of meshes. Errors: those of loadScene and readMesh.
+  /// Runs the file with these options. Errors: those of loadScene.
   Result<Scene> load(ScriptOptions options) const;
 };
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 #include "sdf/scene/scene.h"
 
 namespace sdf::viewer {

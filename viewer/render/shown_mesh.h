@@ -4,7 +4,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "sdf/gltf/export.h"
+#include "sdf/export/export.h"
 #include "sdf/triangles/triangle_mesh.h"
 #include "viewer/gpu/mesh_buffer.h"
 

@@ -4,7 +4,7 @@
 
 #include "sdf/expr/hoist.h"
 #include "sdf/model/model.h"
-#include "sdf/shape/booleans.h"
+#include "sdf/shape/operators/booleans.h"
 #include "viewer/shaders/filter.h"
 #include "viewer/shaders/sharing.h"
 #include "viewer/shaders/source.h"

@@ -7,7 +7,7 @@
 #include "sdf/model/cells.h"
 #include "sdf/model/groups.h"
 #include "sdf/scene/scene.h"
-#include "sdf/shape/triangle_solid.h"
+#include "sdf/shape/solids/triangle_solid.h"
 #include "viewer/shaders/solved.h"
 
 namespace sdf::viewer {

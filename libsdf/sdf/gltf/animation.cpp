@@ -6,10 +6,10 @@
 #include <iterator>
 #include <utility>
 
-#include "sdf/gltf/formats.h"
+#include "sdf/base/utf8.h"
+#include "sdf/gltf/gltf.h"
 #include "sdf/gltf/gltf_mesh-inl.h"
 #include "sdf/gltf/gltf_view-inl.h"
-#include "sdf/gltf/utf8.h"
 
 namespace sdf {
 namespace {

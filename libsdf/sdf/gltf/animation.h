@@ -1,13 +1,12 @@
 // Scenes that move, in one glTF file.
 #pragma once
-#include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "sdf/expr/motion.h"
-#include "sdf/gltf/export.h"
+#include "sdf/gltf/part.h"
+#include "sdf/scene/scene.h"
 
 namespace sdf {
 
@@ -31,14 +30,6 @@ struct Animation {
   std::vector<Scene> scenes;        ///< by frame: cameras and lights
   std::vector<AnimatedPart> parts;  ///< their meshes have a motion or nothing for each frame
 };
-
-/// Writes a .glb or .gltf whose one animation, "frames", has a key for each frame, beginning at 0: the nodes'
-/// translation and rotation where a mesh, the camera or a light moves, interpolated linearly, and 0 or 1 for
-/// the scale of each of a part's several meshes, in steps. A part of one mesh is a node; of several, a node
-/// with a child for each. What turns does so about the middle of its mesh, which a child of its node holds.
-/// Without animation the file shows the first frame. A camera that the scenes leave open stands where it sees
-/// all frames' bounds. Errors: as writeMeshes.
-Status writeAnimation(const std::filesystem::path& target, const Animation& animation);
 
 /// What changes with time and cannot be written, a line each: the camera's angle, the colours and intensities
 /// of lights, their number and kinds. The file has the first frame's.

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "sdf/gltf/srgb.h"
+#include "sdf/base/srgb.h"
 
 namespace sdf {
 namespace {

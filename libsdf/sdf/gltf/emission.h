@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "sdf/gltf/export.h"
+#include "sdf/gltf/part.h"
 #include "sdf/gltf/primitive.h"
 
 namespace sdf {

@@ -1,7 +1,7 @@
 // glTF 2.0 through tinygltf.
 #include <utility>
 
-#include "sdf/gltf/formats.h"
+#include "sdf/gltf/gltf.h"
 #include "sdf/gltf/gltf_mesh-inl.h"
 #include "sdf/gltf/gltf_view-inl.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "sdf/gltf/utf8.h"
+#include "sdf/base/utf8.h"
 
 namespace sdf {
 namespace {

@@ -7,13 +7,13 @@
 #include <limits>
 #include <map>
 
+#include "sdf/base/srgb.h"
+#include "sdf/base/utf8.h"
 #include "sdf/gltf/emission.h"
 #include "sdf/gltf/gltf_manifold-inl.h"
 #include "sdf/gltf/gltf_material-inl.h"
-#include "sdf/gltf/meshopt.h"
 #include "sdf/gltf/primitive.h"
-#include "sdf/gltf/srgb.h"
-#include "sdf/gltf/utf8.h"
+#include "sdf/meshfile/meshopt.h"
 
 namespace sdf {
 namespace {
@@ -75,7 +75,7 @@ class MeshWriter {
   MeshWriter(GltfModel& model, const ExportPart& part)
       : model_(model), part_(part), mesh_(part.mesh), primitives_(splitByMaterial(mesh_)) {
     for (Primitive& primitive : primitives_) {
-      if (part_.grid) orderForEncoding(primitive);
+      if (part_.grid) orderForEncoding(primitive.indices, primitive.vertices);
       const auto first = static_cast<std::uint32_t>(vertices_.size());
       for (const std::uint32_t i : primitive.indices) indices_.push_back(first + i);
       append(vertices_, primitive.vertices);

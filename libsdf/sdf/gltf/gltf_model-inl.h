@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "sdf/gltf/formats.h"
-#include "sdf/gltf/meshopt.h"
+#include "sdf/gltf/gltf.h"
 #include "sdf/gltf/view.h"
+#include "sdf/meshfile/meshopt.h"
 
 namespace sdf {
 

@@ -6,19 +6,29 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "sdf/mesh/balance.h"
-#include "sdf/mesh/borders.h"
-#include "sdf/mesh/certify.h"
-#include "sdf/mesh/crossings.h"
-#include "sdf/mesh/sharpen.h"
-#include "sdf/mesh/stages.h"
-#include "sdf/mesh/thin.h"
-#include "sdf/mesh/tips.h"
-#include "sdf/mesh/uncross.h"
-#include "sdf/shape/booleans.h"
+#include "sdf/mesh/band/narrow_band.h"
+#include "sdf/mesh/band/unresolved.h"
+#include "sdf/mesh/creases/borders.h"
+#include "sdf/mesh/creases/sharpen.h"
+#include "sdf/mesh/creases/tips.h"
+#include "sdf/mesh/dress/color.h"
+#include "sdf/mesh/dress/crease_normals.h"
+#include "sdf/mesh/edit/crossings.h"
+#include "sdf/mesh/edit/feature_mesh.h"
+#include "sdf/mesh/edit/uncross.h"
+#include "sdf/mesh/measure/distance.h"
+#include "sdf/mesh/measure/topology.h"
+#include "sdf/mesh/mesh.h"
+#include "sdf/mesh/refine/balance.h"
+#include "sdf/mesh/refine/thin.h"
+#include "sdf/mesh/surface/local_field.h"
+#include "sdf/mesh/surface/project.h"
+#include "sdf/proof/certify.h"
 #include "sdf/shape/catalog.h"
-#include "sdf/shape/place.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/solids.h"
+#include "sdf/triangles/incidence.h"
 
 namespace sdf {
 namespace {
@@ -264,7 +274,7 @@ class Mesher {
         ": what is stated of the shape does not hold there. Enlarge the lipschitz and the bounds of its "
         "field, or leave them out; a shape without a field has to be made in another way";
     if (!stats.watertight) {
-      const std::uint32_t open = openVertex(mesh.triangles, mesh.positions.size());
+      const std::uint32_t open = *openVertex(mesh.triangles, mesh.positions.size());
       return sceneError(name_, "the mesh is torn open at " + place(mesh.positions[open]) + advice);
     }
     if (stats.maxDistance > std::max(kFarthestVoxels * voxel, stats.tolerance))

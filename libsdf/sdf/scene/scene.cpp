@@ -4,7 +4,7 @@
 #include <set>
 
 #include "sdf/scene/patterns.h"
-#include "sdf/shape/booleans.h"
+#include "sdf/shape/operators/booleans.h"
 
 namespace sdf {
 

@@ -6,9 +6,9 @@
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/script/meshes.h"
-#include "sdf/shape/deform.h"
-#include "sdf/shape/solids.h"
-#include "sdf/shape/triangle_solid.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/solids/solids.h"
+#include "sdf/shape/solids/triangle_solid.h"
 
 namespace sdf {
 
@@ -313,7 +313,6 @@ int importedMesh(lua_State* L) {
   ScriptContext& c = contextOf(L);
   const std::string name = readText(L, 1, f.name + ": the file");
   const FieldValues given = readFields(L, 2, f);
-  if (!c.options.readMesh) raise(L, "mesh: this program reads no mesh files");
   const int voxels = valueOr(given, "voxels", 128);
   if (const Status s = MeshField::checkVoxels(voxels); !s) raise(L, f.name + ": " + s.error().message);
   const auto addOnce = [](std::vector<std::string>& all, const std::string& one) {
@@ -327,7 +326,7 @@ int importedMesh(lua_State* L) {
   const auto file = permitted(name, c.file, c.options);
   if (!file) return goOnWithout(file.error().message);
   addOnce(c.scene.files, file->string());
-  const auto read = meshField(*file, voxels, c.options.readMesh, c.options.meshCache);
+  const auto read = meshField(*file, voxels, c.options.meshCache);
   if (!read) return goOnWithout(read.error().message);
   if (!read->note.empty()) addOnce(c.scene.notes, name + ": " + read->note);
   return pushGood(L, triangleSolid(read->field));

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "sdf/meshfile/read_mesh.h"
+
 namespace sdf {
 namespace {
 
@@ -59,8 +61,7 @@ Result<fs::path> permitted(const std::string& name, const fs::path& scene, const
                                      "its folder with --allow-dir " + file.parent_path().string()};
 }
 
-Result<NotedField> meshField(const fs::path& file, int voxels, const MeshReader& read,
-                             const fs::path& cache) {
+Result<NotedField> meshField(const fs::path& file, int voxels, const fs::path& cache) {
   struct Kept {
     std::weak_ptr<const MeshField> field;
     std::string note;
@@ -74,7 +75,7 @@ Result<NotedField> meshField(const fs::path& file, int voxels, const MeshReader&
     if (const auto found = kept.find(state); found != kept.end())
       if (auto field = found->second.field.lock()) return NotedField{std::move(field), found->second.note};
   }
-  Result<ReadMesh> mesh = read(file);
+  Result<ReadMesh> mesh = readMesh(file);
   if (!mesh) return mesh.error();
   auto field = MeshField::make(std::move(mesh->mesh), voxels, cache);
   if (!field) return Error{field.error().kind, file.string() + ": " + field.error().message};

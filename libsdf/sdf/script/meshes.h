@@ -23,8 +23,8 @@ struct NotedField {
 };
 
 /// Reads a mesh. While its field lives, the same one is given for the same file, if that has not changed.
-/// Errors: those of the reader; Scene where the mesh has no inside.
-Result<NotedField> meshField(const std::filesystem::path& file, int voxels, const MeshReader& read,
+/// Errors: those of readMesh; Scene where the mesh has no inside.
+Result<NotedField> meshField(const std::filesystem::path& file, int voxels,
                              const std::filesystem::path& cache);
 
 }  // namespace sdf

@@ -2,19 +2,14 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "sdf/base/result.h"
 #include "sdf/scene/scene.h"
-#include "sdf/triangles/triangle_mesh.h"
 
 namespace sdf {
-
-/// Reads a triangle mesh from a file. Errors name the file.
-using MeshReader = std::function<Result<ReadMesh>(const std::filesystem::path& file)>;
 
 struct ScriptOptions {
   /// Overrides of param(name, …); a name that the scene lacks is an error.
@@ -30,9 +25,7 @@ struct ScriptOptions {
   std::size_t memoryLimit = 256u << 20;  ///< bytes, of Lua and of the graph together
   double timeLimit =
       60.0;  ///< seconds; for work that few instructions can ask for, such as copying long tables
-  /// Reads the files that mesh("…") names; without one there are no meshes in scenes.
-  MeshReader readMesh{};
-  /// The folder in which their samples for shaders are kept (BrickCache); empty: nowhere.
+  /// The folder in which meshes' samples for shaders are kept (BrickCache); empty: nowhere.
   std::filesystem::path meshCache{};
   /// Folders, beside the scene's own, from which it may read.
   std::vector<std::filesystem::path> folders{};

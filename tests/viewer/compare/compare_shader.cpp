@@ -16,7 +16,7 @@
 #include "sdf/script/script.h"
 #include "viewer/gpu/context.h"
 #include "viewer/gpu/picture.h"
-#include "viewer/psnr.h"
+#include "viewer/render/psnr.h"
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {

@@ -3,8 +3,8 @@
 
 #include "probe.h"
 #include "sdf/eval/batch.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

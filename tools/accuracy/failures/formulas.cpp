@@ -3,9 +3,9 @@
 #include <glm/trigonometric.hpp>
 
 #include "probe.h"
-#include "sdf/shape/flats.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

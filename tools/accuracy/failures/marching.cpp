@@ -4,8 +4,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "sdf/eval/batch.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

@@ -5,8 +5,8 @@
 #include "sdf/eval/batch.h"
 #include "sdf/march/normals.h"
 #include "sdf/march/shadow.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

@@ -3,12 +3,13 @@
 #include <map>
 #include <optional>
 
-#include "accuracy/operator_meshes.h"
+#include "accuracy/operators/operator_meshes.h"
 #include "probe.h"
+#include "sdf/mesh/measure/topology.h"
+#include "sdf/mesh/mesh.h"
 #include "sdf/mesh/mesher.h"
-#include "sdf/mesh/stages.h"
-#include "sdf/shape/operators.h"
-#include "sdf/shape/solids.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 namespace {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "accuracy/reference.h"
 #include "failure_case.h"
+#include "reference/reference.h"
 #include "sdf/base/result.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/shape.h"

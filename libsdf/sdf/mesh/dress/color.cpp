@@ -1,0 +1,259 @@
+#include "sdf/mesh/dress/color.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/mesh.h"
+#include "sdf/mesh/surface/local_field.h"
+#include "sdf/mesh/surface/surface_paint.h"
+
+namespace sdf {
+namespace {
+
+// How far a vertex on a border looks into a triangle for its paint, as a share of the way to the centroid,
+// where the material is known: no farther than it must.
+constexpr float kBorderShifts[] = {0.05f, 0.15f, 0.3f, 0.6f, 1.0f};
+constexpr std::size_t kMaterialSamples = 64;
+
+float unit(float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f; }
+
+glm::vec3 centroid(const Mesh& mesh, const glm::uvec3& t) {
+  return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
+}
+
+// The shape's materials that occur, and each triangle's place among them. Returns their ids by place.
+std::vector<int> assignMaterials(const Shape& shape, const std::vector<int>& ids, Mesh& mesh) {
+  std::map<int, std::uint32_t> placeOf;
+  std::vector<int> idAt;
+  for (const int id : ids) placeOf.emplace(id, 0);
+  for (int id = 0; id < static_cast<int>(shape.materials.size()); ++id)
+    if (const auto it = placeOf.find(id); it != placeOf.end()) {
+      const std::string& name = shape.materials[id]->name;
+      it->second = static_cast<std::uint32_t>(mesh.materials.size());
+      mesh.materials.push_back(
+          {name.empty() ? "material " + std::to_string(id + 1) : name, {}, {}, {}, {}, {}});
+      idAt.push_back(id);
+    }
+  mesh.triangleMaterial.resize(ids.size());
+  for (std::size_t t = 0; t < ids.size(); ++t) mesh.triangleMaterial[t] = placeOf[ids[t]];
+  return idAt;
+}
+
+void orderByMaterial(Mesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return mesh.triangleMaterial[t]; });
+  std::ranges::sort(mesh.triangleMaterial);
+  const std::vector<glm::uvec3> triangles = std::move(mesh.triangles);
+  mesh.triangles.clear();
+  for (const std::uint32_t t : order) mesh.triangles.push_back(triangles[t]);
+}
+
+// Of the paint on the way from a vertex into its triangle, the first beyond a jump, if there is one: a step
+// that is more than what changes otherwise.
+std::size_t beyondJump(const Paint* paint, std::size_t count) {
+  std::size_t largest = 0;
+  float sum = 0.0f, jump = 0.0f;
+  for (std::size_t k = 1; k < count; ++k) {
+    const float step = colorDifference(paint[k - 1], paint[k]);
+    sum += step;
+    if (step > jump) jump = step, largest = k;
+  }
+  return jump > kColorJump && jump > 2.0f * (sum - jump) ? largest : 0;
+}
+
+// Colours the corners of triangles at borders, each on its own side, and repeats vertices whose triangles
+// do not agree. Vertices have the paint of their places.
+class BorderPainter {
+ public:
+  BorderPainter(const std::vector<int>& idAt, const LocalField& field, Progress& progress, Mesh& mesh)
+      : idAt_(idAt), field_(field), progress_(progress), mesh_(mesh) {}
+
+  void run() {
+    findVertices();
+    findCorners();
+    readCorners();
+    if (progress_.stopped()) return;
+    taken_.assign(mesh_.positions.size(), 0);
+    for (const Corner& c : corners_)
+      if (c.seen) assign(c);
+    for (const Corner& c : corners_)
+      if (!c.seen) assignUnseen(c);
+  }
+
+ private:
+  struct Corner {
+    std::uint32_t triangle;
+    int corner;
+    float size;  // the triangle's
+    Paint paint{};
+    bool seen = false;  // is its own material seen there?
+  };
+  // A vertex as some of its triangles have it.
+  struct Copy {
+    std::uint32_t vertex;
+    Paint paint;
+  };
+
+  Paint paintOf(std::uint32_t v, int material) const { return {mesh_.colors[v], mesh_.ambient[v], material}; }
+  int materialOf(std::size_t t) const { return idAt_[mesh_.triangleMaterial[t]]; }
+
+  // Those on creases, which may be borders, and those that look otherwise than a triangle's middle.
+  void findVertices() {
+    atBorder_.assign(mesh_.positions.size(), 0);
+    for (std::size_t i = 0; i < mesh_.copyOf.size(); ++i)
+      atBorder_[mesh_.welded + i] = atBorder_[mesh_.copyOf[i]] = kOnCrease;
+    std::vector<glm::vec3> middles;
+    for (const glm::uvec3& t : mesh_.triangles) middles.push_back(centroid(mesh_, t));
+    const std::vector<Paint> paint = readPaintBeside(middles, field_, progress_);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t v = mesh_.triangles[t][k];
+        if (!atBorder_[v] && colorDifference(paintOf(v, 0), paint[t]) > kColorJump) atBorder_[v] = kBeside;
+      }
+  }
+
+  // Large triangles first: they know best.
+  void findCorners() {
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const glm::uvec3& v = mesh_.triangles[t];
+      const glm::vec3 a = mesh_.positions[v.x];
+      const float size = glm::length(glm::cross(mesh_.positions[v.y] - a, mesh_.positions[v.z] - a));
+      for (int k = 0; k < 3; ++k)
+        if (atBorder_[v[k]]) corners_.push_back({t, k, size});
+    }
+    std::ranges::stable_sort(corners_, std::greater{}, &Corner::size);
+  }
+
+  void readCorners() {
+    constexpr std::size_t kShifts = std::size(kBorderShifts);
+    std::vector<glm::vec3> places;
+    for (const Corner& c : corners_) {
+      const glm::uvec3& t = mesh_.triangles[c.triangle];
+      for (const float shift : kBorderShifts)
+        places.push_back(glm::mix(mesh_.positions[t[c.corner]], centroid(mesh_, t), shift));
+    }
+    const std::vector<Paint> all = readPaintBeside(places, field_, progress_);
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      Corner& c = corners_[i];
+      const Paint* paint = &all[kShifts * i];
+      const std::uint32_t v = mesh_.triangles[c.triangle][c.corner];
+      const int own = materialOf(c.triangle);
+      std::size_t k = beyondJump(paint, kShifts);
+      while (k + 1 < kShifts && paint[k].material != own) ++k;
+      c.seen = paint[k].material == own;
+      const bool asItIs =
+          atBorder_[v] == kBeside && k == 0 && colorDifference(paintOf(v, own), paint[0]) <= kColorJump;
+      c.paint = asItIs ? paintOf(v, own) : paint[k];
+    }
+  }
+
+  void assign(const Corner& c) {
+    std::uint32_t& v = mesh_.triangles[c.triangle][c.corner];
+    std::vector<Copy>& copies = copies_[v];
+    for (const Copy& copy : copies)
+      if (!differ(copy.paint, c.paint)) {
+        v = copy.vertex;
+        return;
+      }
+    std::uint32_t own = v;
+    if (taken_[v]) {
+      own = static_cast<std::uint32_t>(mesh_.positions.size());
+      mesh_.positions.push_back(glm::vec3(mesh_.positions[v]));
+      mesh_.normals.push_back(glm::vec3(mesh_.normals[v]));
+      mesh_.colors.emplace_back();
+      mesh_.ambient.emplace_back();
+      mesh_.copyOf.push_back(v < mesh_.welded ? v : mesh_.copyOf[v - mesh_.welded]);
+    } else {
+      taken_[v] = 1;
+    }
+    mesh_.colors[own] = c.paint.color, mesh_.ambient[own] = c.paint.ambient;
+    copies.push_back({own, c.paint});
+    v = own;
+  }
+
+  // Slivers along a border, off by rounding, are as their material is at the vertex, or as their other
+  // corners.
+  void assignUnseen(Corner c) {
+    const glm::uvec3& t = mesh_.triangles[c.triangle];
+    c.paint.material = materialOf(c.triangle);
+    const auto& copies = copies_[t[c.corner]];
+    const auto same =
+        std::ranges::find(copies, c.paint.material, [](const Copy& k) { return k.paint.material; });
+    if (same != copies.end())
+      c.paint = same->paint;
+    else
+      for (const int k : {1, 2})
+        if (const std::uint32_t v = t[(c.corner + k) % 3]; v >= taken_.size() || taken_[v] || !atBorder_[v])
+          c.paint = paintOf(v, c.paint.material);
+    assign(c);
+  }
+
+  static constexpr char kOnCrease = 1, kBeside = 2;
+
+  const std::vector<int>& idAt_;
+  const LocalField& field_;
+  Progress& progress_;
+  Mesh& mesh_;
+  std::vector<char> atBorder_;  // by vertex
+  std::vector<Corner> corners_;
+  std::vector<char> taken_;                                      // by vertex: some triangle's already
+  std::unordered_map<std::uint32_t, std::vector<Copy>> copies_;  // by vertex
+};
+
+// Averages of the attributes that a glTF material holds as single numbers, over some of the material's
+// triangles.
+void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
+  const TapePtr tape = Function({shape.surface.begin(), shape.surface.end()}).at(values);
+  for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
+    const auto begin = mesh.triangleMaterial.begin();
+    const auto [from, to] = std::equal_range(begin, mesh.triangleMaterial.end(), m);
+    const std::size_t stride = std::max<std::size_t>(1, (to - from) / kMaterialSamples);
+    std::array<double, kAttributeCount> sum{};
+    double samples = 0.0;
+    for (std::size_t t = from - begin; t < static_cast<std::size_t>(to - begin); t += stride, ++samples) {
+      const glm::uvec3& corners = mesh.triangles[t];
+      const std::vector<double> v =
+          evaluateAll(*tape, glm::dvec3(centroid(mesh, corners)), glm::dvec3(mesh.normals[corners.x]));
+      for (int a = 0; a < kAttributeCount; ++a) sum[a] += std::isfinite(v[a]) ? v[a] : 0.0;
+    }
+    auto mean = [&](Attribute a) {
+      return static_cast<float>(sum[static_cast<int>(a)] / std::max(samples, 1.0));
+    };
+    MeshMaterial& out = mesh.materials[m];
+    out.color = {unit(mean(Attribute::Red)), unit(mean(Attribute::Green)), unit(mean(Attribute::Blue))};
+    out.specular = {mean(Attribute::SpecularRed), mean(Attribute::SpecularGreen),
+                    mean(Attribute::SpecularBlue)};
+    out.shininess = mean(Attribute::Shininess);
+    out.reflectivity = mean(Attribute::Reflectivity);
+    out.fresnelPower = mean(Attribute::FresnelPower);
+    out.fresnelBias = mean(Attribute::FresnelBias);
+    out.emission = {mean(Attribute::EmissionRed), mean(Attribute::EmissionGreen),
+                    mean(Attribute::EmissionBlue)};
+  }
+}
+
+}  // namespace
+
+void colorMesh(const Shape& shape, const std::vector<int>& materials, const Values& values,
+               const LocalField& field, Progress& progress, Mesh& mesh) {
+  const Expr& id = shape.surface[static_cast<int>(Attribute::MaterialId)];
+  const int only = id.isConstant() ? static_cast<int>(id.constantValue()) : 0;
+  const std::vector<int> idAt = assignMaterials(
+      shape, materials.empty() ? std::vector<int>(mesh.triangles.size(), only) : materials, mesh);
+  if (mesh.materials.size() > 1) orderByMaterial(mesh);
+  const std::vector<Paint> paint = readPaint(
+      mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; },
+      [&](std::size_t i) { return mesh.normals[i]; }, field, progress);
+  for (const Paint& p : paint) mesh.colors.push_back(p.color), mesh.ambient.push_back(p.ambient);
+  if (!materials.empty()) BorderPainter(idAt, field, progress, mesh).run();
+  resolveMaterials(shape, values, mesh);
+}
+
+}  // namespace sdf

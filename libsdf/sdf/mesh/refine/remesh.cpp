@@ -1,0 +1,189 @@
+#include "sdf/mesh/refine/remesh.h"
+
+#include <algorithm>
+
+#include "sdf/mesh/refine/remesh_changes.h"
+#include "sdf/mesh/refine/remesh_measure.h"
+#include "sdf/mesh/refine/remesh_paint.h"
+
+namespace sdf {
+namespace {
+
+// Edges are collapsed until the error is this many tolerances, as relocation lessens the largest errors to
+// three quarters: measured on balls, tori and blends. With more, more has to be split in the end.
+constexpr double kOvershoot = 1.3;
+// Vertices on the surface have the error on one side: so much of it leaves the rest to do its work.
+constexpr double kRough = 0.7;
+// Cycles of adjusting and collapsing, of collapsing after splits, and sweeps over all vertices that adjusting
+// takes at most.
+constexpr int kCycles = 2, kCleanings = 2, kSweeps = 6;
+// A sweep that changes less than this share of the vertices is the last.
+constexpr double kSettled = 0.01;
+// First sweeps let a change raise the energy by so much: it may open the way to a better shape.
+constexpr float kLoose = 0.3f;
+// What exceeds the tolerance between the samples is halved so often at most.
+constexpr int kHalvings = 16;
+// Shares of the tolerance that hold for changes, and where all is measured closely: what changes let pass
+// between their samples, and the close ones between theirs.
+constexpr double kHeld = 0.98, kMeasured = 0.998;
+// Where halving makes more triangles exceed it, so many times the fewest and some, it is given up.
+constexpr std::size_t kRunaway = 2, kFew = 20;
+// Each time that a budget is not met the tolerance gives way by so much.
+constexpr double kGiveWay = 1.2;
+
+// Passes on the wish to stop, and reports nothing: each batch would begin at 0 again.
+class Quiet : public Progress {
+ public:
+  explicit Quiet(const Progress& outer) : outer_(outer) {}
+  void update(double) override {
+    if (outer_.stopped()) stop();
+  }
+
+ private:
+  const Progress& outer_;
+};
+
+class Remesher {
+ public:
+  Remesher(const FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options, Progress& progress)
+      : field_(field),
+        options_(options),
+        outer_(progress),
+        quiet_(progress),
+        mesh_(mesh),
+        changes_(mesh_, field, kOvershoot * options.tolerance, options.painted, quiet_) {}
+
+  RemeshResult run() {
+    changes_.split();
+    report(0.1);
+    changes_.collapse();
+    report(0.4);
+    for (int i = 0; i < kCycles; ++i) {
+      adjust(kLoose);
+      adjust(0.0f);
+      changes_.collapse();
+    }
+    adjust(0.0f);
+    report(0.7);
+    if (!overBudget()) keepTolerance();
+    if (!overBudget()) halveExceeding();
+    if (!overBudget() && options_.painted) keepColors();
+    if (overBudget()) keepBudget();
+    report(1.0);
+    RemeshResult result{measured_.largest,
+                        measured_.rms,
+                        colors_.largest,
+                        measured_.largest <= options_.tolerance && !quiet_.stopped(),
+                        {}};
+    for (const std::uint32_t t : measured_.exceeding)
+      for (std::uint32_t k = 0; k < 3; ++k) result.exceeding.push_back(mesh_.positions[mesh_.from(t + k)]);
+    return result;
+  }
+  FeatureMesh take() const { return mesh_.compacted(); }
+
+ private:
+  bool overBudget() const {
+    return options_.maxTriangles != 0 && mesh_.liveTriangles() > options_.maxTriangles;
+  }
+
+  void adjust(float loose) {
+    for (int i = 0; i < kSweeps && !quiet_.stopped(); ++i) {
+      const std::size_t changed = changes_.flip(loose) + changes_.relocate(loose);
+      if (static_cast<double>(changed) < kSettled * static_cast<double>(mesh_.liveTriangles())) return;
+    }
+  }
+
+  void measure() {
+    measured_ = measureDensely(mesh_, field_, kMeasured * options_.tolerance, distances_, quiet_);
+  }
+
+  void keepTolerance() {
+    changes_.setTolerance(kHeld * options_.tolerance);
+    adjust(0.0f);
+    changes_.split();
+    for (int i = 0; i < kCleanings; ++i) {
+      // What splitting and adjusting have made superfluous.
+      changes_.collapse(0, RemeshChanges::Care::Strict);
+      adjust(0.0f);
+      changes_.split();
+    }
+  }
+
+  // Splits what exceeds the tolerance anywhere.
+  void halveExceeding() {
+    std::size_t fewest = mesh_.liveTriangles();
+    for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
+      changes_.collapseShortest();
+      measure();
+      if (measured_.exceeding.empty() || measured_.exceeding.size() > kRunaway * fewest) return;
+      fewest = std::min(fewest, measured_.exceeding.size() + kFew);
+      changes_.project(measured_.vertices);
+      changes_.splitTriangles(measured_.exceeding, options_.force);
+    }
+    changes_.collapseShortest();
+    measure();
+  }
+
+  // Splits what blurs the colours, down to a voxel.
+  void keepColors() {
+    for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
+      colors_ = measureColors(mesh_, static_cast<float>(options_.tolerance), field_, paint_, quiet_);
+      if (colors_.exceeding.empty()) break;
+      changes_.splitTriangles(colors_.exceeding, options_.force);
+    }
+    halveExceeding();
+  }
+
+  // Goes on collapsing in the order of the errors, as far as the budget asks.
+  void keepBudget() {
+    for (double by = kOvershoot * kGiveWay; overBudget() && !quiet_.stopped(); by *= kGiveWay) {
+      const std::size_t before = mesh_.liveTriangles();
+      changes_.setTolerance(by * options_.tolerance);
+      changes_.collapse(options_.maxTriangles);
+      adjust(0.0f);
+      if (mesh_.liveTriangles() == before && by > kHopeless) break;
+    }
+    adjust(kLoose);
+    adjust(0.0f);
+    measure();
+  }
+
+  void report(double done) {
+    quiet_.update(done);
+    outer_.update(done);
+  }
+
+  // A tolerance that has given way so far without anything going is not what keeps the triangles.
+  static constexpr double kHopeless = 1e9;
+  const LocalField& field_;
+  const RemeshOptions& options_;
+  Progress& outer_;
+  Quiet quiet_;
+  HalfEdgeMesh mesh_;
+  RemeshChanges changes_;
+  DenseDistances measured_;
+  ColorErrors colors_;
+  std::vector<TriangleDistances> distances_;
+  std::vector<TriangleColors> paint_;
+};
+
+}  // namespace
+
+void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
+                 Progress& progress) {
+  Quiet quiet(progress);
+  HalfEdgeMesh topology(mesh);
+  RemeshChanges(topology, field, kRough * options.tolerance, options.painted, quiet)
+      .collapse(0, RemeshChanges::Care::Rough);
+  mesh = topology.compacted();
+}
+
+RemeshResult remesh(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
+                    Progress& progress) {
+  Remesher remesher(mesh, field, options, progress);
+  const RemeshResult result = remesher.run();
+  mesh = remesher.take();
+  return result;
+}
+
+}  // namespace sdf

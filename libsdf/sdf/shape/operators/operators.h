@@ -1,0 +1,6 @@
+// All operators on shapes.
+#pragma once
+#include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/pattern.h"
+#include "sdf/shape/operators/place.h"

@@ -1,0 +1,64 @@
+// Formulas as shapes.
+#include <cmath>
+
+#include "sdf/shape/calibrate/cells.h"
+#include "sdf/shape/check.h"
+#include "sdf/shape/operand.h"
+#include "sdf/shape/solids/solids.h"
+
+namespace sdf {
+
+namespace {
+
+// How far beyond the bounds the formula is taken as it is, as a share of their longest side: what leaves them
+// is then seen to.
+constexpr double kMargin = 0.5;
+
+// The formula looked up at the nearest point of the box.
+Expr heldWithin(const Expr& formula, const Box& box) {
+  const Vec3E p = position();
+  std::array<Expr, 3> nearest;
+  for (int i = 0; i < 3; ++i) nearest[i] = clamp(component(p, i), box.min[i], box.max[i]);
+  return remap(formula, nearest, 1.0);
+}
+
+double steepest(const Expr& formula, const Box& region) {
+  // Some milliseconds' worth, whatever the size of the graph.
+  const std::size_t mostCells =
+      std::clamp<std::size_t>(10000 / topologicalOrder({&formula, 1}).size(), 1, 500);
+  const auto slopesOf = [&](const Box& box) { return std::vector{heldWithin(formula, box).lipschitz()}; };
+  double most = 0.0;
+  for (const Cell& cell : refined(region, sizeOf(region), mostCells, slopesOf))
+    most = std::max(most, cell.worst());
+  return most;
+}
+
+// The formula where it is asked for near its bounds, which alone has a slope: elsewhere it is looked up at
+// the nearest point of them, and is no less than the way there. A point of a box moves no more than the one
+// that it is nearest to.
+Expr nearBounds(const Expr& formula, const Box& bounds) {
+  const Box near = bounds.grown(kMargin * bounds.longestSide());
+  const double slope = steepest(formula, near);
+  if (slope == kInfinity) return formula;
+  return max(heldWithin(formula, near).claimLipschitz(slope), *outsideBox(near));
+}
+
+}  // namespace
+
+Shape field(const Expr& distance, const Box& bounds, double lipschitz) {
+  Check c("field");
+  c.that(lipschitz > 0.0, "lipschitz must be positive, got " + shown(lipschitz));
+  for (const Expr& e : topologicalOrder({&distance, 1}))
+    c.that(e.op() != Op::Variable || e.variableIndex() <= Variable::Z,
+           "distance must not depend on the normal");
+  c.that(!bounds.empty(), "bounds must not be empty");
+  if (!c.ok()) return c.failure();
+  Shape s;
+  s.distance = distance.claimLipschitz(lipschitz);
+  if (s.distance.lipschitz() == kInfinity && bounds.finite()) s.distance = nearBounds(distance, bounds);
+  s.bounds = bounds;
+  s.claim = {ClaimKind::Field, s.distance.lipschitz()};
+  return s;
+}
+
+}  // namespace sdf

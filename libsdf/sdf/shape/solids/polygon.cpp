@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <vector>
+
+#include "sdf/shape/check.h"
+#include "sdf/shape/formula.h"
+#include "sdf/shape/solids/flats.h"
+
+namespace sdf {
+
+namespace {
+
+using Points = std::vector<glm::dvec2>;
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+// Twice the signed area of a, b, c: positive where they turn left.
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) { return cross(b - a, c - a); }
+
+bool between(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
+  return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+         p.y <= std::max(a.y, b.y);
+}
+
+bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
+  const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
+  const auto opposite = [](double u, double v) { return (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0); };
+  return (opposite(abc, abd) && opposite(cda, cdb)) || (abc == 0.0 && between(a, b, c)) ||
+         (abd == 0.0 && between(a, b, d)) || (cda == 0.0 && between(c, d, a)) ||
+         (cdb == 0.0 && between(c, d, b));
+}
+
+// Does the edge into `corner` come straight back out of it?
+bool foldsBack(const glm::dvec2& before, const glm::dvec2& corner, const glm::dvec2& after) {
+  const glm::dvec2 in = corner - before, out = after - corner;
+  return cross(in, out) == 0.0 && in.x * out.x + in.y * out.y < 0.0;
+}
+
+std::string pointName(std::size_t i) { return std::to_string(i + 1); }
+
+void checkEdges(const Points& points, Check& c) {
+  const std::size_t n = points.size();
+  const auto at = [&](std::size_t i) { return points[i % n]; };
+  for (std::size_t i = 0; i < n && c.ok(); ++i)
+    c.that(at(i) != at(i + 1), "points " + pointName(i) + " and " + pointName((i + 1) % n) + " are the same");
+  for (std::size_t i = 0; i < n && c.ok(); ++i)
+    c.that(!foldsBack(at(i), at(i + 1), at(i + 2)),
+           "the edges at point " + pointName((i + 1) % n) + " lie on each other");
+  for (std::size_t i = 0; i < n && c.ok(); ++i)
+    for (std::size_t j = i + 2; j < n && c.ok(); ++j)
+      if (j + 1 - i != n && touch(at(i), at(i + 1), at(j), at(j + 1)))
+        c.that(false, "edges " + pointName(i) + " and " + pointName(j) + " touch or cross");
+}
+
+// Counter-clockwise.
+Points oriented(Points points) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    area += cross(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
+  if (area < 0.0) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+bool isConvex(const Points& p) {
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (turn(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) < 0.0) return false;
+  return true;
+}
+
+// One edge, counter-clockwise.
+struct Side {
+  Expr out;   // distance from its line, to its right
+  Expr past;  // along it, past its ends
+  glm::dvec2 along;
+};
+
+Side sideOf(const glm::dvec2& from, const glm::dvec2& to) {
+  const double size = std::hypot(to.x - from.x, to.y - from.y);
+  const glm::dvec2 e = (to - from) / size;
+  const Expr x = position().x - from.x, y = position().y - from.y;
+  const Expr out = (scaled(x, e.y) - scaled(y, e.x)).claimLipschitz(1.0);
+  const Expr along = (scaled(x, e.x) + scaled(y, e.y)).claimLipschitz(1.0);
+  return {out, beyond(along, size), e};
+}
+
+Expr convexDistance(const std::vector<Side>& sides) {
+  std::optional<Expr> most;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side &a = sides[i], &b = sides[(i + 1) % sides.size()];
+    const double sine = cross(a.along, b.along);
+    if (sine == 0.0) continue;  // one straight line
+    const Expr corner = cornerDistance(a.out, b.out, glm::dot(a.along, b.along), sine);
+    most = most ? max(*most, corner) : corner;
+  }
+  return *most;
+}
+
+// Any simple polygon: the sign from the winding number (Sunday 2001), 1 inside and 0 outside.
+Expr windingDistance(const std::vector<Side>& sides, const Points& points) {
+  const Expr y = position().y;
+  const auto distanceTo = [&](std::size_t i) { return segmentDistance(sides[i].out, sides[i].past); };
+  Expr distance = distanceTo(0), winding = 0.0;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    distance = min(distance, distanceTo(i));
+    const glm::dvec2 &a = points[i], &b = points[(i + 1) % points.size()];
+    if (a.y == b.y) continue;
+    const Expr above = lessEqual(a.y, y) - lessEqual(b.y, y);  // 1 where the edge passes the point upwards
+    winding = winding + above * (a.y < b.y ? less(sides[i].out, 0.0) : less(0.0, sides[i].out));
+  }
+  // On an edge the winding number may be either; the gradient of `distance` points out of it.
+  return select(min(winding, less(0.0, distance)), -distance, distance);
+}
+
+}  // namespace
+
+Shape polygon(std::span<const glm::dvec2> given) {
+  Check c("polygon");
+  Points points(given.begin(), given.end());
+  if (points.size() > 1 && points.front() == points.back()) points.pop_back();
+  c.that(points.size() >= 3, "at least 3 points are needed, got " + std::to_string(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    c.that(std::isfinite(points[i].x) && std::isfinite(points[i].y),
+           "point " + pointName(i) + " must be finite, got {" + shown(points[i].x) + ", " +
+               shown(points[i].y) + "}");
+  if (c.ok()) checkEdges(points, c);
+  if (!c.ok()) return c.failure();
+
+  points = oriented(std::move(points));
+  std::vector<Side> sides;
+  glm::dvec2 lo = points[0], hi = points[0];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sides.push_back(sideOf(points[i], points[(i + 1) % points.size()]));
+    lo = glm::min(lo, points[i]), hi = glm::max(hi, points[i]);
+  }
+  return flat(isConvex(points) ? convexDistance(sides) : windingDistance(sides, points), lo, hi);
+}
+
+}  // namespace sdf

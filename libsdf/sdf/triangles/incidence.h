@@ -1,0 +1,32 @@
+// The triangles around the vertices of a mesh.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sdf {
+
+/// For each vertex the triangles that have it as a corner, by their numbers, ascending. Cost: linear.
+class Incidence {
+ public:
+  Incidence(const std::vector<glm::uvec3>& triangles, std::size_t vertices);
+  std::span<const std::uint32_t> of(std::size_t v) const {
+    return {list_.data() + first_[v], list_.data() + first_[v + 1]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_, list_;
+};
+
+/// By vertex, the least vertex that triangles connect it with; one that no triangle has is alone. Cost: about
+/// linear.
+std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, std::size_t vertices);
+
+/// A vertex on an edge that has more triangles one way than the other; none where the triangles are closed.
+/// Cost: linear, times the triangles around a vertex.
+std::optional<std::uint32_t> openVertex(const std::vector<glm::uvec3>& triangles, std::size_t vertices);
+
+}  // namespace sdf

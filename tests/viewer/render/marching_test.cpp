@@ -1,0 +1,242 @@
+// Rays where marching is hard: along surfaces, past thin things, and far from the origin.
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+#include "sdf/shape/operators/booleans.h"
+#include "viewer/reference/cpu_uniform.h"
+#include "viewer/render/gpu_render.h"
+#include "viewer/render/psnr.h"
+#include "viewer/render/truth.h"
+
+namespace sdf::test {
+namespace {
+
+using viewer::Method;
+using viewer::View;
+
+constexpr Method kMethods[] = {Method::AutoRelaxed, Method::Plain};
+const glm::dvec3 kPaint(1.0, 0.5, 0.0);  // nothing else has this colour
+
+Material painted() { return {.color = Vec3E(kPaint)}; }
+
+GpuRenderOptions materials(Method method, int width = 320, int height = 180) {
+  GpuRenderOptions options;
+  options.width = width;
+  options.height = height;
+  options.shader.view = View::Material;
+  options.shader.method = method;
+  // At an angle of a, a plain step leaves 1 - sin(a) of the distance.
+  if (method == Method::Plain) options.maxSteps = 5000;
+  return options;
+}
+
+bool isHit(const glm::vec4& pixel) { return farthest(glm::dvec3(pixel), kPaint) < 0x1p-10; }
+
+// A unit above the ground, looking one degree down, so that the horizon lies above the picture's middle.
+Scene overTheGround(Shape ground) {
+  Scene scene = darkScene();
+  const double down = glm::radians(1.0);
+  scene.add("", std::move(ground).paint(painted()));
+  scene.camera.from = Vec3E(0.0, 1.0, 0.0);
+  scene.camera.to = Vec3E(0.0, 1.0 - std::sin(down), -std::cos(down));
+  scene.maxDistance = 1000.0;
+  return scene;
+}
+
+class Grazing : public testing::TestWithParam<Method> {
+ protected:
+  // Counts the pixels whose rays meet the ground within reach and show sky, and those that ran out of steps.
+  static void expectNoHoles(const Scene& scene, double reach, const GpuRenderOptions& options) {
+    const auto picture = renderOnGpu(scene, options);
+    const glm::dvec3 from = uniform(scene.camera.eye()), forward = uniform(scene.camera.to) - from;
+    const glm::dvec3 right(1.0, 0.0, 0.0), up = glm::cross(right, forward);
+    int onGround = 0, holes = 0, spent = 0;
+    for (int row = 0; row < options.height; ++row)
+      for (int column = 0; column < options.width; ++column) {
+        const double u = (column + 0.5 - 0.5 * options.width) / options.height;
+        const double v = (0.5 * options.height - row - 0.5) / options.height;
+        const glm::dvec3 d = glm::normalize(u * right + v * up + forward);
+        if (d.y >= 0.0 || 1.0 / -d.y > reach) continue;
+        const glm::vec4 pixel = picture[static_cast<std::size_t>(row) * options.width + column];
+        ++onGround;
+        holes += !isHit(pixel);
+        spent += pixel.a == 0.0f;
+      }
+    EXPECT_GT(onGround, options.width * options.height / 3);
+    EXPECT_EQ(holes, 0);
+    EXPECT_EQ(spent, 0);
+  }
+};
+
+TEST_P(Grazing, APlaneHasNoHolesUpToTheHorizon) {
+  expectNoHoles(overTheGround(plane(Vec3E(0.0, 1.0, 0.0), 0.0)), 999.0, materials(GetParam()));
+}
+
+// The same ground as the top of a box, which rays have to march to.
+TEST_P(Grazing, ABoxHasNoHolesUpToItsEdge) {
+  expectNoHoles(overTheGround(translate(box(Vec3E(2000.0, 1.0, 2000.0)), Vec3E(0.0, -1.0, 0.0))), 999.0,
+                materials(GetParam()));
+}
+
+// Thinner than a hundredth of a pixel, so nothing but the plate's own distance can stop a ray.
+TEST_P(Grazing, AThinPlateHasNoHolesAtAnyAngle) {
+  for (const double degrees : {0.0, 45.0, 80.0, 89.0}) {
+    const double angle = glm::radians(degrees);
+    Scene scene = darkScene();
+    scene.add("", rotate(box(Vec3E(1.0, 1.0, 1e-4)), Vec3E(0.0, angle, 0.0)).paint(painted()));
+    const auto options = materials(GetParam(), kWidth, kHeight);
+    const auto picture = renderOnGpu(scene, options);
+    int inside = 0, holes = 0;
+    const glm::dvec3 across(std::cos(angle), 0.0, -std::sin(angle)), n(std::sin(angle), 0.0, std::cos(angle));
+    for (int row = 0; row < kHeight; ++row)
+      for (int column = 0; column < kWidth; ++column) {
+        const glm::dvec3 d = rayThrough(column, row), q = kEye - glm::dot(kEye, n) / glm::dot(d, n) * d;
+        if (std::abs(glm::dot(q, across)) > 0.99 || std::abs(q.y) > 0.99) continue;
+        ++inside;
+        holes += !isHit(picture[static_cast<std::size_t>(row) * kWidth + column]);
+      }
+    EXPECT_GT(inside, 0) << degrees;
+    EXPECT_EQ(holes, 0) << degrees << " degrees";
+  }
+}
+
+// Near its bounds |p|^2 - 1 is at most some eight times as steep as a distance, but steeper the farther away.
+TEST_P(Grazing, ABallOfUnknownSlopeIsNotPassedFromAnyDistance) {
+  const Vec3E p = position();
+  for (const double away : {2.0, 5.0, 8.8, 40.0}) {
+    const auto pictureOf = [&](const Shape& ball) {
+      Scene scene = darkScene();
+      scene.add("", ball.paint(painted()));
+      scene.camera.from = Vec3E(0.0, 0.0, away);
+      scene.camera.to = Vec3E(0.0);
+      scene.camera.fov = 2.0 * glm::degrees(std::atan(1.5 / away));
+      return renderOnGpu(scene, materials(GetParam(), kWidth, kHeight));
+    };
+    const auto field = pictureOf(sdf::field(dot(p, p) - 1.0, Box{glm::dvec3(-1.1), glm::dvec3(1.1)}));
+    const auto exact = pictureOf(sphere(1.0));
+    int apart = 0, hits = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      apart += isHit(field[i]) != isHit(exact[i]);
+      hits += isHit(exact[i]);
+    }
+    // A hit is within a quarter of the pixel's cone by f / L, which is up to four times as far: a pixel's
+    // rim.
+    const double rim = 2.0 * std::sqrt(std::numbers::pi * hits);
+    EXPECT_GT(hits, 0);
+    EXPECT_LE(apart, rim) << away << " away";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Grazing, testing::ValuesIn(kMethods), [](const auto& info) {
+  return info.param == Method::Plain ? "plain" : "autoRelaxed";
+});
+
+// A fan of wires, each a third of a pixel across.
+Scene wires() {
+  Scene scene = darkScene();
+  std::vector<Shape> all;
+  for (int i = 0; i < 12; ++i)
+    all.push_back(rotate(capsule(Vec3E(-2.0, 0.0, 0.0), Vec3E(2.0, 0.0, 0.0), 0.01),
+                         Vec3E(0.0, 0.1 * i, 0.26 * i + 0.05)));
+  scene.add("", unite(all).paint(painted()));
+  return scene;
+}
+
+// Tiles start where their whole cone is free: what a plain ray hits from the eye, a ray from its tile's start
+// hits, too. Rounding decides whether a ray along a wire's rim hits it, hence the neighbours. A wire is 0.3
+// pixels wide, and 110 pixels long or cut off at the picture's edge.
+TEST(Cones, SkipNothing) {
+  const Scene scene = wires();
+  const auto cones = renderOnGpu(scene, materials(Method::AutoRelaxed, kWidth, kHeight));
+  const auto plain = renderOnGpu(scene, materials(Method::Plain, kWidth, kHeight));
+  const auto near = [&](const std::vector<glm::vec4>& picture, int column, int row) {
+    for (int j = std::max(0, row - 1); j <= std::min(kHeight - 1, row + 1); ++j)
+      for (int i = std::max(0, column - 1); i <= std::min(kWidth - 1, column + 1); ++i)
+        if (isHit(picture[static_cast<std::size_t>(j) * kWidth + i])) return true;
+    return false;
+  };
+  int hits = 0, apart = 0;
+  for (int row = 0; row < kHeight; ++row)
+    for (int column = 0; column < kWidth; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * kWidth + column;
+      hits += isHit(plain[i]);
+      apart += isHit(plain[i]) != isHit(cones[i]);
+      EXPECT_TRUE(!isHit(plain[i]) || near(cones, column, row)) << column << ", " << row;
+      EXPECT_TRUE(!isHit(cones[i]) || near(plain, column, row)) << column << ", " << row;
+    }
+  EXPECT_GT(hits, 150);
+  EXPECT_LE(apart, hits / 50);
+}
+
+Scene threeBalls(const glm::dvec3& where) {
+  Scene scene = darkScene();
+  scene.ambient = Vec3E(0.2);
+  scene.lights = {sunTowards({1.0, 2.0, 1.5})};
+  scene.shadow = {.kind = Shadow::Kind::Hard, .steps = 500};
+  const glm::dvec3 colors[] = {{0.9, 0.2, 0.1}, {0.2, 0.8, 0.3}, {0.2, 0.3, 0.9}};
+  for (int i = 0; i < 3; ++i)
+    scene.add("", ball(where + glm::dvec3(1.5 * (i - 1), 0.3 * i, 0.5 * i), 1.0,
+                       {.color = Vec3E(colors[i]), .specular = Vec3E(0.5)}));
+  return scene;
+}
+
+double againstTheCpu(const Scene& scene) {
+  GpuRenderOptions options;
+  options.width = kWidth;
+  options.height = kHeight;
+  options.threshold = 0.0;
+  options.epsilon = 1e-4;
+  CpuRenderOptions onCpu;
+  onCpu.width = kWidth;
+  onCpu.height = kHeight;
+  onCpu.march.epsilon = 1e-4;
+  return psnr(colors(renderOnGpu(scene, options)), encode(renderOnCpu(scene, onCpu).color, scene.gamma));
+}
+
+// The eye sees the balls under the same angle from everywhere. Rays begin beside the scene, so that what
+// rounding leaves does not grow with the distance: invisible, but at the edges of balls and shadows, of
+// which less than one pixel in ten thousand may go the other way.
+TEST(FarAway, AnEyeSeesTheSceneAsWellAsFromNearby) {
+  constexpr double kBar = 50.0;
+  for (const double away : {1e2, 1e3, 1e4, 1e5}) {
+    Scene scene = threeBalls(glm::dvec3(0.0));
+    scene.camera.from = Vec3E(away * glm::normalize(glm::dvec3(0.3, 0.4, 1.0)));
+    scene.camera.fov = 2.0 * glm::degrees(std::atan(3.0 / away));
+    scene.maxDistance = 2.0 * away;
+    EXPECT_GE(againstTheCpu(scene), kBar) << away << " away";
+  }
+}
+
+// Positions are floats: at 10^4 they are rounded to 2^-11, a hundredth of a pixel here, which moves the edges
+// by as much: as if a hundredth of the edges' pixels, a twentieth of all, went the other way.
+TEST(FarAway, ASceneIsDrawnFarFromTheOrigin) {
+  constexpr double kOff = 1e4;
+  const double pixel = 7.0 / kHeight, moved = 0x1p-11 / pixel, edges = 0.05;
+  Scene scene = threeBalls({kOff, 0.0, -kOff});
+  scene.camera.from = Vec3E(kOff, 2.0, 7.0 - kOff);
+  scene.camera.to = Vec3E(kOff, 0.0, -kOff);
+  EXPECT_GE(againstTheCpu(scene), -10.0 * std::log10(moved * edges));
+}
+
+// Far away the sum of exponentials is 0, and the distance infinite.
+TEST(FarEnd, IsNotSeenWhereTheDistanceOverflows) {
+  const auto far = [](double x) { return length(position() - Vec3E(Expr(x), Expr(0.0), Expr(0.0))) - 1.0; };
+  Shape blend = sphere(2.0).paint(painted());
+  blend.distance = (-0.1 * log(exp(-10.0 * far(-0.6)) + exp(-10.0 * far(0.6)))).claimLipschitz(1.0);
+  blend.claim = {.kind = ClaimKind::Field, .lipschitz = 1.0};
+  for (const bool bounded : {false, true}) {
+    Scene scene = darkScene();
+    blend.bounds = bounded ? Box::centred(glm::dvec3(2.0)) : Box::everything();
+    scene.add("", blend);
+    const auto hits = [&](Method method) {
+      const auto picture = renderOnGpu(scene, materials(method));
+      return static_cast<double>(std::count_if(picture.begin(), picture.end(), isHit));
+    };
+    EXPECT_GT(hits(Method::Plain), 1000.0);
+    EXPECT_NEAR(hits(Method::AutoRelaxed), hits(Method::Plain), 0.01 * hits(Method::Plain)) << "edges";
+  }
+}
+
+}  // namespace
+}  // namespace sdf::test
