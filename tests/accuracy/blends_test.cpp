@@ -15,7 +15,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
-namespace {
+namespace blends_test {
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kPoints = 5'000;
@@ -252,5 +252,5 @@ TEST(SmoothUnion, OfThreeExponentialsMixesColoursByTheWeightsOfTheGradient) {
 INSTANTIATE_TEST_SUITE_P(Every, SmoothBooleans, ::testing::Range(0, static_cast<int>(kSmooths.size())),
                          [](const auto& info) { return std::string(kSmooths[info.param].name); });
 
-}  // namespace
+}  // namespace blends_test
 }  // namespace sdf::accuracy

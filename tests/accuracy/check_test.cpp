@@ -7,7 +7,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
-namespace {
+namespace check_test {
 
 constexpr std::uint64_t kPoints = 4096;
 constexpr unsigned kSeed = 7;
@@ -65,5 +65,5 @@ TEST(Check, RefutesASlopeAboveTheClaim) {
   EXPECT_GT(check(boxCase(s), kPoints, kSeed).refuted, 0u);
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace sdf::accuracy

@@ -22,7 +22,7 @@ namespace sdf::accuracy {
 
 static void PrintTo(const NamedPart& p, std::ostream* out) { *out << p.name; }
 
-namespace {
+namespace deformed_offsets_test {
 
 // Of some hundred operations on numbers of about 1.
 constexpr double kRounding = 1e-9;
@@ -338,5 +338,5 @@ INSTANTIATE_TEST_SUITE_P(Every, DeformedOffsets, ::testing::ValuesIn(allGiven())
   return info.param.deformation.name + "_of_" + info.param.part.name;
 });
 
-}  // namespace
+}  // namespace deformed_offsets_test
 }  // namespace sdf::accuracy

@@ -13,7 +13,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
-namespace {
+namespace meshes_test {
 
 constexpr unsigned kSeed = 3;
 // What distances to a solid written by hand are good for.
@@ -169,5 +169,5 @@ TEST(MeshRow, IsRefutedBeyondWhatIsProven) {
   EXPECT_FALSE(row.refuted());
 }
 
-}  // namespace
+}  // namespace meshes_test
 }  // namespace sdf::accuracy

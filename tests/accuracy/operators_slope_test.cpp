@@ -14,9 +14,7 @@
 
 namespace sdf::accuracy {
 
-static void PrintTo(const OperatorCases& c, std::ostream* out) { *out << c.entry; }
-
-namespace {
+namespace operators_slope_test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kSegments = 250;
@@ -184,5 +182,5 @@ TEST(WarpSlope, HoldsForWarpsOfWarps) {
        only("elongated, mirrored", mirror(elongate(slow(), Vec3E(0.2, 0.3, 0.0)), Vec3E(1.0, 1.0, 0.0)))});
 }
 
-}  // namespace
+}  // namespace operators_slope_test
 }  // namespace sdf::accuracy

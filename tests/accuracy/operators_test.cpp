@@ -6,9 +6,7 @@
 
 namespace sdf::accuracy {
 
-static void PrintTo(const OperatorCases& c, std::ostream* out) { *out << c.entry; }
-
-namespace {
+namespace operators_test {
 
 bool isOperator(const CatalogEntry& e) { return e.group != Group::Solid && e.group != Group::Flat; }
 
@@ -43,5 +41,5 @@ TEST_P(Operator, KeepsItsClaimAgainstTheSameOperationOnMeshes) {
 INSTANTIATE_TEST_SUITE_P(Catalog, Operator, testing::ValuesIn(operatorCases()),
                          [](const auto& info) { return info.param.entry; });
 
-}  // namespace
+}  // namespace operators_test
 }  // namespace sdf::accuracy

@@ -16,7 +16,7 @@ namespace sdf::accuracy {
 
 static void PrintTo(const PrimitiveCases& c, std::ostream* out) { *out << c.entry; }
 
-namespace {
+namespace primitives_test {
 
 // Sanitizers make each point and each mesh some twenty times as dear, and look for other mistakes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -61,5 +61,5 @@ TEST(Report, HasARowForEveryEntryAndNothingRefuted) {
   EXPECT_EQ(page.str().find("refuted**"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace primitives_test
 }  // namespace sdf::accuracy

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 namespace sdf::accuracy {
-namespace {
+namespace reference_test {
 
 TriangleMesh cube(const glm::dvec3& centre, double half) {
   TriangleMesh mesh;
@@ -45,5 +45,5 @@ TEST(Corefine, CutsAndJoinsCubes) {
   EXPECT_EQ(less.signedDistance({0.5, 0.5, 0.5}), 0.5);
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace sdf::accuracy

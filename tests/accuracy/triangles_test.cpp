@@ -6,7 +6,7 @@
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
-namespace {
+namespace triangles_test {
 
 double ulpOf(double v) { return std::nextafter(v, HUGE_VAL) - v; }
 
@@ -57,5 +57,5 @@ TEST(TriangleAccuracy, OfSliversIsWithinFourUlpOfCgals) {
   EXPECT_LE(worstUlps(closed(needles), 300, 5), 4.0);
 }
 
-}  // namespace
+}  // namespace triangles_test
 }  // namespace sdf::test

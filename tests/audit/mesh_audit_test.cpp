@@ -14,7 +14,7 @@
 #include "support/mesh_audit.h"
 
 namespace sdf::test {
-namespace {
+namespace mesh_audit_test {
 
 /// What is meshed: a measuring shape, or the parts of a sample.
 struct Subject {
@@ -113,5 +113,5 @@ INSTANTIATE_TEST_SUITE_P(Samples, MeshAuditTest,
                                          Subject{"sunflower", 30}, Subject{"twisted_tower", 60}),
                          nameOf);
 
-}  // namespace
+}  // namespace mesh_audit_test
 }  // namespace sdf::test

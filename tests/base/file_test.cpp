@@ -13,7 +13,7 @@
 #include "support/folder.h"
 
 namespace sdf {
-namespace {
+namespace file_test {
 
 Status text(std::ostream& out, const std::string& what) {
   out << what;
@@ -206,5 +206,5 @@ TEST(AbandonedWrites, LeaveLaterOnesAlone) {
   EXPECT_EQ(contents(folder / "a"), "text");
 }
 
-}  // namespace
+}  // namespace file_test
 }  // namespace sdf

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 namespace sdf {
-namespace {
+namespace flat_map_test {
 
 TEST(FlatMap, HoldsWhatAStandardMapHolds) {
   FlatMap<int> map;
@@ -30,5 +30,5 @@ TEST(FlatMap, FindsAddressesAgain) {
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(map.at(&numbers[i]), i);
 }
 
-}  // namespace
+}  // namespace flat_map_test
 }  // namespace sdf

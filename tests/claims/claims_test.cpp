@@ -9,7 +9,7 @@
 #include "script/run.h"
 
 namespace sdf::test {
-namespace {
+namespace claims_test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kScenes = 50;
@@ -155,5 +155,5 @@ TEST(RandomTrees, UseEveryEntryAndMostlyClaimSomething) {
   for (const CatalogEntry& e : catalog()) EXPECT_GT(uses[e.name], 0) << e.name;
 }
 
-}  // namespace
+}  // namespace claims_test
 }  // namespace sdf::test

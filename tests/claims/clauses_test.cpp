@@ -6,7 +6,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf::test {
-namespace {
+namespace clauses_test {
 
 constexpr double kRadius = 0.7351;
 
@@ -120,5 +120,5 @@ TEST(FloatRange, HoldsBothSidesOfAKink) {
   EXPECT_FALSE(slopes[1].contains(1.0));
 }
 
-}  // namespace
+}  // namespace clauses_test
 }  // namespace sdf::test

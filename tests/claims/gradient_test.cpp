@@ -11,7 +11,7 @@
 #include "shape/cases.h"
 
 namespace sdf::test {
-namespace {
+namespace gradient_test {
 
 constexpr int kPoints = 400;
 
@@ -67,5 +67,5 @@ TEST(GradientOf, IsZeroWhereTheExpressionIsConstant) {
   }
 }
 
-}  // namespace
+}  // namespace gradient_test
 }  // namespace sdf::test

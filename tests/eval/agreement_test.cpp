@@ -21,7 +21,7 @@
 #include "support/operations.h"
 
 namespace sdf {
-namespace {
+namespace agreement_test {
 
 using test::arguments;
 using test::graphOperations;
@@ -287,5 +287,5 @@ TEST(AgreementCases, CoverTheWholeOperationList) {
   }
 }
 
-}  // namespace
+}  // namespace agreement_test
 }  // namespace sdf

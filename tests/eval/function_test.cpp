@@ -11,7 +11,7 @@
 #include "support/bind.h"
 
 namespace sdf {
-namespace {
+namespace function_test {
 
 const Expr kX = position().x, kY = position().y, kZ = position().z;
 
@@ -95,5 +95,5 @@ TEST(Tape, AClaimServesThoseAloneWhoUseIt) {
       << "a claim costs nothing";
 }
 
-}  // namespace
+}  // namespace function_test
 }  // namespace sdf

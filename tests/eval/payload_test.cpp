@@ -13,7 +13,7 @@
 #include "support/payloads.h"
 
 namespace sdf::test {
-namespace {
+namespace payload_test {
 
 const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
            kZ = Expr::variable(Variable::Z);
@@ -229,5 +229,5 @@ TEST(PayloadNumbers, ThatAreNoneStayNone) {
   EXPECT_EQ(evaluateAll(tape, {0.0, kInfinity, 0.0})[1], kInfinity);
 }
 
-}  // namespace
+}  // namespace payload_test
 }  // namespace sdf::test

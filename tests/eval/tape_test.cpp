@@ -11,7 +11,7 @@
 #include "sdf/expr/vec.h"
 
 namespace sdf {
-namespace {
+namespace tape_test {
 
 Expr sphere(const glm::dvec3& centre, double radius) {
   return length(position() - Vec3E(centre)).claimLipschitz(1.0) - radius;
@@ -247,5 +247,5 @@ TEST(Batch, AnyCountOfPointsIsCutIntoPasses) {
   }
 }
 
-}  // namespace
+}  // namespace tape_test
 }  // namespace sdf

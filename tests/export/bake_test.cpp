@@ -18,7 +18,7 @@
 #include "viewer/reference/cpu_render.h"
 
 namespace sdf {
-namespace {
+namespace bake_test {
 
 using glm::vec3;
 
@@ -315,5 +315,5 @@ TEST(Bake, StopsWhenTold) {
   EXPECT_EQ(status.error().kind, ErrorKind::Interrupted);
 }
 
-}  // namespace
+}  // namespace bake_test
 }  // namespace sdf

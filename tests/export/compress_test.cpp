@@ -17,7 +17,7 @@
 #include "sdf/meshfile/meshopt.h"
 
 namespace sdf {
-namespace {
+namespace compress_test {
 
 /// Half a cell's diagonal where cells have a side of 1.
 const double kHalfDiagonal = std::sqrt(3.0) / 2.0;
@@ -344,5 +344,5 @@ TEST(Compress, NormalsOfAllDirectionsKeepTheirPromise) {
   EXPECT_LE(kNormalError * 180.0 / std::numbers::pi, 0.062);
 }
 
-}  // namespace
+}  // namespace compress_test
 }  // namespace sdf

@@ -10,7 +10,7 @@
 #include "support/folder.h"
 
 namespace sdf {
-namespace {
+namespace export_test {
 
 TEST(CheckExtension, TakesEveryFormatInAnyCase) {
   for (const char* name : {"a.glb", "a.gltf", "a.stl", "a.ply", "a.obj", "A.GLB", "b.Stl", "dir.x/a.b.obj"}) {
@@ -99,5 +99,5 @@ TEST(Combined, WeighsTheRmsByTriangles) {
   EXPECT_EQ(combined({a, b}).rmsDistance, 1.0);  // sqrt((3 * 0 + 1 * 4) / 4)
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace sdf

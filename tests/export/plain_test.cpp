@@ -11,7 +11,7 @@
 #include "support/folder.h"
 
 namespace sdf {
-namespace {
+namespace plain_test {
 
 using Loaded = OpenMesh::TriMesh_ArrayKernelT<>;
 
@@ -115,5 +115,5 @@ TEST(PlainFormats, ComeWithoutChatter) {
   }
 }
 
-}  // namespace
+}  // namespace plain_test
 }  // namespace sdf

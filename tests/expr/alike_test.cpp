@@ -7,7 +7,7 @@
 #include "sdf/expr/vec.h"
 
 namespace sdf::test {
-namespace {
+namespace alike_test {
 
 using Lists = std::vector<std::vector<Expr>>;
 
@@ -88,5 +88,5 @@ TEST(Alike, CountsOperationsOnce) {
   EXPECT_EQ(operationsOf(std::vector{x, Expr(1.0)}), 0u);
 }
 
-}  // namespace
+}  // namespace alike_test
 }  // namespace sdf::test

@@ -17,7 +17,7 @@ namespace sdf {
 Expr mulAdd(const Expr& a, const Expr& b, const Expr& c) { return mul(a, b) + c; }
 Expr squareAdd(const Expr& a, const Expr& c) { return square(a) + c; }
 
-namespace {
+namespace expr_test {
 
 const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
            kZ = Expr::variable(Variable::Z);
@@ -248,5 +248,5 @@ TEST(Expr, MixAndClampMeanWhatTheySay) {
   EXPECT_EQ(evaluateGraph(clamp(kX, 0.0, 1.0), -3.0), 0.0);
 }
 
-}  // namespace
+}  // namespace expr_test
 }  // namespace sdf

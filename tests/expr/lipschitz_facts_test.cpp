@@ -12,7 +12,7 @@
 #include "sdf/expr/vec.h"
 
 namespace sdf {
-namespace {
+namespace lipschitz_facts_test {
 
 /// An expression that can be taken apart. Leaves: a constant (variable < 0) or a coordinate.
 struct Tree {
@@ -259,5 +259,5 @@ TEST(Stretch, BoundsWhatMapsWithoutOneDerivativeDo) {
   EXPECT_EQ(stretchOf({square(kX), kY, kZ}), kInf);
 }
 
-}  // namespace
+}  // namespace lipschitz_facts_test
 }  // namespace sdf

@@ -15,7 +15,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace motion_test {
 
 /// A shape's distance and attributes.
 std::vector<Expr> graphs(const Shape& shape) {
@@ -159,5 +159,5 @@ TEST(MotionBetween, HoldsForSceneFilesAtTwoTimes) {
   }
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace sdf

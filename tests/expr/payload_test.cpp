@@ -13,7 +13,7 @@
 #include "support/payloads.h"
 
 namespace sdf {
-namespace {
+namespace payload_test {
 
 using test::coordinates;
 
@@ -182,5 +182,5 @@ TEST(PayloadLife, EndsWithTheLastNode) {
   EXPECT_TRUE(inner.expired());
 }
 
-}  // namespace
+}  // namespace payload_test
 }  // namespace sdf

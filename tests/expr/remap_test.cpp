@@ -9,7 +9,7 @@
 #include "sdf/expr/vec.h"
 
 namespace sdf {
-namespace {
+namespace remap_test {
 
 const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
            kZ = Expr::variable(Variable::Z);
@@ -119,5 +119,5 @@ TEST(Facts, LengthsAreNeverSaidToBeNaN) {
   EXPECT_GE(length(position()).range().lo, 0.0);
 }
 
-}  // namespace
+}  // namespace remap_test
 }  // namespace sdf

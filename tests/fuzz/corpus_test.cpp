@@ -14,7 +14,7 @@
 #include "support/folder.h"
 
 namespace sdf::fuzz {
-namespace {
+namespace corpus_test {
 
 const std::filesystem::path kFolder = std::filesystem::path(SDF_SOURCE_DIR) / "tests/fuzz";
 
@@ -73,5 +73,5 @@ TEST(Dictionary, HasEveryNameOfTheSceneLanguage) {
   EXPECT_EQ(missing, "") << "add these lines to tests/fuzz/script.dict";
 }
 
-}  // namespace
+}  // namespace corpus_test
 }  // namespace sdf::fuzz

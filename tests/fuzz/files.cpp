@@ -15,8 +15,6 @@ constexpr std::size_t kMostBytes = 1 << 14;
 // Nothing lies in that folder.
 constexpr const char* kFolder = "/no/such/folder/";
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); }
-
 void checkError(const std::filesystem::path& file, const Error& error) {
   const auto fault = [&](const char* what) { find(std::string(what) + ": '" + error.message + "'"); };
   if (error.kind != ErrorKind::Files && error.kind != ErrorKind::Limits) fault("an error of another kind");

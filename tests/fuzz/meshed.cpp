@@ -14,6 +14,7 @@
 #include "fuzz/bytes.h"
 #include "fuzz/shapes.h"
 #include "fuzz/targets.h"
+#include "sdf/export/plain.h"
 #include "sdf/gltf/gltf.h"
 #include "sdf/mesh/mesher.h"
 
@@ -59,8 +60,6 @@ Topology topologyOf(const Mesh& mesh) {
                                static_cast<std::ptrdiff_t>(mesh.triangles.size());
   return result;
 }
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void checkVertices(const Mesh& mesh, const Box& within) {
   if (mesh.normals.size() != mesh.positions.size() || mesh.colors.size() != mesh.positions.size() ||

@@ -2,7 +2,9 @@
 // printed, and the process aborts. The fuzzer (libfuzzer/entry.cpp) and the test over the kept corpus
 // (corpus_test.cpp) call the same.
 #pragma once
+#include <cmath>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 
@@ -23,6 +25,10 @@ void meshed(Input input);
 /// The extension and the bytes of a mesh file: its mesh is sound, or an error of one line says why there is
 /// none.
 void files(Input input);
+
+inline bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Prints what went wrong and aborts.
 [[noreturn]] void find(const std::string& what);

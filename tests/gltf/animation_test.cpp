@@ -10,7 +10,7 @@
 #include "support/folder.h"
 
 namespace sdf {
-namespace {
+namespace animation_test {
 
 constexpr std::size_t kFrames = 4;
 
@@ -206,5 +206,5 @@ TEST(Animation, OnlyGltfFilesHoldIt) {
   EXPECT_TRUE(folder.empty());
 }
 
-}  // namespace
+}  // namespace animation_test
 }  // namespace sdf

@@ -8,7 +8,7 @@
 #include "sdf/base/srgb.h"
 
 namespace sdf {
-namespace {
+namespace emission_test {
 
 using glm::vec3;
 using Texel = glm::vec<3, std::uint8_t>;
@@ -132,5 +132,5 @@ TEST(BakedEmission, ReadsBackEveryByteOfTheCurve) {
   for (int byte = 0; byte < 256; ++byte) EXPECT_EQ(srgb(linearOf(static_cast<std::uint8_t>(byte))), byte);
 }
 
-}  // namespace
+}  // namespace emission_test
 }  // namespace sdf

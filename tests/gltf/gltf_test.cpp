@@ -12,7 +12,7 @@
 #include "synthetic.h"
 
 namespace sdf {
-namespace {
+namespace gltf_test {
 
 std::vector<glm::vec3> cornersOf(const Mesh& mesh, std::uint32_t material) {
   std::vector<glm::vec3> out;
@@ -244,5 +244,5 @@ TEST(Gltf, WritesTheSameBytesEachTime) {
   }
 }
 
-}  // namespace
+}  // namespace gltf_test
 }  // namespace sdf

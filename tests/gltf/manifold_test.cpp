@@ -15,7 +15,7 @@
 #include "synthetic.h"
 
 namespace sdf {
-namespace {
+namespace manifold_test {
 
 using tinygltf::Value;
 
@@ -152,5 +152,5 @@ TEST_F(ManifoldFile, AMeshedSceneOfThreeMaterialsIsClosed) {
   EXPECT_EQ(openEdges(manifoldIndices(model, model.meshes[0])), 0u);
 }
 
-}  // namespace
+}  // namespace manifold_test
 }  // namespace sdf

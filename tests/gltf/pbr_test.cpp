@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace sdf {
-namespace {
+namespace pbr_test {
 
 /// Single-precision arithmetic of a handful of operations on numbers up to 1.
 constexpr float kRounding = 8 * std::numeric_limits<float>::epsilon();
@@ -110,5 +110,5 @@ TEST(MetallicRoughness, StaysInRangeForHostileNumbers) {
   }
 }
 
-}  // namespace
+}  // namespace pbr_test
 }  // namespace sdf

@@ -12,7 +12,7 @@
 #include "synthetic.h"
 
 namespace sdf {
-namespace {
+namespace validator_test {
 
 /// What the validator prints about the file: its errors and warnings.
 std::string complaints(const std::filesystem::path& file) {
@@ -148,5 +148,5 @@ TEST(Validator, WouldComplainOfABrokenFile) {
   EXPECT_NE(complaints(folder / "a.glb"), "");
 }
 
-}  // namespace
+}  // namespace validator_test
 }  // namespace sdf

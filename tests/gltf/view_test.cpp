@@ -13,7 +13,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace view_test {
 
 /// A dozen double operations on numbers of order 1 to 10.
 constexpr double kRounding = 100 * std::numeric_limits<double>::epsilon();
@@ -127,5 +127,5 @@ TEST(ViewLights, LeavesOutLightsThatDoNotShine) {
   EXPECT_TRUE(viewLights(scene, glm::dvec3(0.0)).empty());
 }
 
-}  // namespace
+}  // namespace view_test
 }  // namespace sdf

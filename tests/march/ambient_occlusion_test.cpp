@@ -7,7 +7,7 @@
 #include "sdf/shape/operators/booleans.h"
 
 namespace sdf {
-namespace {
+namespace ambient_occlusion_test {
 
 // Points on a floor at these distances from an endless wall, normals up.
 struct Corner {
@@ -174,5 +174,5 @@ TEST(Occlusion, RefusesWrongOptionsAndRows) {
             "ambient occlusion: strength must be finite and at least 0");
 }
 
-}  // namespace
+}  // namespace ambient_occlusion_test
 }  // namespace sdf

@@ -6,7 +6,7 @@
 #include "shape/cases.h"
 
 namespace sdf {
-namespace {
+namespace catalog_test {
 
 constexpr int kRays = 12;
 constexpr double kSteps = 1000.0;  // of epsilon, along the region's longest side
@@ -56,5 +56,5 @@ TEST(Catalog, IsMarchedNoLaterThanByTheDenseMarch) {
   }
 }
 
-}  // namespace
+}  // namespace catalog_test
 }  // namespace sdf

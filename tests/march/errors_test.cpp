@@ -6,7 +6,7 @@
 #include "sdf/shape/solids/flats.h"
 
 namespace sdf {
-namespace {
+namespace errors_test {
 
 using test::kMethods;
 
@@ -101,5 +101,5 @@ TEST(Marcher, NamesTheRayThatIsWrong) {
   }
 }
 
-}  // namespace
+}  // namespace errors_test
 }  // namespace sdf

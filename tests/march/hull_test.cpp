@@ -11,7 +11,7 @@
 #include "sdf/shape/operators/place.h"
 
 namespace sdf {
-namespace {
+namespace hull_test {
 
 using namespace test;
 
@@ -127,5 +127,5 @@ TEST(Hull, NeedsASlope) {
   EXPECT_EQ(hull.error().message.substr(0, 7), "a hull:");
 }
 
-}  // namespace
+}  // namespace hull_test
 }  // namespace sdf

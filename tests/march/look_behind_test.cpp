@@ -4,7 +4,7 @@
 #include "sdf/shape/operators/place.h"
 
 namespace sdf {
-namespace {
+namespace look_behind_test {
 
 using namespace test;
 
@@ -71,5 +71,5 @@ TEST_P(LookBehind, APlateOfThreeEpsilonsIsHitAtAnyAngle) {
   }
 }
 
-}  // namespace
+}  // namespace look_behind_test
 }  // namespace sdf

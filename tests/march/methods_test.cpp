@@ -11,7 +11,7 @@
 #include "sdf/shape/solids/flats.h"
 
 namespace sdf {
-namespace {
+namespace methods_test {
 
 using namespace test;
 
@@ -365,5 +365,5 @@ TEST(StepCounts, OfSegmentsAlongAPlaneDoNotGrow) {
   EXPECT_LE(trace(ground, rays, with(MarchMethod::Segment)).steps[0], 4);
 }
 
-}  // namespace
+}  // namespace methods_test
 }  // namespace sdf

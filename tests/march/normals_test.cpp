@@ -7,7 +7,7 @@
 #include "sdf/shape/operators/place.h"
 
 namespace sdf {
-namespace {
+namespace normals_test {
 
 constexpr NormalMethod kMethods[] = {NormalMethod::Forward, NormalMethod::Central, NormalMethod::Tetrahedron,
                                      NormalMethod::Gradient};
@@ -156,5 +156,5 @@ TEST(Normals, RefuseWrongStepsAndRows) {
             "normals: the rows of points and of otherwise differ in length");
 }
 
-}  // namespace
+}  // namespace normals_test
 }  // namespace sdf

@@ -4,7 +4,7 @@
 #include "march/scenes.h"
 
 namespace sdf {
-namespace {
+namespace oracle_test {
 
 using namespace test;
 
@@ -48,5 +48,5 @@ TEST(DenseMarch, BeginsAtTMinWithinTheSolid) {
   EXPECT_EQ(found->after, 0.5);
 }
 
-}  // namespace
+}  // namespace oracle_test
 }  // namespace sdf

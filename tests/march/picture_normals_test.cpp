@@ -7,7 +7,7 @@
 #include "support/smooth_normals.h"
 
 namespace sdf {
-namespace {
+namespace picture_normals_test {
 
 constexpr int kPixels = 32;  // along each side
 constexpr int kRays = 5;     // of a pixel: its own and four around it
@@ -93,5 +93,5 @@ TEST(PictureNormals, AreThoseOfTheSurfaceWhereAnyShapeOfTheCatalogIsSmooth) {
   }
 }
 
-}  // namespace
+}  // namespace picture_normals_test
 }  // namespace sdf

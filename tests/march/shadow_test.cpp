@@ -8,7 +8,7 @@
 #include "sdf/shape/operators/place.h"
 
 namespace sdf {
-namespace {
+namespace shadow_test {
 
 using test::raysInward;
 
@@ -281,5 +281,5 @@ TEST(Shadows, RefuseWrongOptionsAndRays) {
       "or bisection");
 }
 
-}  // namespace
+}  // namespace shadow_test
 }  // namespace sdf

@@ -15,7 +15,7 @@
 #include "support/payloads.h"
 
 namespace sdf::test {
-namespace {
+namespace mesher_test {
 
 const std::vector<std::string> kStages{"bounds",    "sampling", "extraction", "projection", "creases",
                                        "balancing", "borders",  "measuring",  "normals",    "colouring"};
@@ -515,5 +515,5 @@ TEST(MeshShape, SaysWhichToleranceCannotBeKept) {
       << refused.error().message;
 }
 
-}  // namespace
+}  // namespace mesher_test
 }  // namespace sdf::test

@@ -12,7 +12,7 @@
 #include "sdf/shape/operators/deform.h"
 
 namespace sdf::test {
-namespace {
+namespace scale_test {
 
 struct Solid {
   const char* name;
@@ -115,5 +115,5 @@ TEST(Scale, AFieldsBoundsAreFoundAtAnySize) {
   }
 }
 
-}  // namespace
+}  // namespace scale_test
 }  // namespace sdf::test

@@ -9,7 +9,7 @@
 #include "sdf/gltf/glb.h"
 
 namespace sdf {
-namespace {
+namespace read_mesh_gltf_test {
 
 using Corners = std::vector<glm::vec3>;
 constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
@@ -645,5 +645,5 @@ TEST(ReadGltf, SaysWhichCompressedViewIsBroken) {
   EXPECT_EQ(whyNot(draft.save(folder / "a.gltf")), "its buffer view 0 reaches beyond its buffer");
 }
 
-}  // namespace
+}  // namespace read_mesh_gltf_test
 }  // namespace sdf

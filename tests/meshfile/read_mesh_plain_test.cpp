@@ -7,7 +7,7 @@
 #include "sdf/base/srgb.h"
 
 namespace sdf {
-namespace {
+namespace read_mesh_plain_test {
 
 const std::vector<glm::vec3> kSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 const std::string kSquareObj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -299,5 +299,5 @@ TEST(ReadPly, SaysWhatIsWrong) {
   EXPECT_EQ(why(kTextPly + kPlyVertices + "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"), "it has no triangles");
 }
 
-}  // namespace
+}  // namespace read_mesh_plain_test
 }  // namespace sdf

@@ -11,7 +11,7 @@
 #include "sdf/export/export.h"
 
 namespace sdf {
-namespace {
+namespace read_mesh_round_trip_test {
 
 using Corners = std::vector<glm::vec3>;
 
@@ -164,5 +164,5 @@ TEST(ReadMeshRoundTrip, DecodesCompressedFiles) {
   }
 }
 
-}  // namespace
+}  // namespace read_mesh_round_trip_test
 }  // namespace sdf

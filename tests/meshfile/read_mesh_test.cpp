@@ -11,7 +11,7 @@
 #include "sdf/gltf/glb.h"
 
 namespace sdf {
-namespace {
+namespace read_mesh_test {
 
 TEST(ReadMesh, ListsTheExtensionsThatItReads) {
   const Folder folder;
@@ -126,5 +126,5 @@ TEST(ReadMesh, KeepsWarningsFew) {
   EXPECT_EQ(warnings.back(), "there are more warnings, left out here");
 }
 
-}  // namespace
+}  // namespace read_mesh_test
 }  // namespace sdf

@@ -17,7 +17,7 @@
 #include "support/payloads.h"
 
 namespace sdf {
-namespace {
+namespace cells_test {
 
 constexpr int kOperands = 90;
 
@@ -167,5 +167,5 @@ TEST(Cells, AreNotWorthTheirMakingForFewOrForData) {
   EXPECT_FALSE(CellSorter::worthwhile(kindsOf(unite(data))));
 }
 
-}  // namespace
+}  // namespace cells_test
 }  // namespace sdf

@@ -13,7 +13,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace model_test {
 
 double uniform(std::mt19937& random, double lo, double hi) {
   return std::uniform_real_distribution<double>(lo, hi)(random);
@@ -261,5 +261,5 @@ TEST(Marchable, AFieldIsNoNearerThanTheWayToItsBounds) {
   EXPECT_GT(marchable(field(Expr(1.0))).slope, 0.0);
 }
 
-}  // namespace
+}  // namespace model_test
 }  // namespace sdf

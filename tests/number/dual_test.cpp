@@ -10,7 +10,7 @@
 #include "sdf/expr/apply-inl.h"
 
 namespace sdf {
-namespace {
+namespace dual_test {
 
 using Numbers = std::vector<double>;
 
@@ -190,5 +190,5 @@ TEST(Dual, WhatDoesNotMoveDoesNotJump) {
   EXPECT_LE(select(floor(still), x, neg(x)).d[0].magnitude(), 1.0);
 }
 
-}  // namespace
+}  // namespace dual_test
 }  // namespace sdf

@@ -11,7 +11,7 @@
 #include "sdf/number/scalar.h"
 
 namespace sdf {
-namespace {
+namespace interval_test {
 
 double valueOf(Op op, const std::vector<double>& x) {
   return evaluateOp<double>(op, [&](int i) { return x[i]; });
@@ -233,5 +233,5 @@ TEST(Interval, SelectFollowsADecidedConditionNaNIncluded) {
   EXPECT_EQ(select(Interval(0.0, 1.0), a, b).hi, 6.0);
 }
 
-}  // namespace
+}  // namespace interval_test
 }  // namespace sdf

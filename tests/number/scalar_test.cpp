@@ -7,7 +7,7 @@
 #include "sdf/expr/apply-inl.h"
 
 namespace sdf {
-namespace {
+namespace scalar_test {
 
 TEST(Scalar, MinAndMaxTakeTheSecondOnATieOrANaN) {
   EXPECT_EQ(min(kNaN, 2.0), 2.0);
@@ -80,5 +80,5 @@ TEST(Scalar, EveryOperationIsNamedAfterItsFunction) {
     EXPECT_GE(arity(op), 1 + info(op).constants) << info(op).name << " has no argument that varies";
 }
 
-}  // namespace
+}  // namespace scalar_test
 }  // namespace sdf

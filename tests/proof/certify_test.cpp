@@ -8,6 +8,7 @@
 
 #include "mesh/scenes.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/proof/reading.h"
 #include "sdf/proof/shell.h"
@@ -16,7 +17,7 @@
 #include "sdf/shape/solids/flats.h"
 
 namespace sdf::test {
-namespace {
+namespace certify_test {
 
 // A mesh and what is asked of its certificate: what the exporter asks.
 struct Subject {
@@ -408,5 +409,5 @@ TEST(Shell, CountsItsPrismsOverAPoint) {
   }
 }
 
-}  // namespace
+}  // namespace certify_test
 }  // namespace sdf::test

@@ -11,7 +11,7 @@
 #include "sdf/scene/patterns.h"
 
 namespace sdf {
-namespace {
+namespace background_light_test {
 
 Scene under(const Vec3E& background, const Expr& strength = 1.0) {
   Scene scene;
@@ -104,5 +104,5 @@ TEST(BackgroundLight, TakesNoLightFromWhatIsNone) {
     EXPECT_GE(backgroundLight(under({select(less(0.9, y), 1.0, 0.0), 0.0, 0.0})).at(n).x, 0.0);
 }
 
-}  // namespace
+}  // namespace background_light_test
 }  // namespace sdf

@@ -10,7 +10,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace fit_test {
 
 Scene sceneOf(const Shape& shape) {
   Scene scene;
@@ -96,5 +96,5 @@ TEST(Fit, LengthsThatASceneLeavesOpenFollowItsSize) {
   }
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace sdf

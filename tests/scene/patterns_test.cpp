@@ -12,7 +12,7 @@
 #include "support/evaluate.h"
 
 namespace sdf {
-namespace {
+namespace patterns_test {
 
 // The formula again, as its gradient for given phases: f of the bend, t of the turn, signs for the cosines of
 // the three sines, in which the length is convex and so the largest at an end.
@@ -65,5 +65,5 @@ TEST(Noise, ComesNearTheSlopeThatItClaims) {
   EXPECT_GT(most, 0.9 * claimed);
 }
 
-}  // namespace
+}  // namespace patterns_test
 }  // namespace sdf

@@ -8,7 +8,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace scene_test {
 
 double at(const Expr& e, double x, double y, double z) {
   return uniformValue(remap(e, {Expr(x), Expr(y), Expr(z)}, 1.0));
@@ -74,5 +74,5 @@ TEST(Scene, WhatCannotBeUsedIsRefused) {
   EXPECT_EQ(checked(parameters).error().message, "parameter 'k' is there twice; give each a name of its own");
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace sdf

@@ -9,7 +9,7 @@
 #include "support/settings.h"
 
 namespace sdf {
-namespace {
+namespace settings_test {
 
 using Kind = SettingKind;
 
@@ -208,5 +208,5 @@ TEST(SettingTable, ASettingThatIsMadeWithoutFieldsStillSays) {
   EXPECT_FALSE(scene.gamma);
 }
 
-}  // namespace
+}  // namespace settings_test
 }  // namespace sdf

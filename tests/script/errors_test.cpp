@@ -7,7 +7,7 @@
 #include "script/run.h"
 
 namespace sdf {
-namespace {
+namespace errors_test {
 
 struct Mistake {
   const char* text;
@@ -370,5 +370,5 @@ TEST(Errors, AnEmptyFileIsAnEmptyScene) {
       "the scene is empty; add a shape with part(name, shape) or return one"));
 }
 
-}  // namespace
+}  // namespace errors_test
 }  // namespace sdf

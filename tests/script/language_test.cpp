@@ -11,7 +11,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace language_test {
 
 /// The one shape that `expression` gives. Equal graphs are the same node, so shapes compare exactly.
 Expr distanceOf(const std::string& expression, const ScriptOptions& options = {}) {
@@ -368,5 +368,5 @@ TEST(Language, XpcallHandsTheErrorToItsHandler) {
 
 TEST(Language, AByteOrderMarkIsNoPartOfTheScene) { sceneOf("\xEF\xBB\xBFreturn sphere(1)"); }
 
-}  // namespace
+}  // namespace language_test
 }  // namespace sdf

@@ -9,7 +9,7 @@
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
-namespace {
+namespace mesh_test {
 
 // An .obj file of these triangles.
 void writeObj(const std::filesystem::path& file, const TriangleMesh& mesh, const std::string& first = {}) {
@@ -169,5 +169,5 @@ TEST_F(Meshes, BadArgumentsAreNamed) {
   EXPECT_NE(errorOf(R"(return mesh("box.obj", {fine = 8}))").find("unknown field 'fine'"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace mesh_test
 }  // namespace sdf::test

@@ -10,7 +10,7 @@
 #include "sdf/shape/catalog.h"
 
 namespace sdf {
-namespace {
+namespace reference_test {
 
 std::string read(const std::string& name) {
   std::ostringstream text;
@@ -160,5 +160,5 @@ TEST(Reference, APageWithoutMarkersIsRefused) {
   EXPECT_EQ(page.error().message, "the page lacks the lines that mark the reference");
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace sdf

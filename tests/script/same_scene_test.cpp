@@ -11,7 +11,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace same_scene_test {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2.0;
 
@@ -74,5 +74,5 @@ TEST(SameScene, IsTheSameInBothLanguages) {
   EXPECT_TRUE(fromLua->lights[0].vector == fromCpp.lights[0].vector);
 }
 
-}  // namespace
+}  // namespace same_scene_test
 }  // namespace sdf

@@ -7,7 +7,7 @@
 #include "script/run.h"
 
 namespace sdf {
-namespace {
+namespace sandbox_test {
 
 ScriptOptions fewInstructions() {
   ScriptOptions options;
@@ -220,5 +220,5 @@ TEST(Sandbox, TooLittleMemoryToStartIsSaidSo) {
   }
 }
 
-}  // namespace
+}  // namespace sandbox_test
 }  // namespace sdf

@@ -12,7 +12,7 @@
 #include "support/settings.h"
 
 namespace sdf {
-namespace {
+namespace settings_test {
 
 Scene withSphere(const std::string& text) { return sceneOf(text + "\nreturn sphere(1)"); }
 
@@ -330,5 +330,5 @@ TEST(Patterns, MixBlendsColors) {
   expectVector(withSphere("ambient(mix('#fff', {0, 0.5, 1}, 0.5))").ambient, 0.5, 0.75, 1);
 }
 
-}  // namespace
+}  // namespace settings_test
 }  // namespace sdf

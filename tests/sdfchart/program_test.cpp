@@ -10,7 +10,7 @@
 #include "tools/command.h"
 
 namespace sdf {
-namespace {
+namespace program_test {
 
 constexpr int kUsage = 2, kScene = 3, kFiles = 5, kNotDrawn = 7, kInterrupted = 130;
 
@@ -210,5 +210,5 @@ TEST_F(Charts, AreFilesOfTheirOwnAndAPageThatNeedsNoOther) {
   EXPECT_NE(opened.out.find("<svg"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace program_test
 }  // namespace sdf

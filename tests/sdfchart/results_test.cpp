@@ -7,7 +7,7 @@
 #include "support/folder.h"
 
 namespace sdf::chart {
-namespace {
+namespace results_test {
 
 Row row(const std::string& method) { return {.kind = "meshing", .scene = "ball", .method = method}; }
 
@@ -149,5 +149,5 @@ TEST(Batches, WhatIsThereIsNotMeasuredAgain) {
   EXPECT_EQ(ran, 1);
 }
 
-}  // namespace
+}  // namespace results_test
 }  // namespace sdf::chart

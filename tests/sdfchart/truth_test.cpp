@@ -8,7 +8,7 @@
 #include "sdfchart/truth/mesh_truth.h"
 
 namespace sdf::chart {
-namespace {
+namespace truth_test {
 
 using accuracy::kPi;
 using accuracy::TriangleMesh;
@@ -150,5 +150,5 @@ TEST(MeshTruth, RefusesAMeshOfNothing) {
   EXPECT_THROW(judgeMesh({}, *truth, 10, row), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace truth_test
 }  // namespace sdf::chart

@@ -17,7 +17,7 @@
 #include "sdfchart/truth/march_truth.h"
 
 namespace sdf::chart {
-namespace {
+namespace truths_test {
 
 TEST(MarchTruth, OfABallIsTheRootOfItsEquation) {
   const MarchedScene scene{"ball", sphere(1.0), {1.0, 2.0, 3.0}, 1.2};
@@ -305,5 +305,5 @@ TEST(Batches, MarchingWithoutASlopeFailsWithTheReason) {
   }
 }
 
-}  // namespace
+}  // namespace truths_test
 }  // namespace sdf::chart

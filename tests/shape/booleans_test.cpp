@@ -10,7 +10,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace booleans_test {
 
 using Kind = Blend::Kind;
 
@@ -426,5 +426,5 @@ TEST(Booleans, OfAFieldWithNoConstantStayAField) {
   EXPECT_EQ(s.claim.lipschitz, kInfinity);
 }
 
-}  // namespace
+}  // namespace booleans_test
 }  // namespace sdf

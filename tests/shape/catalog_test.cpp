@@ -7,7 +7,7 @@
 #include "shape/cases.h"
 
 namespace sdf {
-namespace {
+namespace catalog_test {
 
 using test::Evaluator;
 using test::Sampler;
@@ -321,5 +321,5 @@ TEST(Catalog, ReturnsAFailedShapeAmongTheArgumentsAsItIs) {
   }
 }
 
-}  // namespace
+}  // namespace catalog_test
 }  // namespace sdf

@@ -10,7 +10,7 @@
 #include "support/bind.h"
 
 namespace sdf {
-namespace {
+namespace deform_test {
 
 constexpr double kPi = std::numbers::pi;
 const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
@@ -397,5 +397,5 @@ TEST(Warp, DozensOfBallsAreAsCheapAsTheirLengths) {
   EXPECT_LT(operationsOfEach(64), 20.0) << "a length, a radius, and what is taken of all";
 }
 
-}  // namespace
+}  // namespace deform_test
 }  // namespace sdf

@@ -8,7 +8,7 @@
 #include "script/run.h"
 
 namespace sdf::test {
-namespace {
+namespace degenerate_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegenerate[] = {0.0, -0.0, -1.0, kNan, kInfinity, -kInfinity, 1e30, -1e30, 1e-30, -1e-30};
@@ -180,5 +180,5 @@ TEST(Degenerate, SceneFilesAreToldTheLine) {
   for (const auto& [text, message] : refusals) EXPECT_EQ(errorOf(text), message);
 }
 
-}  // namespace
+}  // namespace degenerate_test
 }  // namespace sdf::test

@@ -11,7 +11,7 @@
 #include "support/evaluate.h"
 
 namespace sdf {
-namespace {
+namespace ellipsoid_test {
 
 using glm::dvec3;
 using test::Evaluator;
@@ -147,5 +147,5 @@ TEST(Ellipsoid, IsASphereInFewOperationsWhereAllRadiiAreOne) {
   EXPECT_LE(topologicalOrder(std::array{ellipsoidBound({1.0, 2.0, 3.0}).distance}).size(), 16u);
 }
 
-}  // namespace
+}  // namespace ellipsoid_test
 }  // namespace sdf

@@ -11,7 +11,7 @@
 #include "shape/cases.h"
 
 namespace sdf {
-namespace {
+namespace flats_test {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -207,5 +207,5 @@ TEST(Flats, ATriangleThatASliderClosesIsASegment) {
   EXPECT_DOUBLE_EQ(evaluate(*tape, {0.3, -0.9, 0.0}), 0.5);
 }
 
-}  // namespace
+}  // namespace flats_test
 }  // namespace sdf

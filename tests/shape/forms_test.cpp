@@ -8,7 +8,7 @@
 #include "support/evaluate.h"
 
 namespace sdf {
-namespace {
+namespace forms_test {
 
 const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
            kZ = Expr::variable(Variable::Z);
@@ -43,5 +43,5 @@ TEST(InnerRadius, IsNotKnownOfOtherFunctions) {
   EXPECT_FALSE(innerRadius(norm(abs(kX) - 1.0, kY))) << "a kink at x = 0, where it is not 0";
 }
 
-}  // namespace
+}  // namespace forms_test
 }  // namespace sdf

@@ -14,7 +14,7 @@
 #include "support/evaluate.h"
 
 namespace sdf {
-namespace {
+namespace hoist_test {
 
 int countOf(Op op, const Expr& e) {
   const auto order = topologicalOrder({&e, 1});
@@ -116,5 +116,5 @@ TEST(NumberOfLeast, TakesValuesOfAnyKind) {
   EXPECT_EQ(f({2.0, 0.0, 0.0}), 2.0);
 }
 
-}  // namespace
+}  // namespace hoist_test
 }  // namespace sdf

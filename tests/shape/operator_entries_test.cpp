@@ -7,7 +7,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace operator_entries_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -94,5 +94,5 @@ TEST(OperatorEntries, CountsAreWholeFixedNumbers) {
             "repeat_grid: count.x must be a plain number, not a parameter");
 }
 
-}  // namespace
+}  // namespace operator_entries_test
 }  // namespace sdf

@@ -11,7 +11,7 @@
 #include "support/bind.h"
 
 namespace sdf {
-namespace {
+namespace pattern_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -253,5 +253,5 @@ TEST(Patterns, PassOnAFailure) {
   EXPECT_EQ(*polarRepeat(bad, 3).error, "bad");
 }
 
-}  // namespace
+}  // namespace pattern_test
 }  // namespace sdf

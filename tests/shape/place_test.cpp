@@ -8,7 +8,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace place_test {
 
 constexpr double kPi = std::numbers::pi;
 const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
@@ -224,5 +224,5 @@ TEST(Place, PassesOnAFailure) {
     EXPECT_EQ(*s.error, "bad");
 }
 
-}  // namespace
+}  // namespace place_test
 }  // namespace sdf

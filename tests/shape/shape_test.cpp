@@ -6,7 +6,7 @@
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
-namespace {
+namespace shape_test {
 
 Expr attribute(const Attributes& a, Attribute which) { return a[static_cast<int>(which)]; }
 
@@ -67,5 +67,5 @@ TEST(Shape, ThatFailedStaysSoWhenPainted) {
   EXPECT_EQ(failed.paint(Material{}).error, failed.error);
 }
 
-}  // namespace
+}  // namespace shape_test
 }  // namespace sdf

@@ -11,7 +11,7 @@
 #include "shape/cases.h"
 
 namespace sdf {
-namespace {
+namespace solids_test {
 
 using glm::dvec3;
 using test::Evaluator;
@@ -430,5 +430,5 @@ TEST(Field, RefusesTheNormalAndBoundsThatHoldNothing) {
             "field: lipschitz must be positive, got 0");
 }
 
-}  // namespace
+}  // namespace solids_test
 }  // namespace sdf

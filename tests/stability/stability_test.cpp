@@ -11,7 +11,7 @@ namespace sdf::accuracy {
 
 void PrintTo(const FailureCase& c, std::ostream* out) { *out << c.name; }
 
-namespace {
+namespace stability_test {
 
 class Failure : public testing::TestWithParam<FailureCase> {};
 
@@ -44,5 +44,5 @@ TEST(Report, HasARowForEveryFailure) {
         << c.name << " is missing: run accuracy docs/accuracy.md";
 }
 
-}  // namespace
+}  // namespace stability_test
 }  // namespace sdf::accuracy

@@ -7,7 +7,7 @@
 #include "sdf/script/script.h"
 
 namespace sdf {
-namespace {
+namespace animate_test {
 
 /// A .glb file's JSON and data.
 struct Glb {
@@ -223,5 +223,5 @@ TEST_F(Animate, ALaterFrameThatFailsLeavesNoFile) {
   EXPECT_EQ(written(), std::vector<std::string>{});
 }
 
-}  // namespace
+}  // namespace animate_test
 }  // namespace sdf

@@ -5,7 +5,7 @@
 #include "sdf2gltf.h"
 
 namespace sdf {
-namespace {
+namespace bad_input_test {
 
 constexpr int kUsage = 2, kScene = 3, kLimits = 4, kFiles = 5;
 
@@ -284,5 +284,5 @@ TEST_F(BadInput, AFileBeyondTheSizeLimitLeavesNothing) {
   expectRefusal(command.run(), kFiles, {"a.glb", "File too large", "ulimit"});
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace sdf

@@ -2,7 +2,7 @@
 #include "exported.h"
 
 namespace sdf {
-namespace {
+namespace bake_test {
 
 class Bake : public Export {
  protected:
@@ -62,5 +62,5 @@ TEST_F(Bake, WarnsWhereAmbientColoursAreMoreThanEmissionsHold) {
   EXPECT_NE(outcome.err.find("materials of their own"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace bake_test
 }  // namespace sdf

@@ -2,7 +2,7 @@
 #include "exported.h"
 
 namespace sdf {
-namespace {
+namespace certify_test {
 
 class Certified : public Export {};
 
@@ -31,5 +31,5 @@ TEST_F(Certified, WritesTheProvenDistanceBesideTheMeasuredOne) {
   EXPECT_EQ(run(words).out.find("proven"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace certify_test
 }  // namespace sdf

@@ -2,7 +2,7 @@
 #include "exported.h"
 
 namespace sdf {
-namespace {
+namespace compress_test {
 
 class Compress : public Export {};
 
@@ -75,5 +75,5 @@ TEST_F(Compress, TheFileIsTheSameForAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
+}  // namespace compress_test
 }  // namespace sdf

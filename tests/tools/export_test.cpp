@@ -11,7 +11,7 @@
 #include "sdf/mesh/mesh.h"
 
 namespace sdf {
-namespace {
+namespace export_test {
 
 using Loaded = OpenMesh::TriMesh_ArrayKernelT<>;
 
@@ -470,5 +470,5 @@ TEST_F(Export, ShowsItsProgressOnATerminalOnly) {
   EXPECT_EQ(command.run().err, "");
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace sdf

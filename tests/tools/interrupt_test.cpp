@@ -4,7 +4,7 @@
 #include "sdf2gltf.h"
 
 namespace sdf {
-namespace {
+namespace interrupt_test {
 
 constexpr int kInterrupted = 130;
 constexpr double kASecond = 1.0;
@@ -50,5 +50,5 @@ TEST_F(Interrupt, EndsASceneThatTakesLong) {
                  SIGINT);
 }
 
-}  // namespace
+}  // namespace interrupt_test
 }  // namespace sdf

@@ -4,7 +4,7 @@
 #include "sdf2gltf.h"
 
 namespace sdf {
-namespace {
+namespace validator_test {
 
 std::vector<std::filesystem::path> samples() {
   std::vector<std::filesystem::path> files;
@@ -40,5 +40,5 @@ TEST_P(Validator, AcceptsTheSample) {
 INSTANTIATE_TEST_SUITE_P(, Validator, testing::ValuesIn(samples()),
                          [](const auto& sample) { return sample.param.stem().string(); });
 
-}  // namespace
+}  // namespace validator_test
 }  // namespace sdf

@@ -14,7 +14,7 @@
 #include "support/triangle_meshes.h"
 
 namespace sdf {
-namespace {
+namespace brick_cache_test {
 
 TriangleMesh cube(float side) { return test::boxOf(glm::vec3(0.0f), glm::vec3(side)); }
 
@@ -131,5 +131,5 @@ TEST(UsersFolder, IsNamedByTheEnvironment) {
   EXPECT_EQ(with("relative", nullptr), "");
 }
 
-}  // namespace
+}  // namespace brick_cache_test
 }  // namespace sdf

@@ -8,7 +8,7 @@
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
-namespace {
+namespace closed_test {
 
 bool hasNoBorder(const ClosedTriangles& all) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
@@ -128,5 +128,5 @@ TEST(Closed, WhatTouchesItselfIsNoManifold) {
   EXPECT_TRUE(besides({2.0f, 0.0f, 0.0f}).manifold);
 }
 
-}  // namespace
+}  // namespace closed_test
 }  // namespace sdf::test

@@ -6,7 +6,7 @@
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
-namespace {
+namespace distance_test {
 
 double boxDistance(const glm::dvec3& p, const glm::dvec3& half) {
   const glm::dvec3 q = glm::abs(p) - half;
@@ -197,5 +197,5 @@ TEST(TriangleTree, HoldsWhatIsVeryUneven) {
     EXPECT_EQ(tree.nearest(glm::dvec3(std::ldexp(1.01, -static_cast<int>(i)), 0.0, 0.0)).triangle, i);
 }
 
-}  // namespace
+}  // namespace distance_test
 }  // namespace sdf::test

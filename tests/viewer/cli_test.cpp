@@ -12,7 +12,7 @@
 #include "viewer/gpu/picture.h"
 
 namespace sdf {
-namespace {
+namespace cli_test {
 
 using viewer::Picture;
 
@@ -687,5 +687,5 @@ TEST_F(Sdfview, WritesAShaderThatCompiles) {
   EXPECT_EQ(outcome.status, 0) << outcome.out;
 }
 
-}  // namespace
+}  // namespace cli_test
 }  // namespace sdf

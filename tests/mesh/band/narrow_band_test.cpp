@@ -12,7 +12,7 @@
 #include "sdf/mesh/mesh.h"
 
 namespace sdf::test {
-namespace {
+namespace narrow_band_test {
 
 MeshStats topologyOf(const RawSurface& s) {
   MeshStats stats;
@@ -243,5 +243,5 @@ TEST(NarrowBand, StopsWithinASecondWhenAnotherThreadAsks) {
   EXPECT_LT(std::chrono::duration<double>(returned - asked).count(), 1.0);
 }
 
-}  // namespace
+}  // namespace narrow_band_test
 }  // namespace sdf::test

@@ -8,7 +8,7 @@
 #include "sdf/mesh/mesher.h"
 
 namespace sdf {
-namespace {
+namespace unresolved_test {
 
 constexpr double kVoxel = 1.0 / 16;
 
@@ -143,5 +143,5 @@ TEST(Films, SolidsThatTouchInAPointOfTheLatticeStayTwo) {
   EXPECT_EQ(stats.eulerCharacteristic, 4);
 }
 
-}  // namespace
+}  // namespace unresolved_test
 }  // namespace sdf

@@ -5,11 +5,13 @@
 #include <map>
 
 #include "mesh/feature_meshes.h"
+#include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/mesh/surface/project.h"
 #include "sdf/model/model.h"
 
 namespace sdf::test {
-namespace {
+namespace borders_test {
 
 constexpr double kVoxel = 1.0 / 16;
 
@@ -139,5 +141,5 @@ TEST(Borders, OnASmoothSurfaceNormalsAreOne) {
     EXPECT_EQ(mesh.normals[mesh.welded + i], mesh.normals[mesh.copyOf[i]]);
 }
 
-}  // namespace
+}  // namespace borders_test
 }  // namespace sdf::test

@@ -7,11 +7,14 @@
 #include <random>
 
 #include "mesh/scenes.h"
+#include "sdf/mesh/measure/distance.h"
+#include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/mesh/surface/project.h"
 #include "sdf/shape/operators/deform.h"
 
 namespace sdf::test {
-namespace {
+namespace sharpen_test {
 
 struct Sharp {
   FeatureMesh mesh;
@@ -178,5 +181,5 @@ TEST(SplitAtCreases, GivesEachFaceOfABoxItsOwnNormal) {
   }
 }
 
-}  // namespace
+}  // namespace sharpen_test
 }  // namespace sdf::test

@@ -12,7 +12,7 @@
 #include "sdf/shape/solids/flats.h"
 
 namespace sdf::test {
-namespace {
+namespace tips_test {
 
 // Turned and moved at random, with the points of interest.
 struct Placed {
@@ -59,5 +59,5 @@ TEST(Tips, AreNotSeenWhereThereAreNone) {
   }
 }
 
-}  // namespace
+}  // namespace tips_test
 }  // namespace sdf::test

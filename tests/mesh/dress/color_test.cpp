@@ -10,7 +10,7 @@
 #include "sdf/mesh/mesher.h"
 
 namespace sdf::test {
-namespace {
+namespace color_test {
 
 Mesh meshed(const Shape& shape, double h) {
   Progress progress;
@@ -192,5 +192,5 @@ TEST(ColorMesh, ColoursOutsideTheUnitCubeAreHeldInIt) {
   }
 }
 
-}  // namespace
+}  // namespace color_test
 }  // namespace sdf::test

@@ -4,7 +4,9 @@
 #include <set>
 
 #include "mesh/scenes.h"
+#include "sdf/mesh/dress/fit_normals.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/mesh/surface/project.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/operators/place.h"
@@ -14,7 +16,7 @@
 #include "support/smooth_normals.h"
 
 namespace sdf::test {
-namespace {
+namespace vertex_normals_test {
 
 // Were there smooth places to look at? In a mesh of some ten thousand vertices.
 bool hasSmoothNormals(const std::string& name, const Shape& shape) {
@@ -125,5 +127,5 @@ TEST(FitNormals, MakesEdgesAsTheMeshHasThem) {
   EXPECT_LT(part.changed(), part.normals.size() / 5) << "only along edges";
 }
 
-}  // namespace
+}  // namespace vertex_normals_test
 }  // namespace sdf::test

@@ -14,7 +14,7 @@
 #endif
 
 namespace sdf::test {
-namespace {
+namespace crossings_test {
 
 using Pairs = TrianglePairs;
 
@@ -151,5 +151,5 @@ TEST(Crossings, OfCrumpledMeshesAreAsManyAsCgalFinds) {
 }
 #endif
 
-}  // namespace
+}  // namespace crossings_test
 }  // namespace sdf::test

@@ -1,4 +1,5 @@
 #include "sdf/mesh/edit/half_edges.h"
+#include "sdf/mesh/measure/topology.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 #include "mesh/feature_meshes.h"
 
 namespace sdf::test {
-namespace {
+namespace half_edges_test {
 
 using Index = HalfEdgeMesh::Index;
 
@@ -109,5 +110,5 @@ TEST(HalfEdgeMesh, ATetrahedronIsTheLeast) {
   }
 }
 
-}  // namespace
+}  // namespace half_edges_test
 }  // namespace sdf::test

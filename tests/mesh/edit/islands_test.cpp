@@ -6,7 +6,7 @@
 #include "sdf/mesh/mesher.h"
 
 namespace sdf::test {
-namespace {
+namespace islands_test {
 
 // A tetrahedron with a corner at a point and legs along the axes.
 void addTetrahedron(FeatureMesh& mesh, const glm::vec3& at, float leg) {
@@ -120,5 +120,5 @@ TEST(Islands, LeaveACrescentSmall) {
   EXPECT_LE(meshed->stats.maxDistance, 2e-3);
 }
 
-}  // namespace
+}  // namespace islands_test
 }  // namespace sdf::test

@@ -6,9 +6,10 @@
 #include "mesh/feature_meshes.h"
 #include "sdf/mesh/creases/sharpen.h"
 #include "sdf/mesh/edit/crossings.h"
+#include "sdf/mesh/surface/project.h"
 
 namespace sdf::test {
-namespace {
+namespace uncross_test {
 
 TEST(Uncross, PutsBackWhatWasMovedThroughOtherTriangles) {
   FeatureMesh mesh = griddedCube(10);
@@ -51,5 +52,5 @@ TEST(Uncross, LeavesNoCrossingsAndDoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.doubtful, many.doubtful);
 }
 
-}  // namespace
+}  // namespace uncross_test
 }  // namespace sdf::test

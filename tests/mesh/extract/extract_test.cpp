@@ -9,6 +9,7 @@
 #include <random>
 
 #include "mesh/scenes.h"
+#include "sdf/eval/batch.h"
 #include "sdf/mesh/band/band_grid-inl.h"
 #include "sdf/mesh/band/narrow_band.h"
 #include "sdf/mesh/extract/cell_patches.h"
@@ -16,7 +17,7 @@
 #include "sdf/mesh/mesh.h"
 
 namespace sdf::test {
-namespace {
+namespace extract_test {
 
 using openvdb::Coord;
 using Quad = std::array<std::uint32_t, 4>;
@@ -247,5 +248,5 @@ TEST(Extract, TheNumberOfThreadsChangesNothing) {
   EXPECT_EQ(one.triangles, many.triangles);
 }
 
-}  // namespace
+}  // namespace extract_test
 }  // namespace sdf::test

@@ -8,7 +8,7 @@
 #include "sdf/triangles/incidence.h"
 
 namespace sdf::test {
-namespace {
+namespace measure_test {
 
 using Triangles = std::vector<glm::uvec3>;
 
@@ -259,5 +259,5 @@ TEST(MeasureDistance, KeepsTheFirstOrderFigureBeyondTheFarthestOfARightMesh) {
   }
 }
 
-}  // namespace
+}  // namespace measure_test
 }  // namespace sdf::test

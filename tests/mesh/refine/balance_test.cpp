@@ -7,10 +7,12 @@
 
 #include "mesh/scenes.h"
 #include "sdf/mesh/creases/sharpen.h"
+#include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/mesh/surface/project.h"
 
 namespace sdf::test {
-namespace {
+namespace balance_test {
 
 struct Balanced {
   FeatureMesh before, after;
@@ -140,5 +142,5 @@ TEST(Balance, DoesNotMoveWhatNormalsSayNothingOf) {
   EXPECT_EQ(mesh.positions, corners);
 }
 
-}  // namespace
+}  // namespace balance_test
 }  // namespace sdf::test

@@ -8,16 +8,18 @@
 
 #include "mesh/feature_meshes.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/refine/remesh_changes.h"
 #include "sdf/mesh/refine/remesh_fans.h"
 #include "sdf/mesh/refine/remesh_measure.h"
 #include "sdf/mesh/refine/remesh_paint.h"
+#include "sdf/mesh/surface/project.h"
 #ifdef SDF_REFERENCE
 #include "reference/reference.h"
 #endif
 
 namespace sdf::test {
-namespace {
+namespace remesh_test {
 
 struct Meshed {
   FeatureMesh mesh;
@@ -336,5 +338,5 @@ TEST(Remesh, StoppedItLeavesAClosedMesh) {
   EXPECT_EQ(stats.eulerCharacteristic, 2);
 }
 
-}  // namespace
+}  // namespace remesh_test
 }  // namespace sdf::test

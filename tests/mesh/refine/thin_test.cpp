@@ -14,7 +14,7 @@
 #include "support/evaluate.h"
 
 namespace sdf::test {
-namespace {
+namespace thin_test {
 
 // Triangles of the lattice are smaller than what is a needle beside such tolerances.
 TEST(Thin, TolerancesOfManyVoxelsLeaveFewTriangles) {
@@ -167,5 +167,5 @@ TEST(Thin, TipsStayAndAreShadedAllAround) {
   }
 }
 
-}  // namespace
+}  // namespace thin_test
 }  // namespace sdf::test

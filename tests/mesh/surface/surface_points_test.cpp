@@ -15,7 +15,7 @@
 #include "sdf/mesh/surface/project.h"
 
 namespace sdf::test {
-namespace {
+namespace surface_points_test {
 
 // Batches of points strewn over the leaf of one vertex after another, so that runs are cut where the leaf
 // changes.
@@ -342,5 +342,5 @@ TEST(RefineVertices, MovesNoVertexFartherThanAVoxel) {
   }
 }
 
-}  // namespace
+}  // namespace surface_points_test
 }  // namespace sdf::test

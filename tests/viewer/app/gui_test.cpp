@@ -9,7 +9,7 @@
 #include "viewer/headless_test.h"
 
 namespace sdf::viewer {
-namespace {
+namespace gui_test {
 
 constexpr float kWidth = 800.0f, kHeight = 700.0f;
 constexpr int kPictureSize = 16;
@@ -141,5 +141,5 @@ TEST_F(GuiTest, NoClicksBreakAnything) {
   EXPECT_FALSE(session.controls == before) << "the clicks hit nothing";
 }
 
-}  // namespace
+}  // namespace gui_test
 }  // namespace sdf::viewer

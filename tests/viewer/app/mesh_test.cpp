@@ -15,7 +15,7 @@
 #include "viewer/shaders/compile_count.h"
 
 namespace sdf::viewer {
-namespace {
+namespace mesh_test {
 
 constexpr double kPatience = 120.0;  // seconds; sanitizers and other tests share the cores
 constexpr const char* kBall =
@@ -312,5 +312,5 @@ TEST_F(MeshSessionTest, LaysTheLegendOverPicturesThatAreSaved) {
   EXPECT_GE(yellow, 20);
 }
 
-}  // namespace
+}  // namespace mesh_test
 }  // namespace sdf::viewer

@@ -9,7 +9,7 @@
 #include "viewer/app/orbit.h"
 
 namespace sdf::viewer {
-namespace {
+namespace orbit_test {
 
 // What a few dozen operations on numbers of a few units can lose, in double.
 constexpr double kRounding = 256 * std::numeric_limits<double>::epsilon();
@@ -133,5 +133,5 @@ TEST(OrbitTest, FromTheTopTheFrontIsBelow) {
   EXPECT_GT(seen(eye, eye.to + glm::dvec3(1.0, 0.0, 0.0)).x, 0.0);
 }
 
-}  // namespace
+}  // namespace orbit_test
 }  // namespace sdf::viewer

@@ -4,7 +4,7 @@
 #include "viewer/app/canvas.h"
 
 namespace sdf::viewer {
-namespace {
+namespace pace_test {
 
 TEST(PaceTest, FastFramesHaveAllPixels) {
   Pace pace;
@@ -70,5 +70,5 @@ TEST(PiecesTest, HasARowAtLeastAndForgetsAnOutlier) {
   EXPECT_GT(pieces.rows(1000, Pieces::kBudget), 400);
 }
 
-}  // namespace
+}  // namespace pace_test
 }  // namespace sdf::viewer

@@ -10,7 +10,7 @@
 #include "viewer/shaders/compile_count.h"
 
 namespace sdf::viewer {
-namespace {
+namespace session_test {
 
 using test::CompileCount;
 
@@ -603,5 +603,5 @@ TEST_F(CanvasTest, ASizeBeyondTheDriverIsAnError) {
   EXPECT_EQ(drawn.error().kind, ErrorKind::Limits);
 }
 
-}  // namespace
+}  // namespace session_test
 }  // namespace sdf::viewer

@@ -19,7 +19,7 @@
 #include "viewer/gpu/picture.h"
 
 namespace sdf::viewer {
-namespace {
+namespace window_test {
 
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kPatience = 20.0;  // seconds; llvmpipe may share its cores with other tests
@@ -484,5 +484,5 @@ TEST(WithoutDisplay, NoWindowSaysWhatToDoInstead) {
       "^cannot open a window: .*DISPLAY.*; use --render OUT.png for a picture without one\n$");
 }
 
-}  // namespace
+}  // namespace window_test
 }  // namespace sdf::viewer

@@ -15,7 +15,7 @@
 #include "viewer/headless_test.h"
 
 namespace sdf::viewer {
-namespace {
+namespace gpu_test {
 
 using ProgramTest = HeadlessTest;
 using TargetTest = HeadlessTest;
@@ -449,5 +449,5 @@ TEST(Png, ReadsNeitherAMissingFileNorAnotherKind) {
 
 TEST_F(CheckTest, NoContextIsLostThatNobodyReset) { EXPECT_FALSE(contextIsLost()); }
 
-}  // namespace
+}  // namespace gpu_test
 }  // namespace sdf::viewer

@@ -9,7 +9,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace cpu_render_test {
 
 Picture draw(const Scene& scene, int samples = 1) {
   return renderOnCpu(scene, {.width = kWidth, .height = kHeight, .samples = samples});
@@ -136,5 +136,5 @@ TEST(ShareApart, CountsPixelsOfWhichOneColorIsFartherOffThanAsked) {
   EXPECT_EQ(shareApart(dark, other, 0.25), 0.0);
 }
 
-}  // namespace
+}  // namespace cpu_render_test
 }  // namespace sdf::test

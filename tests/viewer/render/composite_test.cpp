@@ -6,7 +6,7 @@
 #include "viewer/render/scene_file.h"
 
 namespace sdf::test {
-namespace {
+namespace composite_test {
 
 // Drawn or marched, the creature is the same one: they differ by its colours, which the field has the mean
 // of, and by less than a voxel.
@@ -27,5 +27,5 @@ TEST(Composite, ShowsTheMeshWhereItsFieldIs) {
   EXPECT_LE(shareApart(colors(drawn), colors(marched), 0.3), 0.005);
 }
 
-}  // namespace
+}  // namespace composite_test
 }  // namespace sdf::test

@@ -15,7 +15,7 @@
 #include "viewer/render/psnr.h"
 
 namespace sdf::test {
-namespace {
+namespace drawn_mesh_test {
 
 using viewer::View;
 
@@ -192,5 +192,5 @@ TEST(DrawnMesh, IsSeenFromWithinAndFarAway) {
   EXPECT_LE(shareThatDiffers(moved(drawnBox()), moved(marchedBox())), 2e-3);
 }
 
-}  // namespace
+}  // namespace drawn_mesh_test
 }  // namespace sdf::test

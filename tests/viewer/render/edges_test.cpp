@@ -4,7 +4,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace edges_test {
 
 const glm::dvec3 kSky(0.1, 0.2, 0.1);
 
@@ -86,5 +86,5 @@ TEST_P(Edges, EachPixelShowsTheSideThatItsRayMeets) {
   }
 }
 
-}  // namespace
+}  // namespace edges_test
 }  // namespace sdf::test

@@ -6,7 +6,7 @@
 #include "viewer/render/psnr.h"
 
 namespace sdf::test {
-namespace {
+namespace fit_test {
 
 using viewer::Eye;
 using viewer::LookFunction;
@@ -145,5 +145,5 @@ TEST(Fit, AFittedCameraSeesTheSceneFromAnyDistance) {
   EXPECT_EQ(extent.lengths(eye).maxDistance, 7.0);
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace sdf::test

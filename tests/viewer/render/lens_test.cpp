@@ -5,7 +5,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace lens_test {
 
 constexpr int kSide = 16, kSamples = kSide * kSide;
 // n places of a low-discrepancy sequence miss a share by about log(n) / n.
@@ -154,5 +154,5 @@ TEST(Lens, IsInTheCamerasText) {
   EXPECT_FALSE(eye.focus) << "it looks at the box";
 }
 
-}  // namespace
+}  // namespace lens_test
 }  // namespace sdf::test

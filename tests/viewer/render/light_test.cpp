@@ -13,7 +13,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace light_test {
 
 constexpr double kAlike = 45.0;  // dB; what is seen at the edges of shadows that other steps lead to
 
@@ -259,5 +259,5 @@ TEST(Dither, KeepsTheMeanOfWhatBytesCannotHold) {
   }
 }
 
-}  // namespace
+}  // namespace light_test
 }  // namespace sdf::test

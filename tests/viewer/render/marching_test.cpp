@@ -10,7 +10,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace marching_test {
 
 using viewer::Method;
 using viewer::View;
@@ -238,5 +238,5 @@ TEST(FarEnd, IsNotSeenWhereTheDistanceOverflows) {
   }
 }
 
-}  // namespace
+}  // namespace marching_test
 }  // namespace sdf::test

@@ -20,7 +20,7 @@
 #include "viewer/shaders/error_colors.h"
 
 namespace sdf::test {
-namespace {
+namespace mesh_view_test {
 
 using viewer::ErrorFigures;
 using viewer::MeshErrors;
@@ -495,5 +495,5 @@ TEST(SceneMesh, IsWhatTheExporterMakes) {
   EXPECT_NEAR(share->tolerance, 0.01 * diagonal, 1e-9);
 }
 
-}  // namespace
+}  // namespace mesh_view_test
 }  // namespace sdf::test

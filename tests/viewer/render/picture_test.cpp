@@ -14,7 +14,7 @@
 #include "viewer/render/renderers.h"
 
 namespace sdf::test {
-namespace {
+namespace picture_test {
 
 constexpr int kPictureWidth = 160, kPictureHeight = 90;
 
@@ -167,5 +167,5 @@ TEST_P(PictureOf, IsInTheGallery) {
 INSTANTIATE_TEST_SUITE_P(Samples, PictureOf, testing::ValuesIn(samples()),
                          [](const auto& info) { return info.param; });
 
-}  // namespace
+}  // namespace picture_test
 }  // namespace sdf::test

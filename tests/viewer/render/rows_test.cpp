@@ -6,7 +6,7 @@
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {
-namespace {
+namespace rows_test {
 
 constexpr int kWidth = 100, kHeight = 75;
 
@@ -72,5 +72,5 @@ TEST_P(Rows, LeaveTheOthersAsTheyAre) {
 // One that is marched whole, one in tiles, one with mirrors, and groups with and without a floor.
 INSTANTIATE_TEST_SUITE_P(Of, Rows, testing::Values("pawn", "gear", "metals", "sunflower", "chess"));
 
-}  // namespace
+}  // namespace rows_test
 }  // namespace sdf::viewer

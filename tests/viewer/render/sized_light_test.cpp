@@ -8,7 +8,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace sized_light_test {
 
 constexpr int kSide = 16, kSamples = kSide * kSide;
 
@@ -200,5 +200,5 @@ TEST(SizedLight, IsInNoShaderThatHasNone) {
   EXPECT_EQ(text().find("sharpness *"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace sized_light_test
 }  // namespace sdf::test

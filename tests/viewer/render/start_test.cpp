@@ -11,7 +11,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace start_test {
 
 using viewer::Start;
 using viewer::View;
@@ -107,5 +107,5 @@ TEST(HullStarts, ArePlannedWhereBoundsAreFinite) {
   expectTheSame(drawn(endless, Start::Plain), drawn(endless, Start::Raster));
 }
 
-}  // namespace
+}  // namespace start_test
 }  // namespace sdf::test

@@ -8,7 +8,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace truth_test {
 
 constexpr double kShadowEpsilon = 1e-3;  // shadow rays hit this far from the surface
 constexpr glm::dvec3 kBlack(0.0), kWhite(1.0), kRed(1.0, 0.0, 0.0);
@@ -392,5 +392,5 @@ TEST_P(Truth, AKnownPointIsSeenInItsPixel) {
 INSTANTIATE_TEST_SUITE_P(Of, Truth, testing::ValuesIn(renderers()),
                          [](const auto& info) { return info.param.name; });
 
-}  // namespace
+}  // namespace truth_test
 }  // namespace sdf::test

@@ -7,7 +7,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace views_test {
 
 using viewer::Method;
 using viewer::View;
@@ -288,5 +288,5 @@ TEST_P(EveryView, OfEverySampleCanBeDrawn) {
 
 INSTANTIATE_TEST_SUITE_P(Views, EveryView, testing::Range(0, static_cast<int>(View::Count)));
 
-}  // namespace
+}  // namespace views_test
 }  // namespace sdf::test

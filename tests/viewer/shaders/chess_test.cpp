@@ -7,7 +7,7 @@
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::test {
-namespace {
+namespace chess_test {
 
 Scene chess(double shadows) {
   ScriptOptions script;
@@ -34,5 +34,5 @@ TEST(ChessSet, SharesWhatItsPiecesHaveInCommon) {
   EXPECT_LT(others.size(), 10u);
 }
 
-}  // namespace
+}  // namespace chess_test
 }  // namespace sdf::test

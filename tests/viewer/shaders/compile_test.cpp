@@ -15,7 +15,7 @@
 #include "viewer/shaders/compile_count.h"
 
 namespace sdf::viewer {
-namespace {
+namespace compile_test {
 
 Scene loaded(const std::string& name) {
   auto scene = loadScene(SDF_SOURCE_DIR "/samples/" + name);
@@ -165,5 +165,5 @@ TEST(Compiling, NamesThePartBehindEachLine) {
   EXPECT_NE(rejected.error().message.find("part 'ball'"), std::string::npos) << rejected.error().message;
 }
 
-}  // namespace
+}  // namespace compile_test
 }  // namespace sdf::viewer

@@ -6,7 +6,7 @@
 #include "viewer/render/truth.h"
 
 namespace sdf::test {
-namespace {
+namespace filter_test {
 
 using viewer::View;
 
@@ -100,5 +100,5 @@ TEST(Filter, LeavesNearSquaresSharp) {
   EXPECT_GT(mixed, 0);
 }
 
-}  // namespace
+}  // namespace filter_test
 }  // namespace sdf::test

@@ -18,7 +18,7 @@
 #include "viewer/shaders/assemble.h"
 
 namespace sdf {
-namespace {
+namespace glsl_language_test {
 
 using viewer::Method;
 using viewer::View;
@@ -117,5 +117,5 @@ TEST_F(GlslLanguage, HasEveryKindOfShadowAndOcclusion) {
 INSTANTIATE_TEST_SUITE_P(Samples, GlslLanguageOf, testing::ValuesIn(samples()),
                          [](const auto& i) { return i.param.stem().string(); });
 
-}  // namespace
+}  // namespace glsl_language_test
 }  // namespace sdf

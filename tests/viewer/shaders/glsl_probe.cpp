@@ -13,17 +13,17 @@
 namespace sdf::test {
 namespace {
 
-constexpr int kWidth = 4096;
+constexpr int kProbeWidth = 4096;
 
-/// A texture of vectors, rows of kWidth, bound to a unit while it lives.
+/// A texture of vectors, rows of kProbeWidth, bound to a unit while it lives.
 class Vectors {
  public:
   Vectors(int unit, std::vector<glm::vec4> texels) {
-    const int height = static_cast<int>(texels.size()) / kWidth;
+    const int height = static_cast<int>(texels.size()) / kProbeWidth;
     glGenTextures(1, &texture_);
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, texture_);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kWidth, height, 0, GL_RGBA, GL_FLOAT, texels.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kProbeWidth, height, 0, GL_RGBA, GL_FLOAT, texels.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
@@ -69,9 +69,9 @@ viewer::Target targetOf(int height, std::size_t layers) {
   using enum viewer::PixelFormat;
   switch (layers) {
     case 1:
-      return must(viewer::Target::create(kWidth, height, {Rgba32f}));
+      return must(viewer::Target::create(kProbeWidth, height, {Rgba32f}));
     case 5:
-      return must(viewer::Target::create(kWidth, height, {Rgba32f, Rgba32f, Rgba32f, Rgba32f, Rgba32f}));
+      return must(viewer::Target::create(kProbeWidth, height, {Rgba32f, Rgba32f, Rgba32f, Rgba32f, Rgba32f}));
     default:
       throw std::runtime_error("a probe has up to 4 or from 17 to 20 outputs");
   }
@@ -85,8 +85,8 @@ std::vector<std::vector<float>> readByShader(std::span<const Expr> outputs, std:
   writer.add("read", outputs);
   const auto program =
       must(viewer::Program::overScreen("#version 330 core\n" + writer.source() + mainOf(outputs.size())));
-  const int height = static_cast<int>((places.size() + kWidth - 1) / kWidth);
-  std::vector<glm::vec4> points(static_cast<std::size_t>(height) * kWidth), normals = points;
+  const int height = static_cast<int>((places.size() + kProbeWidth - 1) / kProbeWidth);
+  std::vector<glm::vec4> points(static_cast<std::size_t>(height) * kProbeWidth), normals = points;
   for (std::size_t i = 0; i < places.size(); ++i)
     points[i] = glm::vec4(places[i].p, 0.0f), normals[i] = glm::vec4(places[i].n, 0.0f);
   const Vectors pointTexture(0, std::move(points)), normalTexture(1, std::move(normals));

@@ -18,7 +18,7 @@
 #include "viewer/shaders/glsl_range.h"
 
 namespace sdf::test {
-namespace {
+namespace glsl_test {
 
 /// A context for all tests.
 class Gpu : public testing::Test {
@@ -118,7 +118,7 @@ void check(std::span<const Expr> outputs, const std::vector<Place>& places, doub
   const auto got = readByShader(outputs, places);
   std::size_t narrow = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& [p, n] = places[i];
+    const glm::vec3 &p = places[i].p, &n = places[i].n;
     const std::vector<Interval> r = ranges(p, n);
     const std::vector<double> expected = oracle(p, n);
     for (std::size_t k = 0; k < outputs.size(); ++k) {
@@ -293,5 +293,5 @@ TEST_F(GlslUniforms, AreReadAtTheirValues) {
     }
 }
 
-}  // namespace
+}  // namespace glsl_test
 }  // namespace sdf::test

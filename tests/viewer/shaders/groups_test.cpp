@@ -28,7 +28,7 @@
 #include "viewer/shaders/assemble.h"
 
 namespace sdf::test {
-namespace {
+namespace groups_test {
 
 /// Anywhere in a flat box; the same ones for each seed.
 class Places {
@@ -614,5 +614,5 @@ TEST(GroupedPicture, IsShownByAllViews) {
   }
 }
 
-}  // namespace
+}  // namespace groups_test
 }  // namespace sdf::test

@@ -10,7 +10,7 @@
 #include "viewer/render/renderer.h"
 
 namespace sdf::viewer {
-namespace {
+namespace limits_test {
 
 constexpr std::size_t kMostTexels = std::size_t{1} << 24;  // that floats tell apart
 constexpr const char* kParts = SDF_SOURCE_DIR "/samples/bench/v_parts.lua";
@@ -85,5 +85,5 @@ TEST_F(Limits, AScenesPictureSaysSoAndIsDrawnWithoutLists) {
   EXPECT_TRUE(plain.draw(frame, target));
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace sdf::viewer

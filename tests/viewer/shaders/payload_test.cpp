@@ -17,7 +17,7 @@
 #include "viewer/shaders/glsl_probe.h"
 
 namespace sdf::test {
-namespace {
+namespace payload_test {
 
 Scene lit(const Shape& shape) {
   Scene scene;
@@ -192,5 +192,5 @@ TEST(MeshSamples, OfTooManyEdgesSayThatTheyAreWorse) {
             2 * static_cast<std::size_t>(bricks.cells.x * bricks.cells.y * bricks.cells.z) + 16384);
 }
 
-}  // namespace
+}  // namespace payload_test
 }  // namespace sdf::test

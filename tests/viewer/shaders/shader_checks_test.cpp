@@ -13,7 +13,7 @@
 #include "viewer/shaders/source.h"
 
 namespace sdf::viewer {
-namespace {
+namespace shader_checks_test {
 
 using Lines = std::vector<std::string>;
 
@@ -128,5 +128,5 @@ TEST(Macros, AreSoundInAllShadersOfAllSamples) {
   }
 }
 
-}  // namespace
+}  // namespace shader_checks_test
 }  // namespace sdf::viewer

@@ -16,7 +16,7 @@
 #include "viewer/shaders/plan.h"
 
 namespace sdf::test {
-namespace {
+namespace solved_test {
 
 void expectBall(const Shape& shape, const glm::dvec3& centre, double radius) {
   const auto ball = viewer::ballOf(shape);
@@ -123,5 +123,5 @@ TEST(SolvedPicture, ReadsNothingOfBallsAndAFloor) {
   EXPECT_EQ(readingsOnGpu(*scene, {}).primary, 0.0);
 }
 
-}  // namespace
+}  // namespace solved_test
 }  // namespace sdf::test

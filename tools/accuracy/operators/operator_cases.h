@@ -52,6 +52,9 @@ std::vector<OperatorCases> operatorCases();
 /// Makes the cases and checks them, as rowOf does.
 Row operatorRow(const OperatorCases& cases, std::uint64_t fraction = 1);
 
+/// How tests name it.
+inline void PrintTo(const OperatorCases& c, std::ostream* out) { *out << c.entry; }
+
 // The parts of that list, one file each.
 std::vector<OperatorCases> booleanCases();
 std::vector<OperatorCases> formCases();

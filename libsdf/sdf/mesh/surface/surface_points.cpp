@@ -1,4 +1,5 @@
 #include "sdf/mesh/surface/surface_points.h"
+#include "sdf/eval/batch.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
