@@ -22,7 +22,7 @@ namespace sdf::viewer {
 namespace window_test {
 
 constexpr int kWidth = 640, kHeight = 480;
-constexpr double kPatience = 20.0;  // seconds; llvmpipe may share its cores with other tests
+constexpr double kPatience = 120.0;  // seconds; llvmpipe may share its cores with other tests
 
 // A red ball before a blue sky, of flat colours, and moved to the right by a slider.
 constexpr const char* kBall = R"(local x = param("x", 0, {min = 0, max = 2})

@@ -48,7 +48,7 @@ struct Three {
 
 // A thread's memory for judging.
 struct Rooms {
-  std::vector<Sample> samples;
+  std::vector<FanSample> samples;
   std::vector<glm::vec3> facets;
   std::vector<float> areas;
   std::vector<std::pair<float, float>> spread;
@@ -70,7 +70,7 @@ class Judge {
         sides_(rooms.sides),
         three_(rooms.three) {
     samples_.clear(), facets_.clear(), areas_.clear();
-    view.forEachSample([&](const Sample& s) { samples_.push_back(s); });
+    view.forEachSample([&](const FanSample& s) { samples_.push_back(s); });
   }
 
   FanError judge() {
@@ -107,7 +107,7 @@ class Judge {
   }
 
   void take(std::size_t i, FanError& e) {
-    const Sample& s = samples_[i];
+    const FanSample& s = samples_[i];
     const Reading& r = readings_[i];
     float d = std::abs(r.distance);
     // On a crease, of two readings the second's: to the line where both planes meet.
@@ -117,11 +117,11 @@ class Judge {
       if (std::abs(c) < kOneSide) d = glm::length(leastStep(r.normal, o.normal, r.distance, o.distance));
     }
     if (!(d <= e.largest)) e.largest = d, e.worst = s.triangle;
-    if (s.kind == Sample::Spoke && !(d <= e.spoke)) {
+    if (s.kind == FanSample::Spoke && !(d <= e.spoke)) {
       const bool second = s.at != s.of && samples_[i - 1].of == s.of;
       e.spoke = d, e.worstSpoke = second ? view_.after(s.triangle) : s.triangle;
     }
-    if (s.kind == Sample::Inner) return;
+    if (s.kind == FanSample::Inner) return;
     addEnergy(d, e);
     if (!(glm::dot(facets_[s.triangle], r.normal) > kFacing)) e.sound = false;
     const auto spread = [&](std::uint32_t t) {
@@ -129,7 +129,7 @@ class Judge {
       low = std::min(low, r.distance), high = std::max(high, r.distance);
     };
     spread(s.triangle);
-    if (s.kind == Sample::Spoke && s.at == s.of && view_.fan.closed)
+    if (s.kind == FanSample::Spoke && s.at == s.of && view_.fan.closed)
       spread(s.triangle == 0 ? view_.fan.count - 1 : s.triangle - 1);
   }
 
@@ -137,8 +137,8 @@ class Judge {
   // and the reading at the centre: on a saddle the largest distances lie on edges, off their middles.
   void extremaOnSpokes(FanError& e) {
     for (std::size_t i = 1; i < samples_.size(); ++i) {
-      const Sample& s = samples_[i];
-      if (s.kind != Sample::Spoke) continue;
+      const FanSample& s = samples_[i];
+      if (s.kind != FanSample::Spoke) continue;
       const Reading& r = readings_[i];
       const glm::vec3 half = s.of - view_.fan.centre;
       const float slope = glm::dot(r.normal, half),
@@ -161,9 +161,9 @@ class Judge {
       of[t].r[k] = &readings_[i], of[t].at[k] = samples_[i].of;
     };
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const Sample& s = samples_[i];
-      if (s.kind == Sample::Centre || s.kind == Sample::Inner) continue;
-      if (s.kind == Sample::Centroid) {
+      const FanSample& s = samples_[i];
+      if (s.kind == FanSample::Centre || s.kind == FanSample::Inner) continue;
+      if (s.kind == FanSample::Centroid) {
         put(s.triangle, 0, i);
         continue;
       }
@@ -209,16 +209,16 @@ class Judge {
   void offset(FanError& e) {
     glm::vec3 normals[2]{glm::vec3(0.0f), glm::vec3(0.0f)};
     const bool two = view_.fan.creases == 2;
-    const auto sector = [&](const Sample& s) { return two && view_.inSecond(s.triangle) ? 1 : 0; };
+    const auto sector = [&](const FanSample& s) { return two && view_.inSecond(s.triangle) ? 1 : 0; };
     for (std::size_t i = 0; i < samples_.size(); ++i)
-      if (samples_[i].kind == Sample::Centre) normals[sector(samples_[i])] += readings_[i].normal;
+      if (samples_[i].kind == FanSample::Centre) normals[sector(samples_[i])] += readings_[i].normal;
     e.normal = normals[0];
     e.onto = stepOnto(readings_.first(view_.centres()));
     const bool apart = two && std::abs(glm::dot(normals[0], normals[1])) < kOneSide;
     for (Balance& side : sides_) side.clear();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const int k = apart ? sector(samples_[i]) : 0;
-      if (samples_[i].kind == Sample::Inner) continue;
+      if (samples_[i].kind == FanSample::Inner) continue;
       sides_[k].add(readings_[i].distance, samples_[i].weight * glm::dot(readings_[i].normal, normals[k]));
     }
     e.offset = apart ? leastStep(normals[0], normals[1], sides_[0].solve(), sides_[1].solve())
@@ -253,7 +253,7 @@ class Judge {
   const FanView& view_;
   std::span<const Reading> readings_;
   float tolerance_;
-  std::vector<Sample>& samples_;
+  std::vector<FanSample>& samples_;
   std::vector<glm::vec3>& facets_;
   std::vector<float>& areas_;
   std::vector<std::pair<float, float>>& spread_;
@@ -276,7 +276,7 @@ void evaluateFans(const Fans& fans, float tolerance, Sampling sampling, const Lo
   std::vector<Reading> readings(first.back());
   tbb::parallel_for(std::size_t{0}, fans.all.size(), [&](std::size_t i) {
     std::size_t k = first[i];
-    FanView(fans, i, tolerance, spacing).forEachSample([&](const Sample& s) { points[k++] = s.at; });
+    FanView(fans, i, tolerance, spacing).forEachSample([&](const FanSample& s) { points[k++] = s.at; });
   });
   forEachGradient(points, field, progress, [&](std::size_t i, const RunGradients& g, std::size_t k) {
     readings[i] = {g.distance(k), g.normal(k)};
@@ -288,7 +288,7 @@ void evaluateFans(const Fans& fans, float tolerance, Sampling sampling, const Lo
     const FanView view(fans, i, tolerance, spacing);
     const std::span<Reading> own(readings.data() + first[i], first[i + 1] - first[i]);
     std::size_t k = 0;
-    view.forEachSample([&](const Sample& s) {
+    view.forEachSample([&](const FanSample& s) {
       Reading& r = own[k++];
       r.distance += glm::dot(r.normal, s.of - s.at);
     });

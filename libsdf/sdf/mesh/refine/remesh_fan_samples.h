@@ -16,7 +16,7 @@ inline constexpr float kBeside = 4.0f;
 
 /// A distance to be read at `at` for the point `of` of the mesh, which moves by `weight` times what the
 /// centre does.
-struct Sample {
+struct FanSample {
   enum Kind { Centre, Centroid, Inner, Spoke };
   Kind kind;
   glm::vec3 of, at;
@@ -28,7 +28,7 @@ struct Sample {
 /// most.
 inline constexpr int kMostSteps = 8;
 
-/// What was read: signed distance at Sample::of, and the unit gradient.
+/// What was read: signed distance at FanSample::of, and the unit gradient.
 struct Reading {
   float distance;
   glm::vec3 normal;
@@ -99,10 +99,11 @@ struct FanView {
   template <class Take>
   void forEachCentre(const Take& take) const {
     if (!hasCentre()) return;
-    if (fan.creases == 0) return take(Sample{Sample::Centre, fan.centre, fan.centre, 1.0f, 0});
+    if (fan.creases == 0) return take(FanSample{FanSample::Centre, fan.centre, fan.centre, 1.0f, 0});
     forEachSector([&](std::uint32_t first, std::uint32_t count) {
       const std::uint32_t middle = (first + count / 2) % fan.count;
-      take(Sample{Sample::Centre, fan.centre, besideOf(fan.centre, glm::vec3(0.0f), middle), 1.0f, middle});
+      take(FanSample{FanSample::Centre, fan.centre, besideOf(fan.centre, glm::vec3(0.0f), middle), 1.0f,
+                     middle});
     });
   }
   std::size_t centres() const { return hasCentre() ? std::max(1u, fan.creases) : 0; }
@@ -114,7 +115,7 @@ struct FanView {
     forEachCentre(take);
     for (std::uint32_t i = 0; i < n; ++i) {
       const glm::vec3 c = centroid(i);
-      take(Sample{Sample::Centroid, c, c, 1.0f / 3.0f, i});
+      take(FanSample{FanSample::Centroid, c, c, 1.0f / 3.0f, i});
       forEachInner(i, take);
     }
     const std::uint32_t begin = fan.closed ? 0 : 1, spokes = fan.closed ? fan.count : fan.count - 1;
@@ -122,11 +123,11 @@ struct FanView {
       const glm::vec3 p = 0.5f * (fan.centre + end(i)), along = end(i) - fan.centre;
       const std::uint32_t before = i == 0 ? fan.count - 1 : i - 1;
       if (!rim[i].crease) {
-        take(Sample{Sample::Spoke, p, p, 0.5f, i});
+        take(FanSample{FanSample::Spoke, p, p, 0.5f, i});
         continue;
       }
-      take(Sample{Sample::Spoke, p, besideOf(p, along, i), 0.5f, i});
-      take(Sample{Sample::Spoke, p, besideOf(p, along, before), 0.5f, before});
+      take(FanSample{FanSample::Spoke, p, besideOf(p, along, i), 0.5f, i});
+      take(FanSample{FanSample::Spoke, p, besideOf(p, along, before), 0.5f, before});
     }
   }
 
@@ -150,7 +151,7 @@ struct FanView {
         const float u = static_cast<float>(j) / static_cast<float>(n),
                     v = static_cast<float>(k) / static_cast<float>(n), w = 1.0f - u - v;
         const glm::vec3 p = w * fan.centre + u * end(i) + v * end(after(i));
-        take(Sample{Sample::Inner, p, p, w, i});
+        take(FanSample{FanSample::Inner, p, p, w, i});
       }
   }
 

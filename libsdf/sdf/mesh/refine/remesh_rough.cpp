@@ -31,10 +31,10 @@ void RemeshChanges::estimate(Fans& fans, std::vector<FanError>& errors) const {
   const auto viewOf = [&](std::size_t i) { return FanView(fans, i, tolerance_, spacing); };
   std::vector<std::size_t> first{0};
   for (std::size_t i = 0; i < fans.all.size(); ++i) first.push_back(first.back() + viewOf(i).centres());
-  std::vector<Sample> samples;
+  std::vector<FanSample> samples;
   samples.reserve(first.back());
   for (std::size_t i = 0; i < fans.all.size(); ++i)
-    viewOf(i).forEachCentre([&](const Sample& s) { samples.push_back(s); });
+    viewOf(i).forEachCentre([&](const FanSample& s) { samples.push_back(s); });
   std::vector<Reading> readings(samples.size());
   forEachRun(
       samples.size(), [&](std::size_t i) { return samples[i].at; }, field_, progress_,
@@ -42,7 +42,7 @@ void RemeshChanges::estimate(Fans& fans, std::vector<FanError>& errors) const {
         RunGradients g;
         g.evaluate(run, run.points);
         for (std::size_t i = 0; i < run.count; ++i) {
-          const Sample& s = samples[run.first + i];
+          const FanSample& s = samples[run.first + i];
           const glm::vec3 n = g.normal(i);
           readings[run.first + i] = {g.distance(i) + glm::dot(n, s.of - s.at), n};
         }
