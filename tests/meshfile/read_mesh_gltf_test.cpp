@@ -333,7 +333,7 @@ GltfDraft painted(const GltfJson& material,
   GltfJson attributes{{"POSITION", draft.positions(kTriangle)}};
   for (const auto& [name, at] : coordinates) attributes[name] = draft.accessor(at, "VEC2", kFloat);
   draft.node({{"attributes", attributes}, {"material", 0}});
-  draft.json["materials"] = {material};
+  draft.json["materials"] = GltfJson::array({material});
   return draft;
 }
 
@@ -415,7 +415,7 @@ TEST(ReadGltf, ReadsPicturesFromTextsViewsAndFiles) {
   for (const GltfJson& image :
        {GltfJson{{"uri", "data:image/png;base64," + GltfDraft::base64(png)}},
         GltfJson{{"bufferView", view}, {"mimeType", "image/png"}}, GltfJson{{"uri", "sub%20folder/a.png"}}}) {
-    draft.json["images"] = {image};
+    draft.json["images"] = GltfJson::array({image});
     const TriangleMesh mesh = readPlainly(draft.save(folder / "a.gltf"));
     ASSERT_EQ(mesh.images.size(), 1u);
     EXPECT_EQ(mesh.images[0].width, 2);
@@ -533,7 +533,7 @@ TEST(ReadGltf, WarnsOfWhatMoves) {
   const Folder folder;
   GltfDraft draft = triangle();
   draft.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
-  draft.json["animations"] = {GltfJson::object()};
+  draft.json["animations"] = GltfJson::array({GltfJson::object()});
   draft.json["skins"] = {{{"joints", {0}}}};
   draft.json["nodes"][0]["skin"] = 0;
   EXPECT_EQ(readWell(draft.save(folder / "a.gltf")).warnings,
@@ -581,7 +581,7 @@ TEST(ReadGltf, ReadsBuffersFromFilesBesideIt) {
   draft.json["buffers"] = {{{"byteLength", length}}};
   EXPECT_EQ(whyNot(draft.save(folder / "inner/a.gltf")),
             "its buffer view 0 is of buffer 0, which is missing");
-  draft.json["buffers"] = {GltfJson::object()};
+  draft.json["buffers"] = GltfJson::array({GltfJson::object()});
   EXPECT_EQ(whyNot(draft.save(folder / "inner/a.gltf")), "its buffer 0 has no length");
 }
 
