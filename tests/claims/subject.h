@@ -20,7 +20,7 @@ inline Box around(const glm::dvec3& p, double by) { return {p - by, p + by}; }
 
 inline glm::dvec3 randomDirection(std::mt19937& random) {
   std::normal_distribution<> normal;
-  return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  return glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
 }
 inline double uniform(std::mt19937& random, double lo, double hi) {
   return std::uniform_real_distribution<>(lo, hi)(random);

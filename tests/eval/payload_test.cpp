@@ -129,13 +129,13 @@ TEST_P(PayloadTape, IntervalsContainValuesAndSlopes) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1.6, 1.6), unit(0.0, 1.0);
   for (int trial = 0; trial < 500; ++trial) {
-    const glm::dvec3 corner(any(random), any(random), any(random)),
-        size = glm::dvec3(unit(random), unit(random), unit(random)) * (trial % 2 ? 1.0 : 0.02);
+    const glm::dvec3 corner{any(random), any(random), any(random)},
+        size = glm::dvec3{unit(random), unit(random), unit(random)} * (trial % 2 ? 1.0 : 0.02);
     const Box box{corner, corner + size};
     const Interval range = evaluate(tape, box);
     const double slope = lipschitzOver(tape, box);
     for (int i = 0; i < 20; ++i) {
-      const glm::dvec3 p = corner + size * glm::dvec3(unit(random), unit(random), unit(random));
+      const glm::dvec3 p = corner + size * glm::dvec3{unit(random), unit(random), unit(random)};
       ASSERT_TRUE(range.contains(evaluate(tape, p)));
       ASSERT_LE(glm::length(evaluateGradient(tape, p).gradient), slope * (1.0 + 1e-9));
     }

@@ -120,10 +120,10 @@ TEST(Specialisation, LeavesValuesInTheRegionUnchanged) {
       // Dropping a branch that jumps lets slopes decide what depends on it, so a second pass may drop more.
       while (const TapePtr next = specialiseOnce(*special, centre, half, seed % 2)) special = next;
       for (int sample = 0; sample < 20; ++sample) {
-        const glm::dvec3 p = centre + half * glm::dvec3(unit(random), unit(random), unit(random));
+        const glm::dvec3 p = centre + half * glm::dvec3{unit(random), unit(random), unit(random)};
         ASSERT_EQ(evaluate(*special, p), evaluate(*tape, p)) << "seed " << seed << ", half side " << half;
       }
-      centre += half / 2.0 * glm::dvec3(unit(random), unit(random), unit(random));
+      centre += half / 2.0 * glm::dvec3{unit(random), unit(random), unit(random)};
     }
     full += tape->instructions().size();
     left += special->instructions().size();

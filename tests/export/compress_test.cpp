@@ -324,7 +324,7 @@ TEST(Compress, NormalsOfAllDirectionsKeepTheirPromise) {
   std::normal_distribution<float> component;
   std::vector<glm::vec3> normals;
   for (int i = 0; i < 100'000; ++i)
-    normals.push_back(glm::normalize(glm::vec3(component(random), component(random), component(random))));
+    normals.push_back(glm::normalize(glm::vec3{component(random), component(random), component(random)}));
   for (const float x : {-1.0f, 0.0f, 1.0f})
     for (const float y : {-1.0f, 0.0f, 1.0f})
       for (const float z : {-1.0f, 0.0f, 1.0f})

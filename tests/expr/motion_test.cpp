@@ -35,9 +35,9 @@ void expectMoves(const Shape& before, const Shape& after, const RigidMotion& m) 
   std::mt19937 random(7);
   std::uniform_real_distribution<double> coordinate(-2.0, 2.0);
   for (int i = 0; i < 100; ++i) {
-    const glm::dvec3 p(coordinate(random), coordinate(random), coordinate(random));
+    const glm::dvec3 p{coordinate(random), coordinate(random), coordinate(random)};
     const glm::dvec3 n =
-        glm::normalize(glm::dvec3(coordinate(random), coordinate(random), coordinate(random)));
+        glm::normalize(glm::dvec3{coordinate(random), coordinate(random), coordinate(random)});
     const std::vector<double> here = evaluateAll(first, p, n),
                               there = evaluateAll(second, m(p), m.rotation * n);
     for (std::size_t k = 0; k < here.size(); ++k) ASSERT_NEAR(there[k], here[k], 1e-9) << "output " << k;

@@ -28,7 +28,7 @@ struct Ball {
     std::mt19937 random(seed);
     std::normal_distribution<> normal;
     for (int i = 0; i < count; ++i) {
-      outward.add(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))));
+      outward.add(glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)}));
       points.add(centre + outward[i]);
       nothing.add(glm::dvec3(0.0));
     }

@@ -97,8 +97,8 @@ inline Rays raysInward(int count, double radius, double tMax, unsigned seed) {
   Rays rays;
   for (int i = 0; i < count; ++i) {
     const glm::dvec3 from =
-        radius * glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-    rays.add(from, glm::normalize(glm::dvec3(near(random), near(random), near(random)) - from), 0.0, tMax);
+        radius * glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
+    rays.add(from, glm::normalize(glm::dvec3{near(random), near(random), near(random)} - from), 0.0, tMax);
   }
   return rays;
 }

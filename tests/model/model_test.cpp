@@ -228,10 +228,10 @@ TEST(Marchable, StepsAreFreeAndHaveTheDistancesSign) {
   std::uniform_real_distribution<> within(-4.0, 4.0);
   std::normal_distribution<> normal;
   for (int i = 0; i < 20000; ++i) {
-    const glm::dvec3 a(within(random), within(random), within(random));
+    const glm::dvec3 a{within(random), within(random), within(random)};
     const double f = evaluate(distance, a), g = evaluate(step, a);
     ASSERT_EQ(f > 0.0, g > 0.0) << f << ' ' << g << " at " << a.x << ", " << a.y << ", " << a.z;
-    const glm::dvec3 way = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    const glm::dvec3 way = glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
     const double there = evaluate(distance, a + 0.999 * std::abs(g) * way);
     ASSERT_EQ(f > 0.0, there > 0.0) << f << ' ' << g << " at " << a.x << ", " << a.y << ", " << a.z;
   }

@@ -131,7 +131,7 @@ TEST(Certify, NeverClaimsLessThanTheTrueDistanceOfDisturbedMeshes) {
     Subject subject(sphere(1.0), 1.0 / 10);
     const float by = std::pow(10.0f, -4.0f + 3.0f * (seed % 6) / 6.0f);
     for (glm::vec3& p : subject.mesh.positions)
-      if (seed < 6 || unit(random) > 0.9f) p += by * glm::vec3(unit(random), unit(random), unit(random));
+      if (seed < 6 || unit(random) > 0.9f) p += by * glm::vec3{unit(random), unit(random), unit(random)};
     const Certificate proof = subject.certificate();
     if (!proof.proven()) continue;
     ++proven;

@@ -50,7 +50,7 @@ TEST(Noise, ComesNearTheSlopeThatItClaims) {
   constexpr double kNudge = 1e-5;
   double most = 0.0;
   for (int i = 0; i < 200000; ++i) {
-    const glm::dvec3 p(any(random), any(random), any(random));
+    const glm::dvec3 p{any(random), any(random), any(random)};
     glm::dvec3 g;
     for (int k = 0; k < 3; ++k) {
       glm::dvec3 q = p;

@@ -149,7 +149,7 @@ class Sampler {
   Sampler(const Box& region, unsigned seed) : region_(region), random_(seed) {}
 
   glm::dvec3 anywhere() {
-    const glm::dvec3 t(unit_(random_), unit_(random_), unit_(random_));
+    const glm::dvec3 t{unit_(random_), unit_(random_), unit_(random_)};
     return region_.min + t * (region_.max - region_.min);
   }
   glm::dvec3 orOnAnAxis() {
@@ -160,7 +160,7 @@ class Sampler {
   }
   /// A point up to `reach` away.
   glm::dvec3 near(const glm::dvec3& p, double reach) {
-    const glm::dvec3 t(unit_(random_), unit_(random_), unit_(random_));
+    const glm::dvec3 t{unit_(random_), unit_(random_), unit_(random_)};
     return p + (2.0 * t - 1.0) * (reach / std::sqrt(3.0));
   }
   double uniform() { return unit_(random_); }

@@ -28,7 +28,7 @@ class Points {
   }
   glm::dvec3 direction() {
     std::normal_distribution<> normal;
-    return glm::normalize(glm::dvec3(normal(random_), normal(random_), normal(random_)));
+    return glm::normalize(glm::dvec3{normal(random_), normal(random_), normal(random_)});
   }
 
  private:

@@ -126,7 +126,7 @@ TEST(Ellipsoid, HasTheTrueNormalOnItsSurface) {
   for (const dvec3& r : {dvec3(1, 0.6, 0.4), dvec3(0.05, 1, 0.05), dvec3(1, 0.03, 0.8)}) {
     const Evaluator f(ellipsoid({r.x, r.y, r.z}).distance);
     for (int i = 0; i < 500; ++i) {
-      const dvec3 p = r * glm::normalize(dvec3(normal(random), normal(random), normal(random)));
+      const dvec3 p = r * glm::normalize(dvec3{normal(random), normal(random), normal(random)});
       // Closer to the focal disc than this a needle's or disc's medial sheet would be seen by the
       // differences.
       const double step = 1e-4 * std::min({r.x, r.y, r.z}) * std::min({r.x, r.y, r.z});

@@ -36,7 +36,7 @@ void expectSame(const Expr& a, const Expr& b, unsigned seed) {
   std::uniform_real_distribution<double> coordinate(-4.0, 4.0);
   const test::Evaluator f(a), g(b);
   for (int i = 0; i < 2000; ++i) {
-    const glm::dvec3 p(coordinate(random), coordinate(random), coordinate(random));
+    const glm::dvec3 p{coordinate(random), coordinate(random), coordinate(random)};
     ASSERT_EQ(f(p), g(p)) << "seed " << seed << ", point " << i;
   }
 }

@@ -22,8 +22,8 @@ struct Placed {
   Placed(const Shape& s, std::vector<glm::dvec3> at, unsigned seed) : points(std::move(at)) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<> angle(0.0, 2.0 * std::numbers::pi), place(-0.5, 0.5);
-    const glm::dvec3 axis = glm::normalize(glm::dvec3(place(random), place(random), place(random)));
-    const glm::dvec3 offset(place(random), place(random), place(random));
+    const glm::dvec3 axis = glm::normalize(glm::dvec3{place(random), place(random), place(random)});
+    const glm::dvec3 offset{place(random), place(random), place(random)};
     const double turn = angle(random);
     shape = translate(rotateAbout(s, axis, turn), offset);
     for (glm::dvec3& p : points) p = offset + glm::angleAxis(turn, axis) * p;

@@ -36,7 +36,7 @@ Soup randomSoup(unsigned seed, int count, float size, const std::function<float(
   std::uniform_real_distribution<float> at(0.0f, 1.0f), way(-size, size);
   Soup soup;
   for (int i = 0; i < count; ++i) {
-    const glm::vec3 middle(at(random), at(random), at(random));
+    const glm::vec3 middle{at(random), at(random), at(random)};
     std::array<glm::vec3, 4> corners;
     for (glm::vec3& p : corners)
       for (int k = 0; k < 3; ++k) p[k] = rounded(middle[k] + way(random));

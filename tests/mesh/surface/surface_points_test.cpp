@@ -27,7 +27,7 @@ std::vector<glm::vec3> fullLeaves(const RawSurface& surface, double h, std::size
     const glm::dvec3 vertex(surface.points[i * 977 % surface.points.size()]);
     const glm::dvec3 origin = glm::floor(vertex / h / 8.0) * 8.0;
     for (std::size_t k = 0; k < kBatchPoints; ++k)
-      points.emplace_back((origin + glm::dvec3(inside(random), inside(random), inside(random))) * h);
+      points.emplace_back((origin + glm::dvec3{inside(random), inside(random), inside(random)}) * h);
   }
   return points;
 }
@@ -37,7 +37,7 @@ std::vector<glm::vec3> shaken(const RawSurface& surface, double h, unsigned seed
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> offset(static_cast<float>(-h), static_cast<float>(h));
   std::vector<glm::vec3> points = surface.points;
-  for (glm::vec3& p : points) p += glm::vec3(offset(random), offset(random), offset(random));
+  for (glm::vec3& p : points) p += glm::vec3{offset(random), offset(random), offset(random)};
   return points;
 }
 
