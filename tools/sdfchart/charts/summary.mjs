@@ -1,4 +1,4 @@
-// Tables for the README, of nothing but rows of results.csv.
+// The tables of docs/charts.md, made of nothing but rows of results.csv.
 import { fastestWithin } from './choose.mjs';
 import { distinct, shown } from './figures.mjs';
 import { sections } from './sections.mjs';
