@@ -1,4 +1,4 @@
-// A tree of boxes over triangles: which of them is nearest, what meets, and how often they wind around a
+// A tree of boxes over triangles: the nearest triangle, pairs that meet, and how often they wind around a
 // point.
 #pragma once
 #include <cstdint>
