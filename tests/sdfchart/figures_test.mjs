@@ -63,14 +63,14 @@ assert.equal(axisName(section('growth').x[0], 'x', 'over the voxels a side (dril
 assert.equal(axisName(section('normals').x[0], 'x', 'torus 10 from the origin'), 'step (scene units)');
 assert.equal(axisName(section('normals').x[0], 'x', 'over the distance from the origin (torus)'), 'distance from the origin (scene units)');
 
-// The README says what the results say that are kept beside the charts.
+// The tables of docs/charts.md are those of the results that are kept beside the charts.
 const root = new URL('../../', import.meta.url);
-const [readme, results] = ['README.md', 'docs/charts/results.csv'].map((file) => readFileSync(new URL(file, root), 'utf8'));
-assert.equal(withSummary(readme, parseResults(results)), readme, 'run node tools/sdfchart/charts/publish.mjs');
+const [page, results] = ['docs/charts.md', 'docs/charts/results.csv'].map((file) => readFileSync(new URL(file, root), 'utf8'));
+assert.equal(withSummary(page, parseResults(results)), page, 'run node tools/sdfchart/charts/publish.mjs');
 assert.throws(() => withSummary('no place for it', parseResults(results)), /mark the place/);
 const slower = results.replace(/^(shadows,.*?,soft,one ray,[^,]*,1,)[^,]*/m, '$17');
 assert.notEqual(slower, results);
-assert.notEqual(withSummary(readme, parseResults(slower)), readme);
+assert.notEqual(withSummary(page, parseResults(slower)), page);
 
 // Pictures: the last of a row counts, what is not whole does not, and PNGs hold the points.
 const lines = 'shadows,ball,hard,one ray,2,00fe00ff,0000feff\nshadows,ball,hard,one ray,2,fefe00ff,0000feff\nshadows,ball,soft,one ray,2,00fe';
@@ -94,10 +94,10 @@ const [crossed] = charted.series.filter((s) => s.markPoint).map((s) => s.markPoi
 assert.match(crossed.told, /m0.*too slow: s/);
 assert.equal(crossed.label.formatter, 'm0: 1 failed');
 
-// The README's rays: the viewer's frames beside the marcher, in one row for each scene.
+// The table of rays: the viewer's frames beside the marcher, in one row for each scene.
 const rays = [['plain', 't 1', 0], ['auto', 't 1', 1], ['OpenGL, a', 'c 1', 1], ['OpenGL, a', 'c 2', 0]].map(([method, setting, standard], i) => (
   { kind: 'marching', scene: 'ball', method, setting, default: standard, status: 'ok', seconds: 1, items: 1e6, evaluations: i + 1, error_rms: 0.5, machine: 'm' }));
-const marks = readme.match(/<!-- begin[^]*?-->\n/)[0] + readme.match(/<!-- end[^]*?-->/)[0];
+const marks = page.match(/<!-- begin[^]*?-->\n/)[0] + page.match(/<!-- end[^]*?-->/)[0];
 assert.match(withSummary(marks, { rows: rays }), /\| ball \| 1, 1 µs, 0.5 \| 2, 1 µs, 0.5 \| 3, 1 µs, 0.5 \|/);
 
 // The grid of the known failures as a picture: who holds, degrades with a figure, fails, or did not run.

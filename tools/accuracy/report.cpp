@@ -61,12 +61,12 @@ may not exceed the claimed L.
 constexpr const char* kOffsets = R"(
 ## Built on deformed solids
 
-What operators make of a deformed solid's distance, beside what they would make of the true one: the distance to a mesh
-of a box, a torus, a sphere, a cylinder and a column over a star, each vertex of which went where the deformation's
-definition takes it. An *error* is how far the surface that results is from where it should be, along the normal of a
-smooth face at least 1.5 offsets from its edges and its medial axis, in offsets (for a blend: in widths); 3 means that
-none was found up to there. Offsets are 5 % and 25 % of the smallest half size. *astray* counts points on the wrong side
-by more than 35 % of the offset, or by more than a first-order distance may be off at an edge.
+Operators applied to a deformed solid's distance are compared with the same operators applied to the true distance. The
+true one is the distance to a mesh of a box, a torus, a sphere, a cylinder and a column over a star, each vertex moved as
+the deformation's definition says. An *error* is the distance of the resulting surface from its place, along the normal of
+a smooth face at least 1.5 offsets from its edges and its medial axis, in offsets (for a blend: in widths); 3 means that
+no surface was found up to there. Offsets are 5 % and 25 % of the smallest half size. *astray* counts points on the wrong
+side by more than 35 % of the offset, or by more than a first-order distance may be off at an edge.
 
 | deformation | operator | median error | 99 % | worst | astray | lines |
 |---|---|---|---|---|---|---|
@@ -75,9 +75,10 @@ by more than 35 % of the offset, or by more than a first-order distance may be o
 constexpr const char* kFailures = R"(
 ## Known failures
 
-Where methods in common use fail, and what happens here instead. The tests labelled `stability` run each case twice: the
-naive method must show the failure, or the case would not be real, and ours must hold to its limit. Where no method can
-do better, ours counts what is wrong and not reported. Where nothing is wrong a figure is 0 or less, but for rounding.
+Each row is a case in which a method in common use fails, beside libsdf's figure. The tests labelled `stability` run each
+case twice: the naive method must show the failure, or the case would not be real, and ours must hold to its limit. Where
+no method can do better, ours counts errors that are not reported. Without an error a figure is 0 or less, but for
+rounding.
 
 | case | what is measured | naive method | naive | ours | measured | limit | why these limits |
 |---|---|---|---|---|---|---|---|

@@ -6,20 +6,19 @@ namespace {
 constexpr const char* kMeshes = R"(
 ## Meshes
 
-What `sdf2gltf` makes of the measuring shapes (`samples/bench`), 2 to 4 in size: of voxels of 1/64 and 1/128 of a
-region of 4, and with a tolerance that is to be kept with few triangles, beginning with the former. Distances are in scene units.
+These are meshes by `sdf2gltf` of the measuring shapes (`samples/bench`), 2 to 4 in size. Uniform ones have voxels of 1/64
+and 1/128 of a region of 4. Those that keep a tolerance with few triangles begin with 1/64. Distances are in scene units.
 
-- *reported*: what the mesher measured itself, from the mesh to the surface, as the export prints it.
+- *reported*: the mesher's own measure, from the mesh to the surface, as the export prints it.
 - *to the surface*: from points all over the mesh, and for the maximum its vertices, to the true surface: the same
   solid written by hand as smooth pieces, the nearest point being looked for on them, on their edges and at their
   corners. Nothing of it comes from the library.
 - *to the mesh*: from points all over the true surface, where random lines meet it, to the mesh's nearest triangle,
-  which CGAL finds. So nothing that is missing goes unseen.
-- *proven*: what `--certify` proves of both. A distance beyond it would show in bold.
+  which CGAL finds. So no missing piece goes unseen.
+- *proven*: the bound that `--certify` proves of both. A distance beyond it would show in bold.
 
-S4 and S5 have uniform meshes only, without a proof: S4's walls run out to nothing, of which there is no proof, and
-for which a tolerance takes minutes; of S5 a proof takes minutes, and a tolerance of 0.01 is refused where balls meet
-at the voxels' size.
+S4 and S5 have uniform meshes only, without a proof. S4's walls run out to nothing: proofs fail there, and a tolerance
+takes minutes. A proof of S5 takes minutes, and a tolerance of 0.01 is refused where balls meet at the voxels' size.
 
 A mean square over this many points is good to a percent.
 

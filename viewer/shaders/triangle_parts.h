@@ -135,7 +135,7 @@ vec3 edged(vec3 c) {
 )";
 
 /// Defines takeLook(hit, s), which gives a surface's attributes the look of triangles that were drawn: as
-/// meanMaterial() does (shape/triangle_solid.h).
+/// meanMaterial() does (shape/solids/triangle_solid.h).
 inline constexpr const char* kTakeLook = R"(
 uniform sampler2D hitLook, hitGlow;
 

@@ -33,7 +33,7 @@ struct Box {
 
 /// Smallest box around both.
 inline Box unite(const Box& a, const Box& b) { return {glm::min(a.min, b.min), glm::max(a.max, b.max)}; }
-/// What both cover; may be empty.
+/// The box that lies in both; may be empty.
 inline Box intersect(const Box& a, const Box& b) { return {glm::max(a.min, b.min), glm::min(a.max, b.max)}; }
 
 }  // namespace sdf

@@ -1,4 +1,4 @@
-// How long work reports where it is, and how it is asked to stop.
+// Progress of long work: it reports its stage and share, and is asked to stop.
 #pragma once
 #include <atomic>
 #include <string_view>

@@ -8,7 +8,14 @@
 namespace sdf {
 
 /// What kind of input was wrong. The programs turn it into their exit code.
-enum class ErrorKind { Usage = 2, Scene = 3, Limits = 4, Files = 5, Graphics = 6, Interrupted = 130 };
+enum class ErrorKind {
+  Usage = 2,         ///< the command line, or an argument of a function
+  Scene = 3,         ///< the scene's script, or one of its shapes
+  Limits = 4,        ///< more memory, space in a file or accuracy is asked for than there is
+  Files = 5,         ///< a file cannot be read or written
+  Graphics = 6,      ///< there is no OpenGL context, or the driver refuses its work
+  Interrupted = 130  ///< the user ended the work
+};
 
 /// One line for the user: what is wrong, where, and what to do.
 struct Error {

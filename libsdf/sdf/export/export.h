@@ -32,10 +32,10 @@ struct ExportSize {
   double diagonal = 0.0;   ///< of the box around all parts
   double voxelSize = 0.0;  ///< where none is asked for: 1/200 of that box's longest side
 };
-/// Where neither a tolerance nor a voxel size is asked for: this share of the diagonal is the tolerance that
-/// is tried for (MeshOptions::strict is false).
+/// The default tolerance, as a share of the diagonal, where neither a tolerance nor a voxel size is asked
+/// for. It is a goal (MeshOptions::strict is false).
 inline constexpr double kDefaultTolerance = 1.0 / 2000;
-/// Finds it for these parts, cut to `clip` if there is one. Errors: Scene, those of meshShape for a part that
+/// The size of these parts, cut to `clip` if there is one. Errors: Scene, those of meshShape for a part that
 /// is unbounded; Interrupted.
 Result<ExportSize> exportSize(const std::vector<Part>& parts, const std::optional<Box>& clip,
                               Progress& progress);

@@ -8,9 +8,13 @@
 
 namespace sdf {
 
-enum class PlainFormat { Stl, Ply, Obj };
-/// Welded triangles of all parts in one list: binary STL; binary PLY with normals and sRGB colours; OBJ with
-/// normals.
+/// A format that knows triangles alone.
+enum class PlainFormat {
+  Stl,  ///< binary; positions
+  Ply,  ///< binary; positions, normals and sRGB colours
+  Obj   ///< text; positions and normals
+};
+/// Writes the welded triangles of all parts in one list.
 Status encodePlain(std::ostream& out, PlainFormat format, const std::vector<ExportPart>& parts);
 
 }  // namespace sdf

@@ -1,4 +1,4 @@
-// Expressions that differ in nothing but numbers, written once.
+// Expressions that differ only in numbers, written once.
 #pragma once
 #include <span>
 #include <string>
@@ -9,7 +9,8 @@
 namespace sdf {
 
 /// Lists of expressions that are alike: each is the common one with a row of numbers in its parameters'
-/// places. A number is whatever does not depend on space, formulas of the scene's own parameters included.
+/// places. A number is an expression that does not depend on space, such as a formula of the scene's
+/// parameters.
 struct Alike {
   std::vector<std::size_t> places;      ///< of the lists among all, ascending
   std::vector<Expr> common;             ///< with parameters where not all have one number
@@ -20,8 +21,8 @@ struct Alike {
 /// A new parameter, with a range that holds all these numbers.
 Expr numberAmong(const std::string& name, std::span<const Expr> numbers);
 
-/// Sorts lists of expressions by what they are but for numbers, in the order of each sort's first. Parameters
-/// are named `prefix` and a count, over all sorts. Claims are dropped. Cost: linear in the size of the
+/// Groups lists of expressions that differ only in numbers, in the order of each group's first. Parameters
+/// are named `prefix` and a count, over all groups. Claims are dropped. Cost: linear in the size of the
 /// graphs.
 std::vector<Alike> sortedByLikeness(std::span<const std::vector<Expr>> lists, const std::string& prefix);
 

@@ -15,13 +15,19 @@
 
 namespace sdf {
 
-/// What an expression may depend on besides parameters: the position, and (for surface attributes) the unit
-/// normal.
-enum class Variable : std::uint8_t { X, Y, Z, NX, NY, NZ };
+/// A coordinate that an expression may depend on.
+enum class Variable : std::uint8_t {
+  X,   ///< the position's x
+  Y,   ///< the position's y
+  Z,   ///< the position's z
+  NX,  ///< the unit normal's x; surface attributes alone have a normal
+  NY,  ///< the unit normal's y
+  NZ   ///< the unit normal's z
+};
 inline constexpr int kVariableCount = 6;
 
-/// The declaration of a named number that the user may change: the range it is meant for, and what it is
-/// where nobody says otherwise. The graph knows no other value of it; readings are told (eval/function.h).
+/// The declaration of a named number that the user may change: its default, and the range that it is meant
+/// for. The graph knows no other value. A reading is told one (eval/function.h).
 struct ParameterInfo {
   std::string name;
   double value = 0.0;  ///< the default
@@ -55,7 +61,7 @@ class Expr {
 
   Op op() const;
   const Expr& arg(int i) const;  ///< lives as long as this node
-  /// The expression itself, or what a claim is about.
+  /// The expression itself; of a claim, its argument.
   const Expr& unclaimed() const { return op() == Op::Claim ? arg(0) : *this; }
   double constantValue() const;                ///< op() == Constant
   Variable variableIndex() const;              ///< op() == Variable
@@ -130,7 +136,8 @@ bool dependsOnSpace(const Expr& e);
 /// Value of an expression that does not depend on space, with parameters at their defaults.
 double uniformValue(const Expr& e);
 
-/// What stands for a node, given what stands for its arguments; nothing where the node is to be remade.
+/// The replacement of a node, given the replacements of its arguments. None: the node is made anew from
+/// these.
 using Replacement = std::function<std::optional<Expr>(const Expr& node, std::span<const Expr> args)>;
 /// The graphs with nodes replaced, arguments first and each node once. Claims about what has changed are
 /// dropped unless `replacement` says otherwise: they speak of the function as it was. Cost: the size of the

@@ -15,9 +15,10 @@ namespace sdf {
 /// for NaN, whose place is up to the reading; claims are dropped. Cost: linear in the size of the graph.
 Expr hoisted(const Expr& e);
 
-/// The number of the least value, comparing what is left of two values without the functions that both are
-/// of: the last such where these arguments are equal, any where only the functions round them to one value.
-/// As many numbers as values, at least one. Cost: linear in the size of the graphs.
+/// The number of the least value. Where two values are one function of two arguments, the arguments are
+/// compared instead. If these are equal, the last of them counts; if only the function rounds to one value,
+/// any of them may. There are as many numbers as values, at least one. Cost: linear in the size of the
+/// graphs.
 Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers);
 
 }  // namespace sdf

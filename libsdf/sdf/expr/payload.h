@@ -57,11 +57,11 @@ class Payload {
   /// GLSL of `float NAME(vec3 p)`, which is f, and `vec3 NAMESlopes(vec3 p)`, its derivatives, for 3.30 core
   /// and ES 3.00. Whatever else is defined has a name that begins with NAME. A shader has it once.
   virtual std::string glsl(const std::string& name) const = 0;
-  /// What that reads; its texture filter is linear. May be made when it is first asked for.
+  /// The textures that this GLSL reads, by a linear filter. They may be made when they are first asked for.
   virtual std::span<const PayloadVolume> volumes() const { return {}; }
 };
 
-/// What a node of the graph or an instruction is of a payload.
+/// A payload's value or one of its derivatives, as a node of the graph or an instruction of a tape has it.
 struct PayloadPart {
   std::shared_ptr<const Payload> payload;
   int part = 0;  ///< 0: the value; 1, 2, 3: the partial derivative by this argument

@@ -31,8 +31,8 @@ struct Animation {
   std::vector<AnimatedPart> parts;  ///< their meshes have a motion or nothing for each frame
 };
 
-/// What changes with time and cannot be written, a line each: the camera's angle, the colours and intensities
-/// of lights, their number and kinds. The file has the first frame's.
+/// Changes with time that cannot be written, a line each: the camera's angle, the colours and intensities of
+/// lights, their number and kinds. The file has the first frame's.
 std::vector<std::string> notAnimated(const Animation& animation);
 
 /// Do meshes move among each other, or change?

@@ -25,7 +25,8 @@ struct BakedEmission {
   float error = 0.0f;
 };
 
-/// The material's emission plus (light.color + light.around) * (what the mesh answers to it) * occlusion.
+/// The material's emission plus (light.color + light.around) * (the mesh's answer to ambient light) *
+/// occlusion.
 BakedEmission bakedEmission(const Mesh& mesh, const Primitive& primitive, const AmbientLight& light);
 
 }  // namespace sdf

@@ -7,7 +7,11 @@
 
 namespace sdf {
 
-enum class GltfContainer { Binary, Text };
+/// The form of a glTF file.
+enum class GltfContainer {
+  Binary,  ///< .glb
+  Text     ///< .gltf, its buffer as base64
+};
 /// glTF 2.0 with everything in one file: .glb, or .gltf with its buffer as base64. Errors: Limits (over 4 GiB
 /// of .glb).
 Status encodeGltf(std::ostream& out, GltfContainer container, const Scene& scene,

@@ -9,8 +9,7 @@ namespace sdf {
 /// primitive for each material, with those materials that the file does not have yet.
 tinygltf::Node partNode(GltfModel& model, const ExportPart& part);
 
-/// Bytes that the part takes in the file's buffer, as good as at most: with room for all parts no data is
-/// moved.
+/// About the most bytes that the part takes in the file's buffer. With room for all parts no data is moved.
 std::size_t mostBytesOf(const ExportPart& part);
 
 /// The box of all positions that the file's meshes have; empty if there are none.

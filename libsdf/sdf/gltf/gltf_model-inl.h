@@ -1,4 +1,4 @@
-// A glTF file as it is built: what every part of the writer adds to. Khronos, glTF 2.0 Specification (2021),
+// A glTF file as it is built; every part of the writer adds to it. Khronos, glTF 2.0 Specification (2021),
 // section numbers in comments.
 #pragma once
 #include <tiny_gltf.h>
@@ -33,7 +33,7 @@ struct GltfModel : tinygltf::Model {
   int addNode(tinygltf::Node node);
   int addNode(tinygltf::Node node, int parent);
   void useExtension(const std::string& name);
-  /// The same; and whoever does not know it shall not read the file.
+  /// The same, as a required extension: readers that do not know it must not read the file.
   void requireExtension(const std::string& name);
 
   /// Appends elementAt(0) … elementAt(count - 1) and returns the index of a view of them. The next view

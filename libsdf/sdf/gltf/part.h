@@ -1,4 +1,4 @@
-// What is written of one part of a scene: its mesh, its figures, and how.
+// One part of a scene as it is written: its mesh, its figures, and the form that they take.
 #pragma once
 #include <glm/vec3.hpp>
 #include <optional>
@@ -14,14 +14,14 @@ struct AmbientLight {
   glm::vec3 color{0.0f};         ///< linear RGB
   std::vector<float> occlusion;  ///< by vertex, the share of it that arrives, 0 to 1; empty: all of it
   float error = 0.0f;            ///< largest difference of the written emission from it at a vertex, linear
-  std::vector<glm::vec3> around{};  ///< by vertex, what the background adds to the colour; empty: nothing
+  std::vector<glm::vec3> around{};  ///< by vertex, the background's addition to the colour; empty: none
 };
 
 struct ExportPart {
   std::string name;
   Mesh mesh;
   MeshStats stats;
-  std::optional<AmbientLight> ambient{};  ///< what .glb and .gltf hold of it; the other formats have no place
+  std::optional<AmbientLight> ambient{};  ///< for .glb and .gltf; the other formats have no place for it
   /// Set: .glb and .gltf files are compressed, and each coordinate is a whole number of steps of 2^grid.
   /// compress (export/compress.h) does both.
   std::optional<int> grid{};

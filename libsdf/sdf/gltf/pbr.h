@@ -6,14 +6,13 @@
 
 namespace sdf {
 
-/// What glTF's metallic-roughness model needs of one material, besides the diffuse colour that may vary over
-/// it.
+/// One material in glTF's metallic-roughness model, without the diffuse colour, which may vary over it.
 struct PbrMaterial {
   float metallic = 0.0f;           ///< 0 to 1
   float roughness = 1.0f;          ///< perceptual, 0 to 1: the GGX width is its square
   glm::vec3 emissiveFactor{0.0f};  ///< 0 to 1
   float emissiveStrength = 1.0f;   ///< KHR_materials_emissive_strength; 1 unless the emission exceeds 1
-  glm::vec3 metalColor{0.0f};      ///< what a metal's coloured highlight says of its reflectance
+  glm::vec3 metalColor{0.0f};      ///< a metal's reflectance, from its coloured highlight
   float metalShare = 0.0f;         ///< how much of metalColor the base colour takes, 0 to 1
 
   /// Linear base colour in [0, 1] where the diffuse colour is `diffuse`.

@@ -1,4 +1,4 @@
-// A mesh cut into what glTF draws at once: the triangles of one material, with only the vertices they use.
+// A mesh cut into glTF's primitives: the triangles of one material, with only the vertices they use.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-// What rays are marched through: a distance, and how far it lets one go.
+// The field that rays are marched through: a distance, and the step that one may go.
 #pragma once
 #include "sdf/base/result.h"
 #include "sdf/eval/tape.h"

@@ -53,7 +53,15 @@
 
 namespace sdf {
 
-enum class MarchMethod { Plain, OverRelaxed, Accelerated, AutoRelaxed, Segment, Bisection };
+/// How far a ray steps, as stated above.
+enum class MarchMethod {
+  Plain,        ///< by g
+  OverRelaxed,  ///< by a constant times g, until that fails once
+  Accelerated,  ///< by g and the slope of the step before
+  AutoRelaxed,  ///< by g and a mean of the slopes of the steps before
+  Segment,      ///< by g and a bound of its fall on the next piece of the ray
+  Bisection     ///< by halves, until intervals prove a piece free
+};
 
 /// How a ray ended. Up to t (before refinements) no solid was passed, unless it is thinner than float
 /// rounding or, by Segment where g may jump, than epsilon.

@@ -14,12 +14,12 @@ namespace sdf {
 inline bool isPositive(double x) { return x > 0.0 && std::isfinite(x); }
 inline bool isNotNegative(double x) { return x >= 0.0 && std::isfinite(x); }
 
-/// What a field says of a point: f and g (see MarchField).
+/// A field at a point: f and g (see MarchField).
 struct Sample {
   double distance, step;
 
-  /// What is held to a hit's threshold: f, so that hits do not depend on how tight its slope is known, or g
-  /// where that says that the surface is farther off.
+  /// The value that is held to a hit's threshold: f, so that hits do not depend on how tightly its slope is
+  /// known, or g where it proves that the surface is farther off.
   double toHit() const { return std::max(distance, step); }
 };
 

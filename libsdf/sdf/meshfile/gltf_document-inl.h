@@ -1,4 +1,4 @@
-// A glTF file as it is read: what every part of the reader looks into. Khronos, glTF 2.0 Specification
+// A glTF file as it is read; every part of the reader looks into it. Khronos, glTF 2.0 Specification
 // (2021), section numbers in comments.
 #pragma once
 #include <tiny_gltf.h>
@@ -33,7 +33,7 @@ class GltfDocument {
   const MeshFile& file() const { return *file_; }
   const tinygltf::Model& model() const { return model_; }
   const std::vector<GltfPicture>& pictures() const { return pictures_; }
-  /// What the file holds and this reader does not look at, a sentence each.
+  /// Contents of the file that this reader does not look at, a sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The bytes of a buffer view, decoded if they are compressed (EXT_meshopt_compression).

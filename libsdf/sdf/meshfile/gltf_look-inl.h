@@ -9,7 +9,7 @@
 
 namespace sdf {
 
-/// Where a material looks for texture coordinates, and what it makes of them.
+/// The texture coordinates of a material, and how it changes them.
 struct GltfTextureAt {
   int set = 0;  ///< TEXCOORD_set
   glm::mat3 transform{1.0f};

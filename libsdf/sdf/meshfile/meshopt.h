@@ -10,7 +10,7 @@
 
 namespace sdf {
 
-/// What a reader has to know to decode a buffer view, and its bytes.
+/// An encoded buffer view: its bytes, and the facts that decode them.
 struct Encoded {
   std::string_view mode, filter;  ///< as the extension names them
   std::size_t count, stride;      ///< elements once decoded, and bytes of each

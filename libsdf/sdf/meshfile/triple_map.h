@@ -1,4 +1,4 @@
-// Vertices found again by what makes them equal.
+// Vertices found again by three numbers that make them equal.
 #pragma once
 #include <cstdint>
 

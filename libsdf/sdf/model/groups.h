@@ -1,5 +1,5 @@
-// A wide union as the list of its operands: which of them is met, what those that differ only in numbers have
-// in common, and groups of neighbours that can be read apart.
+// A wide union as the list of its operands: the operand that is met, the formulas that operands share, and
+// groups of neighbours that can be read apart.
 #pragma once
 #include <span>
 #include <vector>
@@ -37,8 +37,8 @@ struct NumberRows {
 /// Groups of some of a union's operands, as many in each, that differ only in numbers.
 struct OperandKind {
   Expr distance;  ///< of a group: the least of its operands'
-  Expr step;      ///< how far it lets one go; see Marchable
-  Expr nearest;   ///< the number of that one
+  Expr step;      ///< how far one may go; see Marchable
+  Expr nearest;   ///< the number of the nearest operand
   Expr gap;       ///< where positive, no more than the way to the group's bounds; -infinity if it has none
   double slope = 0.0;       ///< of the distance
   double growth = 0.0;      ///< outside of the bounds the distance is no less than gap / growth
@@ -50,16 +50,17 @@ struct OperandKind {
   std::vector<Box> singles;
 };
 
-/// What of a union's operands is to be read together.
+/// A union's operands, sorted by what is read together.
 struct Kinds {
-  std::vector<OperandKind> many;        ///< those whose formulas are worth to be shared
+  std::vector<OperandKind> many;        ///< operands whose formulas are worth sharing
   std::vector<NumberedOperand> others;  ///< the rest
 };
 
-/// What the operands of a kind are read by: all groups in turn, for which a group that is quick to read takes
-/// several neighbours, or those that a list names (model/cells.h), for which each operand is a group by
-/// itself.
-enum class Grouping { Neighbours, Singles };
+/// How the operands of a kind are put into groups.
+enum class Grouping {
+  Neighbours,  ///< a group that is quick to read takes several neighbours; all groups are read in turn
+  Singles      ///< each operand is a group; a list names the groups that are read (model/cells.h)
+};
 
 /// Sorts operands into kinds. A kind's formula is shared as soon as that saves some hundred operations.
 /// Operands of a kind count as steep as the steepest; slopes must be known. Cost: linear in the size of the

@@ -12,12 +12,18 @@
 
 namespace sdf {
 
-/// The outputs of the tapes that meshing runs on: the distance, then what colouring needs of the attributes.
-// clang-format off
+/// The outputs of the tapes that meshing runs on.
 enum class SurfaceOutput {
-  Distance, Red, Green, Blue, AmbientRed, AmbientGreen, AmbientBlue, MaterialId, Count
+  Distance,      ///< scene units, negative inside
+  Red,           ///< of the diffuse colour, linear
+  Green,         ///< of the diffuse colour
+  Blue,          ///< of the diffuse colour
+  AmbientRed,    ///< of the answer to the ambient light, linear
+  AmbientGreen,  ///< of the answer to the ambient light
+  AmbientBlue,   ///< of the answer to the ambient light
+  MaterialId,    ///< the material's place in Shape::materials
+  Count
 };
-// clang-format on
 
 /// A model's tapes at some values of its inputs, whole or for regions. Immutable.
 class ModelTapes {
@@ -29,10 +35,10 @@ class ModelTapes {
   /// Bound of the distance's slope over all of space; infinite where none is known.
   double slope() const { return slope_; }
 
-  /// Which of the operands `among` can have a part in distances of at most `most` (>= 0) at points of the
-  /// box: where the model's distance is no larger, it is that of these operands alone. An operand is passed
-  /// over where the box is so far from its bounds that its distance is proven to be larger; in a blend by as
-  /// many widths more as there may be operands in between. Cost: linear in the length of `among`.
+  /// The operands among these that can matter at points of the box where the model's distance is at most
+  /// `most` (>= 0): there the distance is that of these operands alone. An operand is left out if the box is
+  /// so far from its bounds that its distance is proven to be larger. In a blend it must be larger by as many
+  /// widths as there may be operands in between. Cost: linear in the length of `among`.
   std::vector<std::uint32_t> near(const Box& box, double most, std::span<const std::uint32_t> among) const;
   /// The tape of these operands, as UnionTapes::link.
   TapePtr link(std::span<const std::uint32_t> operands) const;
@@ -47,15 +53,15 @@ class ModelTapes {
 
   std::optional<UnionTapes> tapes_;  // of a union
   std::vector<Reach> reaches_;       // of its operands
-  double sink_ = 0.0;                // how far the blend may lie below the least distance
-  double width_ = 0.0;  // by how much larger a distance has no part in the blend with a lesser one
+  double sink_ = 0.0;                // the blend lies below the least distance by this at most
+  double width_ = 0.0;               // a distance larger than another by this does not change their blend
   double slope_ = 0.0;
   TapePtr whole_;
   std::vector<std::uint32_t> all_;
 };
 
-/// What stands between a shape and its readings: its functions, compiled once, by the operands of its outer
-/// union. Immutable and cheap to copy.
+/// A shape's functions, compiled once for all readings, by the operands of its outer union. Immutable and
+/// cheap to copy.
 class Model {
  public:
   /// Compiles the shape. Precondition: shape.ok(). Cost: linear in the size of its graph.
@@ -80,12 +86,12 @@ class Model {
   std::shared_ptr<const Compiled> compiled_;
 };
 
-/// A shape's distance for two ends: how far it is, which light reads, and how far one may go. The two are one
+/// A shape's distance for two ends. Light reads the distance itself; rays go by the step. The two are one
 /// node where the distance's slope is 1.
 struct Marchable {
-  Expr distance;  ///< how far it is: nothing of it depends on how tight the slope's bound is
-  /// How far one may go: the ball of this radius around a point is free of the surface. Of the distance's
-  /// sign and zero set. The distance itself where the slope is not known.
+  Expr distance;  ///< how far it is; does not depend on how tight the slope's bound is
+  /// How far one may go: the ball of this radius around a point is free of the surface. It has the distance's
+  /// sign and zero set. Where the slope is not known it is the distance itself.
   Expr step;
   double slope;  ///< of the distance, over all of space, positive; infinite where it is not known
 };
@@ -97,13 +103,14 @@ struct Steep {
   Box bounds = Box::everything();
 };
 
-/// The least of these, at least one, each divided by its own slope: that of one slope are joined first, so
-/// that they are divided once. Cost: linear in their number but for sorting their slopes.
+/// The least of these, at least one, each divided by its own slope. Distances of one slope are joined first,
+/// so that they are divided once. Cost: linear in their number but for sorting their slopes.
 Marchable leastOf(std::span<const Steep> all);
 
-/// What the shape is marched by. The step of one shape is its distance divided by its slope or, where that is
-/// above 1, the way to its bounds if this is more; of a hard union it is the least of its operands', so that
-/// none is slowed down by another's slope. Cost: linear in the number of operands.
+/// The distance and the step by which the shape is marched. The step of one shape is its distance divided by
+/// its slope; where the slope is above 1, it is at least the way to its bounds. The step of a hard union is
+/// the least of its operands', so that no operand is slowed down by another's slope. Cost: linear in the
+/// number of operands.
 Marchable marchable(const Shape& shape);
 
 }  // namespace sdf

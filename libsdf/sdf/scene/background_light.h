@@ -12,7 +12,7 @@ namespace sdf {
 /// RGB: the mean of the radiance over the hemisphere about n, weighted by the cosine. A background of one
 /// colour gives that colour.
 struct BackgroundLight {
-  /// What multiplies 1, x, y, z, xy, yz, zx, 3 z^2 - 1 and x^2 - y^2 of the normal.
+  /// The factors of 1, x, y, z, xy, yz, zx, 3 z^2 - 1 and x^2 - y^2 of the normal.
   std::array<glm::dvec3, 9> parts{};
 
   /// The light at this normal; not negative.
@@ -20,7 +20,7 @@ struct BackgroundLight {
   bool operator==(const BackgroundLight&) const = default;
 };
 
-/// What Scene::background sends as light: a function of the direction, held in x, y and z, with three
+/// The light that Scene::background sends: a function of the direction, held in x, y and z, with three
 /// outputs.
 Function backgroundRadiance(const Scene& scene);
 

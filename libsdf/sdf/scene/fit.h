@@ -26,11 +26,11 @@ double fittingDistance(const Box& box, const glm::dmat3& axes, double fov, doubl
 
 /// The lengths that a scene is seen with, scene units.
 struct ViewLengths {
-  double unit;  ///< what the others are counted in where the scene leaves them open
+  double unit;  ///< the unit of the others where the scene leaves them open
   double maxDistance, shadowStart, shadowReach, tapSpacing;
 };
 
-/// What a scene itself says of these lengths.
+/// These lengths as a scene states them.
 struct StatedLengths {
   /// Takes a scene's; where lengths are asked for, a scene stands for its own.
   StatedLengths(const Scene& scene);  // NOLINT(google-explicit-constructor)

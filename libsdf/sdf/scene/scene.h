@@ -31,20 +31,30 @@ struct Camera {
 };
 
 struct Light {
-  enum class Kind { Directional, Point };
+  enum class Kind {
+    Directional,  ///< far away: its light has one direction
+    Point         ///< at a place
+  };
   Kind kind = Kind::Directional;
   Vec3E vector{Expr(1.0)};  ///< Directional: towards the light, any length. Point: its position
   Vec3E color{Expr(1.0)};   ///< linear RGB
   Expr intensity = 1.0;     ///< no fall-off with distance (the seeds' and Phong's convention)
   bool castsShadow = true;
-  /// How large it is: Point, the radius of a ball, scene units; Directional, half the angle that it is seen
-  /// under, degrees below 90. Above 0 its shadows are those of all its points, whatever the shadows' kind;
-  /// what it gives where nothing is in the way, highlights included, stays that of its middle.
+  /// Its size. Point: the radius of a ball, scene units. Directional: half the angle that it is seen under,
+  /// degrees below 90. Above 0 its shadows are those of all its points, whatever the shadows' kind.
+  /// Unshadowed light, highlights included, stays that of its middle.
   Expr radius = 0.0;
 };
 
 struct Shadow {
-  enum class Kind { None, Hard, Soft, Improved, Signed };
+  /// All but None are a ShadowMethod (march/shadow.h).
+  enum class Kind {
+    None,      ///< lights reach everything
+    Hard,      ///< a ray that hits takes all light
+    Soft,      ///< by the least distance over way (Quilez 2010)
+    Improved,  ///< the same, estimated between the readings (Aaltonen 2018)
+    Signed     ///< the same through the solid, so that half the light is at its edge
+  };
   Kind kind = Kind::None;
   Expr sharpness = 8.0;           ///< k of k d / t; larger is harder
   std::optional<double> start{};  ///< where the shadow ray leaves the surface; none: see viewLengths
@@ -53,7 +63,11 @@ struct Shadow {
 };
 
 struct AmbientOcclusion {
-  enum class Kind { None, Taps, Steps };
+  enum class Kind {
+    None,  ///< all ambient light arrives
+    Taps,  ///< by distances along the normal
+    Steps  ///< by the steps that the ray took
+  };
   Kind kind = Kind::None;
   std::optional<double> spacing{};  ///< Taps: between samples along the normal; none: see viewLengths
   int count = 5;                    ///< Taps: how many
@@ -70,12 +84,13 @@ struct Part {
   Shape shape;
 };
 
-/// How a picture's light becomes colours that can be shown, each of red, green and blue by itself:
-///   Linear  as it is; what is above 1 is cut off
-///   Filmic  c (2.51 c + 0.03) / (c (2.43 c + 0.59) + 0.14), at most 1, which keeps differences far above 1
-///   and
-///           darkens shadows (Narkowicz, "ACES filmic tone mapping curve", 2015, without a factor before)
-enum class Tone { Linear, Filmic };
+/// How a picture's light becomes colours that can be shown, each of red, green and blue by itself.
+enum class Tone {
+  Linear,  ///< as it is, cut off at 1
+  /// c (2.51 c + 0.03) / (c (2.43 c + 0.59) + 0.14), at most 1. It keeps differences far above 1 and darkens
+  /// shadows (Narkowicz, "ACES filmic tone mapping curve", 2015, without a factor before).
+  Filmic
+};
 
 /// The colour seen along a ray that hits nothing is an expression of the ray's unit direction, held in x, y
 /// and z.
@@ -85,7 +100,7 @@ struct Scene {
   /// Names of those parameters whose values shaped the scene while it was made (`value` in scene files): for
   /// another value of one the scene must be made again.
   std::set<std::string> valuesRead;
-  std::optional<Box> bounds;  ///< what an unbounded scene is clipped to when meshed
+  std::optional<Box> bounds;  ///< an unbounded scene is clipped to it when it is meshed
   Camera camera;
   std::vector<Light> lights;
   Vec3E ambient{Expr(0.1)};
@@ -99,9 +114,9 @@ struct Scene {
   std::optional<double> maxDistance{};  ///< how far the camera sees; none: see viewLengths
   Tone tone = Tone::Linear;
   std::optional<double> gamma;       ///< none: sRGB output; 1: raw values. After the tone
-  std::vector<std::string> notes;    ///< what its author should know of it, a line each
+  std::vector<std::string> notes;    ///< warnings for its author, a line each
   std::vector<std::string> missing;  ///< why meshes that it names are not in it, a line each
-  std::vector<std::string> files;    ///< that its script has read beside its own, by their whole paths
+  std::vector<std::string> files;    ///< read by its script beside its own, by their whole paths
 
   /// Adds a part under a name of its own ("" takes "part N").
   void add(std::string name, Shape shape);
@@ -117,7 +132,7 @@ struct Scene {
 std::vector<Light> standardLights();
 /// The shadow that they cast where the scene says nothing of shadows: a soft one.
 Shadow standardShadow();
-/// What stands behind a scene that names no lights: grey, darker upwards.
+/// The background of a scene that names no lights: grey, darker upwards.
 Vec3E standardBackground();
 
 /// The scene if it can be used: at least one part, no failed shape, unique names. Otherwise what is wrong.

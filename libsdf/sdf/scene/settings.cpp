@@ -165,11 +165,11 @@ const std::vector<Setting<Scene>>& sceneSettings() {
        "where the scene is seen from; without it all of the scene is in view, if its bounds are finite",
        {field<&Scene::camera, &Camera::from>("from", Kind::Vector, "the eye"),
         field<&Scene::camera, &Camera::to>("to", Kind::Vector, "the point in the middle of the picture"),
-        field<&Scene::camera, &Camera::up>("up", Kind::Vector, "what is up"),
+        field<&Scene::camera, &Camera::up>("up", Kind::Vector, "the direction that is up in the picture"),
         field<&Scene::camera, &Camera::fov>("fov", Kind::Number, "vertical field of view, below 180 degrees", Rule::Positive),
         field<&Scene::camera, &Camera::mirrored>("mirrored", Kind::Flag, "swaps left and right"),
-        field<&Scene::camera, &Camera::aperture>("aperture", Kind::Number, "radius of the lens, scene units: blurs what is nearer or farther than the focus; it takes many samples a pixel", Rule::NotNegative),
-        field<&Scene::camera, &Camera::focus>("focus", Kind::Number, "how far along the way that it looks a lens sees sharply", Rule::Positive, "as far as `to`")},
+        field<&Scene::camera, &Camera::aperture>("aperture", Kind::Number, "radius of the lens, scene units: blurs things nearer or farther than the focus; it takes many samples a pixel", Rule::NotNegative),
+        field<&Scene::camera, &Camera::focus>("focus", Kind::Number, "the distance along the view at which a lens sees sharply", Rule::Positive, "as far as `to`")},
        false, [](Scene& s) { s.camera.from = s.camera.eye(); },
        [](const Scene& s) -> std::string {
          if (uniformValue(s.camera.fov) >= 180.0) return ": 'fov' must be below 180 degrees";
@@ -179,10 +179,10 @@ const std::vector<Setting<Scene>>& sceneSettings() {
       {"ambient", "ambient(color)", "light that comes from everywhere",
        {field<&Scene::ambient>("color", Kind::Color, "")}, true},
       {"background", "background(color)",
-       "what a ray sees that hits nothing; in a function, x, y, z are the ray's unit direction",
+       "the colour of rays that hit nothing; in a function, x, y, z are the ray's unit direction",
        {field<&Scene::background>("color", Kind::SurfaceColor, "")}, true},
       {"background_light", "background_light(1)",
-       "lets the background light the scene: ambient light by the direction that a surface faces, in the place of `ambient` or, where that is called too, beside it; a factor",
+       "lets the background light the scene: ambient light by the direction that a surface faces; it replaces `ambient`, or adds to it if that is called too; a factor",
        {field<&Scene::backgroundLight>("strength", Kind::Number, "", Rule::NotNegative)}, true},
       {"fog", "fog{color = c, density = 0.1}",
        "mixes far surfaces into a colour; the share that is kept is exp(-density * distance)",
@@ -193,7 +193,7 @@ const std::vector<Setting<Scene>>& sceneSettings() {
         field<&Scene::shadow, &Shadow::sharpness>("sharpness", Kind::Number, "of soft edges; larger is harder", Rule::Positive),
         field<&Scene::shadow, &Shadow::start>("start", Kind::PlainNumber, "distance from the surface at which the shadow ray starts", Rule::Positive, "0.02; without a camera 0.01 radii of the scene"),
         field<&Scene::shadow, &Shadow::reach>("reach", Kind::PlainNumber, "how far it goes", Rule::Positive, "20; without a camera 10 radii of the scene"),
-        field<&Scene::shadow, &Shadow::steps>("steps", Kind::Integer, "readings that a shadow ray may take; what runs out of them is dark, and sdfview says so", Rule::Positive)},
+        field<&Scene::shadow, &Shadow::steps>("steps", Kind::Integer, "readings that a shadow ray may take; a ray that runs out of them counts as dark, and sdfview says so", Rule::Positive)},
        false, [](Scene& s) { s.shadow.kind = Shadow::Kind::Soft; }},
       {"ambient_occlusion", "ambient_occlusion{kind = \"taps\"}", "darkens crevices",
        {field<&Scene::ambientOcclusion, &AmbientOcclusion::kind>("kind", Kind::Choice, "samples along the normal, or the count of steps", Rule::Any, "", {"none", "taps", "steps"}),
@@ -209,7 +209,7 @@ const std::vector<Setting<Scene>>& sceneSettings() {
        [](const Scene& s) -> std::string {  // the squares of more are beyond a GPU's floats
          return s.maxDistance > 1e15 ? " must be at most 1e15, got " + shown(*s.maxDistance) : "";
        }},
-      {"tone", "tone(\"filmic\")", "how the picture shows light: \"linear\" cuts off what is above 1, \"filmic\" bends it so that bright places keep their differences",
+      {"tone", "tone(\"filmic\")", "how the picture shows light: \"linear\" cuts it off at 1, \"filmic\" bends it so that bright places keep their differences",
        {field<&Scene::tone>("curve", Kind::Choice, "", Rule::Any, "", {"linear", "filmic"})}, true},
       {"gamma", "gamma(2.2)", "exponent of the picture's tone curve; 1 for raw values",
        {field<&Scene::gamma>("exponent", Kind::PlainNumber, "", Rule::Positive, "sRGB")}, true},
@@ -236,7 +236,7 @@ const std::vector<Setting<Light>>& lightSettings() {
          return uniformValue(light.radius) >= 90.0 ? ": 'radius' must be below 90 degrees" : "";
        }},
       {"point_light", "point_light{position = {1, 1, 1}}", "adds a light at a point",
-       fields("position", "where it is", Rule::Any, "of a ball, scene units: blurs its shadows, whatever their kind; what is in the ball casts none; it takes many samples a pixel"), false,
+       fields("position", "where it is", Rule::Any, "of a ball, scene units: blurs its shadows, whatever their kind; shapes in the ball cast none; it takes many samples a pixel"), false,
        [](Light& light) { light.kind = Light::Kind::Point; }}};
   return settings;
 }
@@ -249,9 +249,9 @@ const Setting<Material>& materialSetting() {
        field<&Material::ambient>("ambient", Kind::SurfaceColor, "answer to the ambient light", Rule::Any, "the colour"),
        field<&Material::specular>("specular", Kind::SurfaceColor, "colour of the highlight"),
        field<&Material::shininess>("shininess", Kind::SurfaceNumber, "Phong exponent; larger is tighter", Rule::Positive),
-       field<&Material::reflectivity>("reflectivity", Kind::SurfaceNumber, "mirrors reflectivity * (fresnel_bias + (1 - cos)^fresnel_power) of the light, at most all of it; what does not depend on the angle is tinted like `specular`", Rule::NotNegative),
+       field<&Material::reflectivity>("reflectivity", Kind::SurfaceNumber, "mirrors reflectivity * (fresnel_bias + (1 - cos)^fresnel_power) of the light, at most all of it; the share that does not depend on the angle is tinted like `specular`", Rule::NotNegative),
        field<&Material::fresnelPower>("fresnel_power", Kind::SurfaceNumber, "larger: only grazing views mirror; cos is that of the angle between view and normal", Rule::NotNegative),
-       field<&Material::fresnelBias>("fresnel_bias", Kind::SurfaceNumber, "what is mirrored straight on as well", Rule::NotNegative),
+       field<&Material::fresnelBias>("fresnel_bias", Kind::SurfaceNumber, "the share that is mirrored straight on, too", Rule::NotNegative),
        field<&Material::emission>("emission", Kind::SurfaceColor, "light of its own")}};
   return setting;
 }

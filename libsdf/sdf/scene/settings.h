@@ -12,26 +12,33 @@
 
 namespace sdf {
 
-/// What a field takes. A Number, a Vector and a Color may depend on parameters; SurfaceNumber and
-/// SurfaceColor also on the position and the normal.
-// clang-format off
+/// The kind of value that a field takes.
 enum class SettingKind {
-  Flag, Integer, Choice, Text, PlainNumber, Number, SurfaceNumber, Vector, Color, SurfaceColor, Box
+  Flag,           ///< true or false
+  Integer,        ///< a whole number
+  Choice,         ///< one of SettingInfo::choices
+  Text,           ///< a string
+  PlainNumber,    ///< a number that depends on nothing
+  Number,         ///< a number that may depend on parameters
+  SurfaceNumber,  ///< a number that may depend on parameters, the position and the normal
+  Vector,         ///< {x, y, z} that may depend on parameters
+  Color,          ///< linear RGB that may depend on parameters
+  SurfaceColor,   ///< linear RGB that may depend on parameters, the position and the normal
+  Box             ///< two corners
 };
-// clang-format on
 
-/// What a field holds: bool for Flag, int for Integer and for a Choice's index, double for PlainNumber;
-/// monostate where it may be unset and is.
+/// A field's value: bool for Flag, int for Integer and for a Choice's index, double for PlainNumber;
+/// monostate for a field that is unset.
 using SettingValue = std::variant<std::monostate, bool, int, double, std::string, Expr, Vec3E, Box>;
 
-/// What there is to know of a field, whatever it belongs to.
+/// A field's description, which does not depend on its owner.
 struct SettingInfo {
   std::string name;  ///< snake_case, as in scene files
   SettingKind kind = SettingKind::Number;
   std::string doc;                   ///< one line
   Rule rule = Rule::Any;             ///< of its numbers; a Vector's NotZero is about its length
   std::vector<std::string> choices;  ///< of a Choice
-  std::string unset;                 ///< what happens where it is unset, as a default is worded
+  std::string unset;                 ///< the effect of leaving it unset, worded like a default
 };
 
 /// What the field takes, in words: "number, positive".

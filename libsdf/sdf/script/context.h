@@ -1,5 +1,5 @@
-// One run of a scene script: what it can name, how much it may use, and what it keeps: the scene so far, the
-// limits, and what has been asked for.
+// One run of a scene script: the names in its reach, its limits, and its state: the scene so far, and the
+// inputs that it has asked for.
 #pragma once
 #include <chrono>
 #include <cstddef>

@@ -1,4 +1,5 @@
-// What scripts and the library hand each other: numbers, formulas, vectors, colours, shapes and materials.
+// Values that scripts and the library hand each other: numbers, formulas, vectors, colours, shapes,
+// materials.
 //
 // `what` names the value in messages: "sphere: 'radius'". Each reader raises a script error that says what
 // the value must be and what was given.
@@ -62,8 +63,12 @@ bool hasNamedField(lua_State* L, int index);
 /// The number or formula at `index`, which isNumeric.
 Expr exprAt(lua_State* L, int index);
 
-/// What a number may depend on; OnNothing takes plain numbers alone.
-enum class Depends { OnNothing, OnParameters, OnPosition };
+/// What a number may depend on.
+enum class Depends {
+  OnNothing,     ///< a plain number
+  OnParameters,  ///< a plain number or a formula of parameters
+  OnPosition     ///< also a formula of the position
+};
 
 Expr readNumber(lua_State* L, int index, const std::string& what, Depends depends);
 double readPlainNumber(lua_State* L, int index, const std::string& what);

@@ -14,7 +14,7 @@ namespace sdf {
 /// closes gaps, and from an intersection or a difference so much is lost, which may be all.
 struct Blend {
   enum class Kind {
-    Hard,
+    Hard,         ///< an edge
     Quadratic,    ///< rounded, continuous slope (Quilez, "smooth minimum", 2013)
     Cubic,        ///< rounded, continuous curvature (Quilez 2013)
     Exponential,  ///< k log-sum-exp; does not depend on the order of the operands

@@ -14,14 +14,28 @@
 
 namespace sdf {
 
-/// Numbers, integers and vectors are the same everywhere in space.
-enum class ArgumentKind { Number, Integer, Vector2, Vector3, Choice, Points, Shape, Shapes };
+/// The kind of an argument. Numbers, integers and vectors are the same everywhere in space.
+enum class ArgumentKind {
+  Number,   ///< a number that may depend on parameters
+  Integer,  ///< a whole number
+  Vector2,  ///< {x, y}
+  Vector3,  ///< {x, y, z}
+  Choice,   ///< one of Parameter::choices
+  Points,   ///< a list of {x, y}
+  Shape,    ///< a shape
+  Shapes    ///< a list of shapes
+};
 
-/// What an argument's numbers must be; checked on their present values before `build` is called. A Count does
-/// not depend on parameters.
-enum class Rule { Any, Positive, NotNegative, NotZero, Count };
+/// A rule for an argument's numbers. It is checked on their present values before `build` is called.
+enum class Rule {
+  Any,          ///< finite
+  Positive,     ///< above 0
+  NotNegative,  ///< 0 or more
+  NotZero,      ///< other than 0
+  Count         ///< a whole number from 1; does not depend on parameters
+};
 bool keeps(Rule rule, double value);
-/// What the rule asks for, in words: "positive"; "a finite number" for Any.
+/// The rule in words: "positive"; "a finite number" for Any.
 const char* wording(Rule rule);
 /// A number as messages and the reference show it, six significant digits; and choices: `"a", "b" or "c"`.
 std::string shown(double value);
@@ -43,7 +57,15 @@ struct Parameter {
 using Argument =
     std::variant<std::monostate, Expr, Vec3E, int, std::vector<glm::dvec2>, Shape, std::vector<Shape>>;
 
-enum class Group { Solid, Flat, Boolean, Deform, Place, Pattern };
+/// The section of the reference page that an entry is in.
+enum class Group {
+  Solid,    ///< solids
+  Flat,     ///< flat shapes
+  Boolean,  ///< combining
+  Deform,   ///< changing
+  Place,    ///< placing
+  Pattern   ///< repeating
+};
 
 struct CatalogEntry {
   /// The scene language's name. Operators on a shape, whose first parameter is a Shape or Shapes, are methods

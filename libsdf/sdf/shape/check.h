@@ -9,7 +9,7 @@
 
 namespace sdf {
 
-/// Collects the first thing that is wrong with the arguments of one call:
+/// Keeps the first fault of the arguments of one call:
 ///
 ///   Check check("torus");
 ///   check.positive("major", major).positive("minor", minor);

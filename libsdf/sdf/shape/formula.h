@@ -6,7 +6,7 @@
 
 namespace sdf {
 
-/// What a parameter in a size's place is held above, so that no formula divides by 0 anywhere in its range.
+/// A parameter in a size's place is held above this, so that no formula divides by 0 anywhere in its range.
 inline constexpr double kSmallestSize = 1e-6;
 
 /// Ends of an expression's range over every value of its parameters; infinite where it may be NaN.

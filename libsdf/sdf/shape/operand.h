@@ -1,4 +1,4 @@
-// What the operators share: guards for parameters, boxes, and the rules by which claims carry over.
+// Shared by the operators: guards for parameters, boxes, and the rules by which claims carry over.
 // Private to sdf/shape.
 #pragma once
 #include <functional>
@@ -27,8 +27,8 @@ Expr keptFromZero(const Expr& e);
 bool isEverything(const Box& b);
 /// Box grown on every side; everything for an infinite amount.
 Box grow(const Box& b, double by);
-/// What both cover; where they are apart, the gap between them. It contains the (then empty) intersection of
-/// the solids and also what rounding may make of it, as growth demands.
+/// The box that lies in both; where they are apart, the gap between them. It contains the (then empty)
+/// intersection of the solids and also what rounding may make of it, as growth demands.
 Box overlap(const Box& a, const Box& b);
 /// The products of an interval and the range [lo, hi], with 0 times infinity being 0.
 Interval timesRange(const Interval& a, double lo, double hi);

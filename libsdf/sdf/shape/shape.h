@@ -15,7 +15,7 @@
 
 namespace sdf {
 
-/// What |f| says, from strongest to weakest.
+/// How much |f| says, from most to least.
 enum class ClaimKind {
   Exact,         ///< |f| is the distance to the surface everywhere
   ExactOutside,  ///< exact where f > 0; inside |f| never exceeds the distance
@@ -46,10 +46,10 @@ enum class Attribute : std::uint8_t {
   AmbientRed, AmbientGreen, AmbientBlue,    // answers the scene's ambient light
   SpecularRed, SpecularGreen, SpecularBlue, // colour of the highlight
   Shininess,                                // Phong exponent
-  // Mirror weight: reflectivity * (bias + (1 - cos)^power), at most 1; what of it is the same from all angles is
-  // multiplied by specular / its greatest part.
+  // Mirror weight: reflectivity * (bias + (1 - cos)^power), at most 1. The share that is the same from all angles
+  // is multiplied by specular / its greatest part.
   Reflectivity, FresnelPower, FresnelBias,
-  EmissionRed, EmissionGreen, EmissionBlue,
+  EmissionRed, EmissionGreen, EmissionBlue, // light of its own
   MaterialId,                               // place in Shape::materials of the one that dominates here
   Count
 };

@@ -21,8 +21,8 @@ struct Cube {
 /// The i-th of its parts, along x first, then y, then z.
 Cube partOf(const Cube& cube, int i);
 
-/// How far off interpolation is within a voxel of the surface, in voxels: as far as it was looked at, at most
-/// and in the middle of a part.
+/// The error of interpolation within a voxel of the surface, in voxels, at the points that were looked at: at
+/// most, and in the middle of a part.
 struct PartError {
   int part = 0;
   double worst = 0.0, middle = 0.0;

@@ -1,4 +1,4 @@
-// A tree of boxes over triangles: which of them is nearest, what meets, and how often they wind around a
+// A tree of boxes over triangles: the nearest triangle, pairs that meet, and how often they wind around a
 // point.
 #pragma once
 #include <cstdint>
@@ -8,8 +8,16 @@
 
 namespace sdf {
 
-/// Where on a triangle a point is: inside, on the edge from corner k to the next, or at corner k.
-enum class Feature : std::uint8_t { Face, Edge0, Edge1, Edge2, Corner0, Corner1, Corner2 };
+/// The part of a triangle that a point is on.
+enum class Feature : std::uint8_t {
+  Face,     ///< inside
+  Edge0,    ///< the edge from corner 0 to 1
+  Edge1,    ///< the edge from corner 1 to 2
+  Edge2,    ///< the edge from corner 2 to 0
+  Corner0,  ///< corner 0
+  Corner1,  ///< corner 1
+  Corner2   ///< corner 2
+};
 
 /// The point of some triangles that is nearest to another one.
 struct NearestPoint {

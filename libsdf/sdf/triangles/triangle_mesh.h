@@ -37,7 +37,7 @@ struct TriangleMesh {
   std::vector<TextureImage> images;
 };
 
-/// A mesh and what of its file was left out or taken otherwise than meant, a sentence each.
+/// A mesh and warnings, a sentence each: what of its file was left out or taken otherwise than meant.
 struct ReadMesh {
   TriangleMesh mesh;
   std::vector<std::string> warnings;

@@ -1,4 +1,4 @@
-// Tables for the README, of nothing but rows of results.csv.
+// The tables of docs/charts.md, made of nothing but rows of results.csv.
 import { fastestWithin } from './choose.mjs';
 import { distinct, shown } from './figures.mjs';
 import { sections } from './sections.mjs';
@@ -7,7 +7,7 @@ const time = (seconds) => (seconds < 1 ? `${shown(1e3 * seconds)} ms` : `${shown
 const table = (heads, lines) =>
   [heads, heads.map(() => '---'), ...lines].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
 
-// What the fastest of a method's meshes takes that is nowhere farther off than `error`, or how far off its best is.
+// The time and triangles of a method's fastest mesh that is nowhere farther off than `error`, or the error of its best.
 function meshWithin(rows, scene, method, error) {
   const own = rows.filter((row) => row.scene === scene && row.method === method);
   if (!own.length) return '';
@@ -23,9 +23,8 @@ function meshing(rows) {
     'CGAL make_surface_mesh': "CGAL's `make_surface_mesh`" };
   const lines = own.filter((row) => row.default === 1).map(({ scene, size }) =>
     [scene, shown(size), ...Object.keys(methods).map((method) => meshWithin(own, scene, method, size))]);
-  return 'Meshes that are nowhere farther from the surface, both ways, than the tolerance that `sdf2gltf` takes where none is ' +
-    'asked for: of each method the time of the fastest, and its triangles; or, where none of its settings keeps that, how ' +
-    'far off the best is\n\n' + table(['', 'tolerance', ...Object.values(methods)], lines);
+  return 'Meshes within the default tolerance of `sdf2gltf`, both ways. A cell has the time and the triangles of the method\'s\n' +
+    'fastest setting that keeps it. Where no setting keeps it, the cell has the distance of the best one.\n\n' + table(['', 'tolerance', ...Object.values(methods)], lines);
 }
 
 function marching(rows) {
@@ -40,8 +39,8 @@ function marching(rows) {
   const cell = (row) => (row ? `${shown(row.evaluations)}, ${shown((1e6 * row.seconds) / row.items)} µs, ${shown(row.error_rms)}` : '');
   const lines = [...new Set(usual.map(seen))].map((scene) => [scene, ...columns.map(({ method, setting }) =>
     cell(own.find((row) => seen(row) === scene && row.method === method && row.setting === setting)))]);
-  return 'Rays, at the thresholds of the viewer: readings of the distance a ray, time a ray, and the error of the depth (root mean ' +
-    'square). The first are marched by one thread, those of OpenGL by all that the driver has\n\n' +
+  return 'Rays, at the thresholds of the viewer. A cell has the readings of the distance a ray, the time a ray, and the error of\n' +
+    'the depth (root mean square). The first methods use one thread, those of OpenGL all threads of the driver.\n\n' +
     table(['', ...columns.map(({ method }) => method)], lines);
 }
 
@@ -52,7 +51,7 @@ function shadows(rows) {
     const row = own.find((r) => r.scene === scene && r.method === method && r.setting === setting);
     return row ? `${shown(row.error_rms)}, ${shown((1e6 * row.seconds) / row.items)} µs` : '';
   })]);
-  return 'Shadows of lamps: the error of the light, from 0 to 1 (root mean square), and the time a point\n\n' +
+  return 'Shadows of lamps. A cell has the error of the light, from 0 to 1 (root mean square), and the time a point.\n\n' +
     table(['', ...methods.map((words) => words.join(', '))], lines);
 }
 

@@ -30,8 +30,8 @@ class MeshTruth {
 };
 
 /// The truth of a subject, at so many points: the solid's definition where there is one
-/// (accuracy/piecewise_solid.h), else a mesh with voxels of 1/400 of the longest side, whose distances CGAL
-/// computes and whose error is that of its facets. Throws std::runtime_error where there is no surface.
+/// (accuracy/meshes/piecewise_solid.h), else a mesh with voxels of 1/400 of the longest side, whose distances
+/// CGAL computes and whose error is that of its facets. Throws std::runtime_error where there is no surface.
 std::unique_ptr<MeshTruth> truthOf(const Subject& subject, std::size_t points);
 
 /// Fills the row's error figures: rms and max are the larger of both ways, mesh to surface and surface to

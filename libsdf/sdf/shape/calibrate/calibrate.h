@@ -1,4 +1,4 @@
-// A warped shape's distance, calibrated: divided by its slope where it is asked for, not by its largest
+// A warped shape's distance, calibrated: divided by its slope at the point, not by its largest slope
 // anywhere. Private to sdf/shape.
 #pragma once
 #include <functional>
@@ -7,17 +7,17 @@
 
 namespace sdf {
 
-/// A smooth map that carries a shape's points elsewhere, told by its inverse T, with T's Jacobian J. What is
-/// said of J is told at position(), a point of the shape's own space.
+/// A smooth map that carries a shape's points elsewhere, given by its inverse T, with T's Jacobian J. Members
+/// about J are expressions at position(), a point of the shape's own space.
 struct Warp {
   Vec3E back;  ///< T(p): where the result's point p is looked up
-  /// What has the gradient n there has a slope of |J^T n| in the result: J^T n, turned at will, linear in n.
+  /// J^T n up to a rotation, linear in n: a function with the gradient n has the slope |J^T n| in the result.
   std::function<Vec3E(const Vec3E& n)> pulled;
-  Expr usual;                ///< what |J^T n| is like there for unit n
-  Expr shear;                ///< the largest that |J^T n| / usual is, or more,
-  Expr least;                ///< and the least, or less
-  Box region;                ///< where this holds and the result's slope matters,
-  Expr beyond;               ///< but not where this is positive
+  Expr usual;                ///< a typical |J^T n| for unit n
+  Expr shear;                ///< an upper bound of |J^T n| / usual
+  Expr least;                ///< a lower bound of |J^T n| / usual
+  Box region;                ///< where these hold and the result's slope matters
+  Expr beyond;               ///< where this is positive they need not hold
   double size;               ///< of the shape
   double reach = kInfinity;  ///< how far from curved parts their slope matters
   double cap = kInfinity;    ///< a result that is no less than this may be steeper

@@ -9,7 +9,7 @@ std::vector<CatalogEntry> deformEntries() {
   return {
       entry("morph", "Part way from one shape to another; materials are mixed alike.",
             "a bound if both are; L of the steeper shape",
-            {shape("from", "what is there at t = 0"), shape("to", "what is there at t = 1"),
+            {shape("from", "the shape at t = 0"), shape("to", "the shape at t = 1"),
              number("t", "how far, 0 to 1", Rule::NotNegative)},
             morph),
       entry("round", "Everything within a radius of the shape: grows it, and rounds its outer edges.",

@@ -9,7 +9,8 @@
 
 namespace sdf {
 
-/// One list per file catalog_<group>.cpp, in the order of the reference page; catalog() sets their group.
+/// One list for each group, in a file of its name, in the order of the reference page. catalog() sets the
+/// group.
 std::vector<CatalogEntry> solidEntries();
 std::vector<CatalogEntry> flatEntries();
 std::vector<CatalogEntry> booleanEntries();
@@ -37,8 +38,8 @@ std::function<Shape(const std::vector<Argument>&)> onList(std::function<Shape(T.
   };
 }
 
-/// An entry that calls `make` with the arguments in the order of the parameters. What may be absent comes as
-/// a std::optional.
+/// An entry that calls `make` with the arguments in the order of the parameters. An argument that may be
+/// absent comes as a std::optional.
 template <class Make>
 CatalogEntry entry(std::string name, std::string doc, std::string claim, std::vector<Parameter> parameters,
                    Make make) {

@@ -13,21 +13,22 @@
 
 namespace sdf {
 
-/// What is in any of the shapes. Hard: a balanced tree of minima; exact outside if all operands are exact
-/// outside, else a bound. Smooth: blended from left to right; a bound. Fails on an empty list and on k <= 0.
+/// All points that are in any of the shapes. Hard: a balanced tree of minima; exact outside if all operands
+/// are exact outside, else a bound. Smooth: blended from left to right; a bound. Fails on an empty list and
+/// on k <= 0.
 Shape unite(const std::vector<Shape>& shapes, const Blend& blend = {});
 Shape unite(const Shape& a, const Shape& b, const Blend& blend = {});
 
-/// What is in all of the shapes. A bound.
+/// All points that are in all of the shapes. A bound.
 Shape intersect(const std::vector<Shape>& shapes, const Blend& blend = {});
 Shape intersect(const Shape& a, const Shape& b, const Blend& blend = {});
 
-/// What is in the first shape and in none of the others. A bound.
+/// All points that are in the first shape and in none of the others. A bound.
 Shape subtract(const std::vector<Shape>& shapes, const Blend& blend = {});
 Shape subtract(const Shape& a, const Shape& b, const Blend& blend = {});
 
-/// What is in an odd number of the shapes; of two: in one but not in both. A bound. Smooth: the smooth union
-/// less the smooth intersection.
+/// All points that are in an odd number of the shapes; of two: in one but not in both. A bound. Smooth: the
+/// smooth union less the smooth intersection.
 Shape exclude(const std::vector<Shape>& shapes, const Blend& blend = {});
 Shape exclude(const Shape& a, const Shape& b, const Blend& blend = {});
 

@@ -4,11 +4,11 @@
 // by its slope where it is asked for, so that it can be rounded, shelled, blended and lit like any other.
 // Near flat faces, and near what is round by a radius (balls, cylinders, tori, rounded boxes) as far as half
 // that radius outside and a quarter inside, it is the distance but for the bend of the warp, some hundredths
-// of what it measures. Other surfaces that turn, and what strong warps make of round ones, may be off by as
-// much as the warp's shear; beside edges it may fall short. Its proven
-// constant is a bound over the shape and half its radius around, and may be well above 1. Attributes follow
-// the warped position; normals stay those of the world. Angles in radians. A failed operand is passed on;
-// numbers must be finite and must not depend on the position, unless said otherwise.
+// of what it measures. Near other curved surfaces, and near round ones under strong warps, it may be off by
+// as much as the warp's shear. Beside edges it may fall short. Its proven constant is a bound over the shape
+// and half its radius around, and may be well above 1. Attributes follow the warped position; normals stay
+// those of the world. Angles in radians. A failed operand is passed on; numbers must be finite and must not
+// depend on the position, unless said otherwise.
 #pragma once
 #include "sdf/shape/shape.h"
 

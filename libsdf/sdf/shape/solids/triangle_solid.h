@@ -26,8 +26,8 @@ std::optional<PlacedMesh> placedMesh(const Shape& shape);
 bool hasOwnMaterial(const Shape& shape, const MeshField& field);
 
 /// The solid that the field's triangles wind around, in its meanMaterial. Exact, with L = 1, where
-/// normals tell its sides; else a bound, for triangles may lie within it. The exact distance is what is
-/// meshed and computed on the CPU; shaders read the field's samples.
+/// normals tell its sides; else a bound, for triangles may lie within it. The mesher and
+/// everything else on the CPU read the exact distance; shaders read the field's samples.
 Shape triangleSolid(const std::shared_ptr<const MeshField>& field);
 
 }  // namespace sdf
