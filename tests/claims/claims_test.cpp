@@ -11,7 +11,7 @@
 namespace sdf::test {
 namespace claims_test {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SDF_SANITIZED
 constexpr int kScenes = 50;
 constexpr unsigned kSets = 2;  // of arguments for each entry
 #else

@@ -7,8 +7,6 @@
 #include <type_traits>
 #include <utility>
 
-// Older targets run through Highway's SSE4 path or its portable one; newer ones gain nothing over AVX3.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sdf/eval/batch.cpp"
 #include <hwy/aligned_allocator.h>

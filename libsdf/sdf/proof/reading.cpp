@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sdf/proof/reading.cpp"
 #include <hwy/aligned_allocator.h>
@@ -52,7 +51,7 @@ HWY_BEFORE_NAMESPACE();
 namespace sdf {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE M none() { return hn::FirstN(kD, 0); }
+SDF_INLINE M none() { return hn::FirstN(kD, 0); }
 
 // Runs a tape over terms of one kind.
 template <class T>
@@ -258,7 +257,7 @@ V gather(std::size_t first, std::size_t count, const Get& get) {
 }
 
 // x give or take a few ulps of `size`.
-HWY_INLINE Range about(V x, V size) {
+SDF_INLINE Range about(V x, V size) {
   const V slack = hn::MulAdd(size, splat(0x1p-50), splat(1e-300));
   return {hn::Sub(x, slack), hn::Add(x, slack)};
 }

@@ -1,10 +1,10 @@
 // What proofs know of an instruction's value over prisms or boxes, one in each lane, and each operation on
 // it. Re-included once per target by Highway's foreach_target.
-#if defined(SDF_EVAL_PROOF_TERMS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef SDF_EVAL_PROOF_TERMS_INL_H
-#undef SDF_EVAL_PROOF_TERMS_INL_H
+#if defined(SDF_PROOF_TERMS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_PROOF_TERMS_INL_H
+#undef SDF_PROOF_TERMS_INL_H
 #else
-#define SDF_EVAL_PROOF_TERMS_INL_H
+#define SDF_PROOF_TERMS_INL_H
 #endif
 
 #include "sdf/proof/range_lanes-inl.h"
@@ -49,7 +49,7 @@ inline bool isPoint(const Range& a) { return hn::AllTrue(kD, hn::Eq(a.lo, a.hi))
 // between. Were they constant, that would be half the sum of l_i l_j q_ij over its sides, q the second
 // derivative along a side, and the l_i l_j add up to 1/3 at most; what they differ from their middle by adds
 // an eighth of that each way, since the variance of a weight is 1/4 at most.
-HWY_INLINE Range bentHull(const PrismTerm& t) {
+SDF_INLINE Range bentHull(const PrismTerm& t) {
   const V half = splat(0.5);
   Range middle[3], apart[3];
   for (int k = 0; k < 3; ++k) {
@@ -67,16 +67,16 @@ HWY_INLINE Range bentHull(const PrismTerm& t) {
   return where(curved, bent, everything());
 }
 
-HWY_INLINE V mostOf(const Range (&d)[3]) {
+SDF_INLINE V mostOf(const Range (&d)[3]) {
   return hn::Max(hn::Max(magnitude(d[0]), magnitude(d[1])), magnitude(d[2]));
 }
 
-HWY_INLINE void narrow(PrismTerm& t) {
+SDF_INLINE void narrow(PrismTerm& t) {
   t.m = common(t.m, bentHull(t));
   t.m = common(t.m, hull(t.c[0], hull(add(t.c[0], t.s[0]), add(t.c[0], t.s[1]))));
   t.v = common(t.v, add(t.m, symmetric(mostOf(t.d))));
 }
-HWY_INLINE void narrow(BoxTerm& t) {
+SDF_INLINE void narrow(BoxTerm& t) {
   const Range way =
       add(symmetric(magnitude(t.d[0])), add(symmetric(magnitude(t.d[1])), symmetric(magnitude(t.d[2]))));
   t.v = common(t.v, add(t.c[0], way));
@@ -84,20 +84,20 @@ HWY_INLINE void narrow(BoxTerm& t) {
 
 // Each value of r from those of a, and of b and c: f(r's, a's, …) for corners, triangle and prism alike.
 template <class T, class F>
-HWY_INLINE void eachValue(T& r, const F& f, const T& a) {
+SDF_INLINE void eachValue(T& r, const F& f, const T& a) {
   for (int k = 0; k < T::kPoints; ++k) r.c[k] = f(a.c[k]);
   if constexpr (T::kFlat) r.m = f(a.m);
   r.v = f(a.v);
 }
 template <class T, class F>
-HWY_INLINE void eachValue(T& r, const F& f, const T& a, const T& b) {
+SDF_INLINE void eachValue(T& r, const F& f, const T& a, const T& b) {
   for (int k = 0; k < T::kPoints; ++k) r.c[k] = f(a.c[k], b.c[k]);
   if constexpr (T::kFlat) r.m = f(a.m, b.m);
   r.v = f(a.v, b.v);
 }
 // Each derivative alike: for what is linear.
 template <class T, class F>
-HWY_INLINE void eachSlope(T& r, const F& f, const T& a, const T& b) {
+SDF_INLINE void eachSlope(T& r, const F& f, const T& a, const T& b) {
   for (int k = 0; k < 3; ++k) r.d[k] = f(a.d[k], b.d[k]);
   if constexpr (T::kFlat) {
     for (int k = 0; k < 2; ++k) r.s[k] = f(a.s[k], b.s[k]);
@@ -105,7 +105,7 @@ HWY_INLINE void eachSlope(T& r, const F& f, const T& a, const T& b) {
   }
 }
 
-HWY_INLINE Range addKeepingSign(const Range& a, const Range& b) {
+SDF_INLINE Range addKeepingSign(const Range& a, const Range& b) {
   const Range r = add(a, b);
   const V zero = hn::Zero(kD);
   const M positive = hn::And(hn::Ge(a.lo, zero), hn::Ge(b.lo, zero));
@@ -213,7 +213,7 @@ T rootOf(const T& a) {
 }
 
 // x where `first` holds, y where `second` does, and what may be either elsewhere.
-HWY_INLINE Range choose(M first, M second, const Range& x, const Range& y, const Range& either) {
+SDF_INLINE Range choose(M first, M second, const Range& x, const Range& y, const Range& either) {
   return where(first, x, where(second, y, either));
 }
 
@@ -235,7 +235,7 @@ const Range& flatValue(const T& t) {
     return t.v;
 }
 
-HWY_INLINE M below(const Range& a, const Range& b) { return hn::Lt(a.hi, b.lo); }
+SDF_INLINE M below(const Range& a, const Range& b) { return hn::Lt(a.hi, b.lo); }
 
 template <class T>
 T smaller(const T& a, const T& b) {
@@ -261,7 +261,7 @@ T absolute(const T& a) {
 }
 
 // Of a vector q that is not 0 for sure, whose length is known: q / |q|, one component.
-HWY_INLINE Range shareOf(const Range& q, const Range& inverseLength) {
+SDF_INLINE Range shareOf(const Range& q, const Range& inverseLength) {
   const V zero = hn::Zero(kD), one = splat(1.0);
   const Range sign{hn::IfThenElse(hn::Ge(q.lo, zero), zero, hn::Neg(one)),
                    hn::IfThenElse(hn::Le(q.hi, zero), zero, one)};
@@ -272,7 +272,7 @@ HWY_INLINE Range shareOf(const Range& q, const Range& inverseLength) {
 // |dq|, and where all w_i dq_i >= 0 no less than the least |dq_i|, for the |w_i| add up to 1 at least. Where
 // w is nearly dq / z, 2 w · dq = z + (|dq|² - |z w - dq|²) / z is the tighter form.
 template <int N>
-HWY_INLINE Range lengthSlope(const Range (&q)[3], const Range (&dq)[3], const Range& inverseLength) {
+SDF_INLINE Range lengthSlope(const Range (&q)[3], const Range (&dq)[3], const Range& inverseLength) {
   Range along(0.0), squared(0.0), share[3];
   const V zero = hn::Zero(kD);
   V least = infinite();
@@ -297,7 +297,7 @@ HWY_INLINE Range lengthSlope(const Range (&q)[3], const Range (&dq)[3], const Ra
 }
 
 template <int N>
-HWY_INLINE Range lengthOf(const Range (&q)[3]) {
+SDF_INLINE Range lengthOf(const Range (&q)[3]) {
   Range squares = square(q[0]);
   for (int i = 1; i < N; ++i) squares = addKeepingSign(squares, square(q[i]));
   return sqrt(squares);
