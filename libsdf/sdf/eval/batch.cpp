@@ -47,20 +47,20 @@ using Gradient = Dual<Lanes, 3>;
 
 // How numbers lie in the rows: values, and derivatives `stride` floats apart.
 template <class T>
-HWY_INLINE T load(const float* p, std::size_t stride) {
+SDF_INLINE T load(const float* p, std::size_t stride) {
   const Lanes value = hn::Load(kD, p);
   if constexpr (std::is_same_v<T, Lanes>)
     return value;
   else
     return {value, {hn::Load(kD, p + stride), hn::Load(kD, p + 2 * stride), hn::Load(kD, p + 3 * stride)}};
 }
-HWY_INLINE void store(const Lanes& a, float* p, std::size_t) { hn::Store(a.v, kD, p); }
-HWY_INLINE void store(const Gradient& a, float* p, std::size_t stride) {
+SDF_INLINE void store(const Lanes& a, float* p, std::size_t) { hn::Store(a.v, kD, p); }
+SDF_INLINE void store(const Gradient& a, float* p, std::size_t stride) {
   hn::Store(a.v.v, kD, p);
   for (int i = 0; i < 3; ++i) hn::Store(a.d[i].v, kD, p + (i + 1) * stride);
 }
 template <class T>
-HWY_INLINE T number(float v) {
+SDF_INLINE T number(float v) {
   const Lanes value(static_cast<double>(v));
   if constexpr (std::is_same_v<T, Lanes>)
     return value;
@@ -77,10 +77,10 @@ template <class T>
 struct Argument<T, false> {
   const float* row;
   std::size_t stride;
-  HWY_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
+  SDF_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
       : row(HWY_UNLIKELY(n.constant[k]) ? filledRow(job, n, k) : job.registers[n.in[k]]),
         stride(job.stride) {}
-  HWY_INLINE T operator()(std::size_t i) const { return load<T>(row + i, stride); }
+  SDF_INLINE T operator()(std::size_t i) const { return load<T>(row + i, stride); }
 
   // Constants in unusual places (specialisation leaves some) are spread over a spare row.
   static HWY_NOINLINE const float* filledRow(const BatchJob& job, const RegisterInstruction& n, int k) {
@@ -94,14 +94,14 @@ struct Argument<T, false> {
 template <class T>
 struct Argument<T, true> {
   T value;
-  HWY_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
+  SDF_INLINE Argument(const BatchJob& job, const RegisterInstruction& n, int k)
       : value(number<T>(job.tape->floats()[n.in[k]])) {}
-  HWY_INLINE const T& operator()(std::size_t) const { return value; }
+  SDF_INLINE const T& operator()(std::size_t) const { return value; }
 };
 
 // Two vectors at once, which hides latencies. `constants` are the trailing arguments of a fused operation.
 template <class T, Op op, std::size_t... kConstants, class... Args>
-HWY_INLINE void loop(const BatchJob& job, const RegisterInstruction& n, std::index_sequence<kConstants...>,
+SDF_INLINE void loop(const BatchJob& job, const RegisterInstruction& n, std::index_sequence<kConstants...>,
                      const Args&... args) {
   const float* c = job.tape->floats() + n.constants;
   [[maybe_unused]] const T constants[] = {number<T>(c[0]), number<T>(c[kConstants])...};
@@ -159,7 +159,7 @@ HWY_NOINLINE void runPayload(const BatchJob& job, const RegisterInstruction& n, 
 }
 
 template <class T>
-HWY_INLINE void runInstruction(const BatchJob& job, const RegisterInstruction& n) {
+SDF_INLINE void runInstruction(const BatchJob& job, const RegisterInstruction& n) {
   if (const PayloadPart* part = job.tape->payload(n); HWY_UNLIKELY(part)) return runPayload<T>(job, n, *part);
   dispatch(n.op, [&](auto tag) HWY_ATTR { runInstruction<T, tag.value>(job, n); });
 }

@@ -16,16 +16,8 @@
 
 #include <cmath>
 
+#include "sdf/eval/inlining-inl.h"
 #include "sdf/number/interval.h"
-
-// By GCC, an export with a proof is a fifth faster where all is inlined. Clang would take minutes to compile that.
-// length.
-#undef SDF_INLINE
-#if HWY_COMPILER_CLANG
-#define SDF_INLINE inline
-#else
-#define SDF_INLINE HWY_INLINE
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace sdf {
