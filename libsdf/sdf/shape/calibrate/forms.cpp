@@ -62,7 +62,7 @@ std::optional<Vec3E> linearGradient(const Expr& claimed) {
   if (!b) return {};
   if (linearity == Linearity::Linear) {
     const auto along = [&](const Expr& u, const Expr& v) {
-      return Expr::make(e.op(), std::span(std::array{u, v}).first(last + 1));
+      return Expr::make(e.op(), std::span<const Expr>(std::array{u, v}).first(last + 1));
     };
     return Vec3E(along(a->x, b->x), along(a->y, b->y), along(a->z, b->z));
   }
