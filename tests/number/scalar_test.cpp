@@ -72,7 +72,7 @@ TEST(Scalar, EveryOperationIsNamedAfterItsFunction) {
     name[0] = static_cast<char>(std::tolower(name[0]));
     return name;
   };
-#define SDF_UNARY(name, call) EXPECT_EQ(lowered(#name), #call);
+#define SDF_UNARY(name, call, ...) EXPECT_EQ(lowered(#name), #call);
 #define SDF_BINARY SDF_UNARY
 #define SDF_TERNARY SDF_UNARY
 #include "sdf/expr/ops.def"

@@ -71,11 +71,11 @@ FloatRange promised(const Ranges&... a) {
   }
 }
 
-#define SDF_UNARY(name, call) \
+#define SDF_UNARY(name, call, ...) \
   inline FloatRange call(const FloatRange& a) { return promised<Op::name>(a); }
-#define SDF_BINARY(name, call) \
+#define SDF_BINARY(name, call, ...) \
   inline FloatRange call(const FloatRange& a, const FloatRange& b) { return promised<Op::name>(a, b); }
-#define SDF_TERNARY(name, call)                                                           \
+#define SDF_TERNARY(name, call, ...)                                                      \
   inline FloatRange call(const FloatRange& a, const FloatRange& b, const FloatRange& c) { \
     return promised<Op::name>(a, b, c);                                                   \
   }

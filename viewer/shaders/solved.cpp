@@ -15,29 +15,16 @@ struct RootForm {
 std::optional<RootForm> rootFormOf(const Expr& claimed) {
   const Expr& e = claimed.unclaimed();
   if (e.op() == Op::Sqrt) return RootForm{e.arg(0)};
-  const auto times = [](std::optional<RootForm> form, const Expr& factor) {
-    if (form) form->scale = form->scale * factor, form->offset = form->offset * factor;
-    return form;
-  };
-  const auto plus = [](std::optional<RootForm> form, const Expr& term) {
-    if (form) form->offset = form->offset + term;
-    return form;
-  };
-  const auto depends = [&](int i) { return dependsOnSpace(e.arg(i)); };
-  switch (e.op()) {
-    case Op::Add:
-      if (!depends(1)) return plus(rootFormOf(e.arg(0)), e.arg(1));
-      return depends(0) ? std::nullopt : plus(rootFormOf(e.arg(1)), e.arg(0));
-    case Op::Sub:
-      return depends(1) ? std::nullopt : plus(rootFormOf(e.arg(0)), -e.arg(1));
-    case Op::Mul:
-      if (!depends(1)) return times(rootFormOf(e.arg(0)), e.arg(1));
-      return depends(0) ? std::nullopt : times(rootFormOf(e.arg(1)), e.arg(0));
-    case Op::Div:
-      return depends(1) ? std::nullopt : times(rootFormOf(e.arg(0)), 1.0 / e.arg(1));
-    default:
-      return std::nullopt;
-  }
+  const OpInfo& op = info(e.op());
+  if (op.arity != 2 || op.linearity == Linearity::Nonlinear) return std::nullopt;
+  const int place = dependsOnSpace(e.arg(1)) ? 1 : 0;
+  const Expr& held = e.arg(1 - place);
+  if (place == 1 && (op.symmetry == Symmetry::Ordered || dependsOnSpace(held))) return std::nullopt;
+  std::optional<RootForm> form = rootFormOf(e.arg(place));
+  if (!form) return form;
+  form->offset = Expr::make(e.op(), std::array{form->offset, held});
+  if (op.linearity != Linearity::Linear) form->scale = Expr::make(e.op(), std::array{form->scale, held});
+  return form;
 }
 
 // k > 0 if that is the gradient of k |p - c|^2 + e: its second derivatives are 2k along the axes and 0

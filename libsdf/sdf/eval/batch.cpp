@@ -179,9 +179,10 @@ void decide(const BallJob& job, const RegisterInstruction& n, float slopes, Deci
   const float ca = n.constant[0] ? job.batch.tape->floats()[n.in[0]] : 0.0f;
   const float cb = n.constant[1] ? job.batch.tape->floats()[n.in[1]] : 0.0f;
   const float margin = slopes * job.radius + job.slack;
-  const bool lowerFirst = n.op == Op::Min || n.op == Op::Less || n.op == Op::LessEqual;
+  const Choice choice = choiceOf(n.op);
+  const bool lowerFirst = choice == Choice::Least || choice == Choice::IsLess;
   const auto below = lowerFirst ? Decision::First : Decision::Second;
-  const auto above = n.op == Op::Max ? Decision::First : Decision::Second;
+  const auto above = choice == Choice::Greatest ? Decision::First : Decision::Second;
   for (std::size_t i = 0; i < job.balls; ++i) {
     const float difference = (a ? a[i] : ca) - (b ? b[i] : cb);
     out[i] = difference < -margin ? below : difference > margin ? above : Decision::Open;
@@ -196,7 +197,7 @@ void RunBalls(const BallJob& job) {
     if (isDecidable(n.op)) {
       const Instruction& source = tape.instructions()[i];
       const float slopes = tape.slope(source.in[0]) + tape.slope(source.in[1]);
-      if (n.op == Op::Select || !(slopes < HUGE_VALF))
+      if (choiceOf(n.op) == Choice::Selected || !(slopes < HUGE_VALF))
         std::fill_n(out, job.balls, Decision::Open);
       else
         decide(job, n, slopes, out);

@@ -54,38 +54,6 @@ std::string literal(double value) {
   return v < 0 || std::signbit(v) ? "(" + s + ")" : s;
 }
 
-// The operations of ops.def, where $0, $1 and $2 are a name or a literal each.
-const std::map<Op, std::string_view> kTerms = {
-    {Op::Neg, "-($0)"},
-    {Op::Abs, "abs($0)"},
-    {Op::Sqrt, "sqrt($0)"},
-    {Op::Square, "$0 * $0"},
-    {Op::Sin, "sin($0)"},
-    {Op::Cos, "cos($0)"},
-    {Op::Tan, "tan($0)"},
-    {Op::Asin, "sdfAsin($0)"},
-    {Op::Acos, "sdfAcos($0)"},
-    {Op::Atan, "atan($0)"},
-    {Op::Exp, "exp($0)"},
-    {Op::Log, "log($0)"},
-    {Op::Floor, "floor($0)"},
-    {Op::Ceil, "ceil($0)"},
-    {Op::Round, "roundEven($0)"},
-    {Op::Add, "$0 + $1"},
-    {Op::Sub, "$0 - $1"},
-    {Op::Mul, "$0 * $1"},
-    {Op::Div, "$0 / $1"},
-    {Op::Min, "min($0, $1)"},
-    {Op::Max, "max($0, $1)"},
-    {Op::Pow, "sdfPow($0, $1)"},
-    {Op::Atan2, "sdfAtan2($0, $1)"},
-    {Op::Mod, "mod($0, $1)"},
-    {Op::Less, "float($0 < $1)"},
-    {Op::LessEqual, "float($0 <= $1)"},
-    {Op::Equal, "float($0 == $1)"},
-    {Op::Select, "$0 != 0.0 ? $1 : $2"},
-};
-
 }  // namespace
 
 /// Writes the body of one function: a line for each node that depends on space, those that are used once
@@ -96,8 +64,11 @@ class GlslWriter::Body {
 
   void write(std::span<const Expr> outputs) {
     const std::vector<Expr> order = topologicalOrder(outputs);
-    for (const Expr& e : order)
-      for (int i = 0; i < arity(e.op()); ++i) uses_[e.arg(i)] += e.op() == Op::Square ? 2 : 1;
+    for (const Expr& e : order) {
+      const std::string_view term = info(e.op()).glsl;
+      const bool twice = term.find("$0") != term.rfind("$0");
+      for (int i = 0; i < arity(e.op()); ++i) uses_[e.arg(i)] += twice ? 2 : 1;
+    }
     for (const Expr& e : outputs) ++uses_[e];
     for (const Expr& e : order) {
       if (!inSpace(e)) continue;
@@ -133,7 +104,7 @@ class GlslWriter::Body {
   static constexpr std::size_t kLongLine = 100;
 
   // A term that needs no parentheses within another one.
-  static bool isCall(Op op) { return std::isalpha(static_cast<unsigned char>(kTerms.at(op).front())) != 0; }
+  static bool isCall(Op op) { return std::isalpha(static_cast<unsigned char>(info(op).glsl.front())) != 0; }
 
   // A variable, a substituted parameter, or made of something that has a name here already: arguments come
   // first.
@@ -146,7 +117,7 @@ class GlslWriter::Body {
   }
 
   std::string operation(const Expr& e) {
-    std::string term(kTerms.at(e.op()));
+    std::string term(info(e.op()).glsl);
     for (std::size_t at; (at = term.rfind('$')) != std::string::npos;)
       term.replace(at, 2, name(e.arg(term[at + 1] - '0')));
     return term;

@@ -16,8 +16,8 @@ std::array<Interval, kVariableCount> variables(const Box& b) {
 }
 
 Decision decided(Op op, const Interval& a, const Interval& b, const Interval& value) {
-  if (isComparison(op) || op == Op::Select) {
-    const Interval& truth = op == Op::Select ? a : value;
+  if (!isMinOrMax(op)) {
+    const Interval& truth = choiceOf(op) == Choice::Selected ? a : value;
     if (truth.nan) return Decision::Open;
     if (truth.lo > 0.0 || truth.hi < 0.0) return Decision::First;
     return truth.lo == 0.0 && truth.hi == 0.0 ? Decision::Second : Decision::Open;
@@ -25,7 +25,7 @@ Decision decided(Op op, const Interval& a, const Interval& b, const Interval& va
   if (a.nan || b.nan) return Decision::Open;
   const bool below = a.hi<b.lo, above = a.lo> b.hi;
   if (!below && !above) return Decision::Open;
-  return below == (op == Op::Min) ? Decision::First : Decision::Second;
+  return below == (choiceOf(op) == Choice::Least) ? Decision::First : Decision::Second;
 }
 
 }  // namespace

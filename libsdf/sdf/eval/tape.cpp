@@ -18,16 +18,8 @@ float Tape::Code::slope(Operand operand) const {
 }
 
 float Tape::Code::inheritedSlope(const Instruction& n) const {
-  switch (n.op) {
-    case Op::Neg:
-    case Op::Abs:
-      return slope(n.in[0]);
-    case Op::Min:
-    case Op::Max:
-      return std::max(slope(n.in[0]), slope(n.in[1]));
-    default:
-      return std::numeric_limits<float>::infinity();
-  }
+  if (isMinOrMax(n.op)) return std::max(slope(n.in[0]), slope(n.in[1]));
+  return info(n.op).slope == Slope::Nonexpansive ? slope(n.in[0]) : std::numeric_limits<float>::infinity();
 }
 
 void Tape::Code::finish() {
@@ -36,7 +28,8 @@ void Tape::Code::finish() {
   for (const Instruction& i : instructions) {
     if (!isDecidable(i.op)) continue;
     ++decisionCount;
-    if (i.op != Op::Select) hasSlopes = hasSlopes && std::isfinite(slope(i.in[0]) + slope(i.in[1]));
+    if (choiceOf(i.op) != Choice::Selected)
+      hasSlopes = hasSlopes && std::isfinite(slope(i.in[0]) + slope(i.in[1]));
   }
   allocateRegisters();
 }
@@ -103,33 +96,26 @@ Instruction withoutZeros(Instruction n) {
 // constant 0.
 Operand resolve(const Tape& tape, const Instruction& instruction, Operand self, Decision d,
                 const std::array<Operand, 3>& in) {
-  if (isComparison(instruction.op) && d != Decision::Open)
-    return Operand::constant(d == Decision::First ? kOne : kZero);
+  const Op op = instruction.op;
+  const bool isSelected = choiceOf(op) == Choice::Selected;
+  if (isSelected && in[0].isConstant())
+    d = tape.constant(in[0].index()) != 0.0 ? Decision::First : Decision::Second;
+  if (d != Decision::Open) {
+    if (isComparison(op)) return Operand::constant(d == Decision::First ? kOne : kZero);
+    return in[(d == Decision::First ? 0 : 1) + (isSelected ? 1 : 0)];
+  }
+  if (info(op).neutral == 0.0) {
+    if (info(op).symmetry == Symmetry::Symmetric && in[0] == kZeroOperand) return in[1];
+    return in[1] == kZeroOperand ? in[0] : self;
+  }
   const auto vanished = [&](int k) { return in[k] == kZeroOperand && instruction.in[k].isValue(); };
   const auto finite = [&](int k) {
     return in[k].isConstant() && std::isfinite(tape.constant(in[k].index()));
   };
   const auto vanishes = [&] { return (vanished(0) && finite(1)) || (vanished(1) && finite(0)); };
-  switch (instruction.op) {
-    case Op::Select:
-      if (in[0].isConstant()) d = tape.constant(in[0].index()) != 0.0 ? Decision::First : Decision::Second;
-      return d == Decision::Open ? self : in[d == Decision::First ? 1 : 2];
-    case Op::Min:
-    case Op::Max:
-      return d == Decision::Open ? self : in[d == Decision::First ? 0 : 1];
-    case Op::Add:
-      return in[0] == kZeroOperand ? in[1] : in[1] == kZeroOperand ? in[0] : self;
-    case Op::Sub:
-      return in[1] == kZeroOperand ? in[0] : self;
-    case Op::Square:
-      return vanished(0) ? kZeroOperand : self;
-    case Op::Mul:
-      return vanishes() ? kZeroOperand : self;
-    case Op::MulAdd:
-      return vanishes() ? in[2] : self;
-    default:
-      return self;
-  }
+  if (op == Op::Square) return vanished(0) ? kZeroOperand : self;
+  if (op == Op::MulAdd) return vanishes() ? in[2] : self;
+  return info(op).linearity == Linearity::Bilinear && vanishes() ? kZeroOperand : self;
 }
 
 Operand knownAs(const std::vector<Operand>& known, Operand a) { return a.isValue() ? known[a.index()] : a; }

@@ -89,7 +89,7 @@ class Tape {
   /// Registers (or constants) that hold the outputs at the end.
   const std::vector<Operand>& programOutputs() const { return code_->programOutputs; }
 
-  /// Instructions that can be decided (isChoice or isComparison); decisions are given in their order on the
+  /// Instructions that can be decided (isDecidable); decisions are given in their order on the
   /// tape.
   std::size_t decisionCount() const { return code_->decisionCount; }
   /// Slope bound of output i.
@@ -147,6 +147,6 @@ class Tape {
 
 using TapePtr = std::shared_ptr<const Tape>;
 
-constexpr bool isDecidable(Op op) { return isChoice(op) || isComparison(op); }
+constexpr bool isDecidable(Op op) { return choiceOf(op) != Choice::NoChoice; }
 
 }  // namespace sdf

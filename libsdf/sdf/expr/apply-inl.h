@@ -11,7 +11,7 @@
 #define SDF_EXPR_APPLY_INL_H
 #endif
 
-#include <cassert>
+#include <cstdlib>
 #include <type_traits>
 #include <utility>
 
@@ -31,7 +31,7 @@ namespace sdf {
 /// arguments.
 template <Op op>
 struct Apply;
-#define SDF_UNARY(name, call)                          \
+#define SDF_UNARY(name, call, ...)                     \
   template <>                                          \
   struct Apply<Op::name> {                             \
     template <class T, class... Others>                \
@@ -41,7 +41,7 @@ struct Apply;
   };
 #define SDF_BINARY SDF_UNARY
 #define SDF_TERNARY SDF_UNARY
-#define SDF_FUSED(name, rows, constants, body)                                                \
+#define SDF_FUSED(name, rows, constants, smoothness, body)                                    \
   template <>                                                                                 \
   struct Apply<Op::name> {                                                                    \
     template <class T>                                                                        \
@@ -58,19 +58,19 @@ auto apply(const Ts&... args) {
   return Apply<op>::of(args...);
 }
 
-/// Calls f with `op` as a type, which must be an operation of ops.def.
+/// What f gives for `op` as a type, which must be an operation of ops.def.
 template <class F>
-void dispatch(Op op, F&& f) {
+auto dispatch(Op op, F&& f) {
   switch (op) {
-#define SDF_UNARY(name, call) \
-  case Op::name:              \
+#define SDF_UNARY(name, ...) \
+  case Op::name:             \
     return f(std::integral_constant<Op, Op::name>{});
 #define SDF_BINARY SDF_UNARY
 #define SDF_TERNARY SDF_UNARY
-#define SDF_FUSED(name, rows, constants, body) SDF_UNARY(name, body)
+#define SDF_FUSED SDF_UNARY
 #include "sdf/expr/ops.def"
     default:
-      assert(!"dispatch: not an operation");
+      std::abort();
   }
 }
 
@@ -78,12 +78,10 @@ void dispatch(Op op, F&& f) {
 template <class T, class Args>
 T evaluateOp(Op op, Args&& args) {
   if (op == Op::Claim) return args(0);
-  T result{};
-  dispatch(op, [&](auto tag) {
-    result = [&]<int... i>(std::integer_sequence<int, i...>) { return apply<tag.value>(args(i)...); }
+  return dispatch(op, [&](auto tag) {
+    return [&]<int... i>(std::integer_sequence<int, i...>)->T { return apply<tag.value>(args(i)...); }
     (std::make_integer_sequence<int, arity(tag.value)>());
   });
-  return result;
 }
 
 /// The same where `op` may be a payload, which is given then, and null else.

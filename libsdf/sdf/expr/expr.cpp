@@ -79,35 +79,29 @@ void setSlopes(Node& n, double bound, const Interval* partials) {
 }
 
 void setFacts(Node& n) {
-  switch (n.op) {
-    case Op::Constant:
-      n.range = Interval(n.value);
-      return;
-    case Op::Parameter:
-      n.range = hull(Interval(std::min(n.parameter->min, n.parameter->max),
-                              std::max(n.parameter->min, n.parameter->max)),
-                     Interval(n.parameter->value));
-      return;
-    case Op::Variable: {
-      const bool coordinate = n.variable <= Variable::Z;
-      n.range = coordinate ? Interval(-kInfinity, kInfinity) : Interval(-1.0, 1.0);
-      n.lipschitz = coordinate ? 1.0 : kInfinity;
-      if (coordinate)
-        n.partials[static_cast<int>(n.variable)] = 1.0;
-      else
-        n.partials.fill(Interval::everything());
-      return;
-    }
-    case Op::Claim:
-      n.range = n.args[0].range();
-      setSlopes(n, n.value, n.args[0].partials().data());
-      return;
-    default:
-      break;
+  if (n.op == Op::Constant) {
+    n.range = Interval(n.value);
+  } else if (n.op == Op::Parameter) {
+    n.range = hull(
+        Interval(std::min(n.parameter->min, n.parameter->max), std::max(n.parameter->min, n.parameter->max)),
+        Interval(n.parameter->value));
+  } else if (n.op == Op::Variable) {
+    const bool coordinate = n.variable <= Variable::Z;
+    n.range = coordinate ? Interval(-kInfinity, kInfinity) : Interval(-1.0, 1.0);
+    n.lipschitz = coordinate ? 1.0 : kInfinity;
+    if (coordinate)
+      n.partials[static_cast<int>(n.variable)] = 1.0;
+    else
+      n.partials.fill(Interval::everything());
+  } else if (n.op == Op::Claim) {
+    n.range = n.args[0].range();
+    setSlopes(n, n.value, n.args[0].partials().data());
+  } else {
+    const Fact fact =
+        evaluateOp<Fact>(n.op, n.payload.get(), [&](int i) { return factOf(*n.args[i].node()); });
+    n.range = fact.v;
+    setSlopes(n, fact.d[0].magnitude(), fact.d + 1);
   }
-  const Fact fact = evaluateOp<Fact>(n.op, n.payload.get(), [&](int i) { return factOf(*n.args[i].node()); });
-  n.range = fact.v;
-  setSlopes(n, fact.d[0].magnitude(), fact.d + 1);
 }
 
 // Nodes made less nodes deleted by this thread, and how many there may be (see NodeLimit).
@@ -228,35 +222,17 @@ Expr Expr::payload(const PayloadPart& part, const std::array<Expr, 3>& at) {
 
 namespace {
 
-// A simpler expression of the same meaning, NaN and infinity included, or the null node's absence.
-const Expr* simplerBinary(Op op, const Expr& a, const Expr& b) {
-  switch (op) {
-    case Op::Add:
-      return b.isConstant(0.0) ? &a : a.isConstant(0.0) ? &b : nullptr;
-    case Op::Sub:
-      return b.isConstant(0.0) ? &a : nullptr;
-    case Op::Mul:
-      return b.isConstant(1.0) ? &a : a.isConstant(1.0) ? &b : nullptr;
-    case Op::Div:
-      return b.isConstant(1.0) ? &a : nullptr;
-    case Op::Min:
-    case Op::Max:
-      return a == b ? &a : nullptr;
-    default:
-      return nullptr;
-  }
-}
-
+// A simpler expression of the same meaning, NaN and infinity included; nothing where none is known.
 std::optional<Expr> simplified(Op op, std::span<const Expr> args) {
-  const Expr& a = args[0];
-  if (args.size() == 2)
-    if (const Expr* same = simplerBinary(op, a, args[1])) return *same;
-  if (op == Op::Select && a.isConstant()) return a.constantValue() != 0.0 ? args[1] : args[2];
-  if (op == Op::Select && args[1] == args[2]) return args[1];
-  const bool signless = op == Op::Abs || op == Op::Square;
+  const Expr &a = args[0], &b = args.back();
+  const OpInfo& about = info(op);
+  if (b.isConstant(about.neutral)) return a;
+  if (about.symmetry == Symmetry::Symmetric && a.isConstant(about.neutral)) return b;
+  if (isMinOrMax(op) && a == b) return a;
+  if (op == Op::Select && a.isConstant()) return a.constantValue() != 0.0 ? args[1] : b;
+  if (op == Op::Select && args[1] == b) return b;
   if (op == Op::Neg && a.op() == Op::Neg) return a.arg(0);
-  if (op == Op::Abs && a.op() == Op::Abs) return a;
-  if (signless && (a.op() == Op::Neg || (op == Op::Square && a.op() == Op::Abs)))
+  if (about.parity == Parity::Even && (a.op() == Op::Neg || a.op() == Op::Abs))
     return Expr::make(op, {&a.arg(0), 1});
   return std::nullopt;
 }
@@ -292,11 +268,11 @@ Expr Expr::claimLipschitz(double bound) const {
   return NodeTable::instance().intern(std::move(n));
 }
 
-#define SDF_UNARY(name, call) \
+#define SDF_UNARY(name, call, ...) \
   Expr call(const Expr& a) { return Expr::make(Op::name, {&a, 1}); }
-#define SDF_BINARY(name, call) \
+#define SDF_BINARY(name, call, ...) \
   Expr call(const Expr& a, const Expr& b) { return Expr::make(Op::name, std::array{a, b}); }
-#define SDF_TERNARY(name, call) \
+#define SDF_TERNARY(name, call, ...) \
   Expr call(const Expr& a, const Expr& b, const Expr& c) { return Expr::make(Op::name, std::array{a, b, c}); }
 #include "sdf/expr/ops.def"
 

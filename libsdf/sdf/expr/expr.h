@@ -119,9 +119,9 @@ Expr operator-(const Expr& a, const Expr& b);
 Expr operator*(const Expr& a, const Expr& b);
 Expr operator/(const Expr& a, const Expr& b);
 
-#define SDF_UNARY(name, call) Expr call(const Expr& a);
-#define SDF_BINARY(name, call) Expr call(const Expr& a, const Expr& b);
-#define SDF_TERNARY(name, call) Expr call(const Expr& a, const Expr& b, const Expr& c);
+#define SDF_UNARY(name, call, ...) Expr call(const Expr& a);
+#define SDF_BINARY(name, call, ...) Expr call(const Expr& a, const Expr& b);
+#define SDF_TERNARY(name, call, ...) Expr call(const Expr& a, const Expr& b, const Expr& c);
 #include "sdf/expr/ops.def"
 
 Expr clamp(const Expr& a, const Expr& lo, const Expr& hi);

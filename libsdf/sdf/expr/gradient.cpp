@@ -47,9 +47,9 @@ std::array<Symbol, 4> payloadSlopes(const PayloadPart& part, const Symbol& a, co
 }
 
 // The others are the operations of expressions.
-#define SDF_UNARY(name, call) \
+#define SDF_UNARY(name, call, ...) \
   Symbol call(const std::same_as<Symbol> auto& a) { return call(a.e); }
-#define SDF_BINARY(name, call) \
+#define SDF_BINARY(name, call, ...) \
   Symbol call(const std::same_as<Symbol> auto& a, const Symbol& b) { return call(a.e, b.e); }
 #include "sdf/expr/ops.def"
 

@@ -11,22 +11,13 @@ namespace {
 
 // Of two values of one function that keeps their order, the place of the argument in which they differ.
 std::optional<int> difference(const Expr& a, const Expr& b) {
-  if (a.op() != b.op()) return std::nullopt;
-  switch (a.op()) {
-    case Op::Sqrt:
-      return 0;
-    case Op::Sub:
-      if (a.arg(1) == b.arg(1)) return 0;
-      break;
-    case Op::Add:
-    case Op::Mul:
-      for (const int place : {0, 1})
-        if (a.arg(place) == b.arg(place) && (a.op() == Op::Add || a.arg(place).range().lo >= 0.0))
-          return 1 - place;
-      break;
-    default:
-      break;
-  }
+  const Increasing increasing = info(a.op()).increasing;
+  if (a.op() != b.op() || increasing == Increasing::Unstated) return std::nullopt;
+  if (arity(a.op()) == 1) return 0;
+  for (int held = increasing == Increasing::First ? 1 : 0; held < 2; ++held)
+    if (a.arg(held) == b.arg(held) &&
+        (increasing != Increasing::BothIfPositive || a.arg(held).range().lo >= 0.0))
+      return 1 - held;
   return std::nullopt;
 }
 
@@ -79,7 +70,7 @@ Expr hoisted(const Expr& e) {
     return list == lists.end() ? std::vector{made} : list->second;
   };
   const auto hoist = [&](const Expr& node, std::span<const Expr> args) -> std::optional<Expr> {
-    if (node.op() != Op::Min && node.op() != Op::Max) return std::nullopt;
+    if (!isMinOrMax(node.op())) return std::nullopt;
     if (node.op() == Op::Max && isLengthWith(args[0], args[1])) return args[1];
     std::vector<Expr> all = operands(node.arg(0), args[0], node.op());
     const std::vector<Expr> more = operands(node.arg(1), args[1], node.op());

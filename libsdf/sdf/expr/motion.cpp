@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf/expr/payload.h"
+#include "sdf/expr/apply-inl.h"
 
 namespace sdf {
 namespace {
@@ -29,20 +29,14 @@ struct Affine {
   bool isConstant() const { return position == glm::dvec3(0.0) && normal == glm::dvec3(0.0); }
 };
 
-Affine sum(const Affine& a, const Affine& b, double sign) {
-  return {a.position + sign * b.position, a.normal + sign * b.normal, a.constant + sign * b.constant};
+Affine sum(const Affine& a, const Affine& b) {
+  return {a.position + b.position, a.normal + b.normal, a.constant + b.constant};
 }
 Affine scaled(const Affine& a, double by) { return {a.position * by, a.normal * by, a.constant * by}; }
 
 using Arguments = std::array<const Affine*, 3>;
 
-std::optional<Affine> affineProduct(const Affine& a, const Affine& b) {
-  if (a.isConstant()) return scaled(b, a.constant);
-  if (b.isConstant()) return scaled(a, b.constant);
-  return std::nullopt;
-}
-
-std::optional<Affine> affineVariable(Variable v) {
+Affine affineVariable(Variable v) {
   Affine a;
   const int i = static_cast<int>(v);
   (i < 3 ? a.position : a.normal)[i % 3] = 1.0;
@@ -51,27 +45,22 @@ std::optional<Affine> affineVariable(Variable v) {
 
 /// What a node is as an affine function; nothing where it is none, or not by these operations.
 std::optional<Affine> affineOf(const Expr& e, const Arguments& args) {
-  const auto [a, b, c] = args;
-  switch (e.op()) {
-    case Op::Constant:
-      return Affine{{}, {}, e.constantValue()};
-    case Op::Variable:
-      return affineVariable(e.variableIndex());
-    case Op::Claim:
-      return a ? std::optional(*a) : std::nullopt;
-    case Op::Neg:
-      return a ? std::optional(scaled(*a, -1.0)) : std::nullopt;
-    case Op::Add:
-      return a && b ? std::optional(sum(*a, *b, 1.0)) : std::nullopt;
-    case Op::Sub:
-      return a && b ? std::optional(sum(*a, *b, -1.0)) : std::nullopt;
-    case Op::Mul:
-      return a && b ? affineProduct(*a, *b) : std::nullopt;
-    case Op::Div:
-      return a && b && b->isConstant() ? std::optional(scaled(*a, 1.0 / b->constant)) : std::nullopt;
-    default:
-      return std::nullopt;
-  }
+  if (e.isConstant()) return Affine{{}, {}, e.constantValue()};
+  if (e.op() == Op::Variable) return affineVariable(e.variableIndex());
+  const Linearity linearity = info(e.op()).linearity;
+  const int count = arity(e.op());
+  if (linearity == Linearity::Nonlinear || std::count(args.begin(), args.begin() + count, nullptr) > 0)
+    return std::nullopt;
+  const bool isSum = linearity == Linearity::Linear;
+  // The argument times what the operation multiplies it by.
+  const auto part = [&](int k) {
+    return scaled(*args[k], evaluateOp<double>(e.op(), [&](int i) {
+      return i == k ? 1.0 : isSum ? 0.0 : args[i]->constant;
+    }));
+  };
+  if (isSum) return count == 1 ? part(0) : sum(part(0), part(1));
+  if (args[1]->isConstant()) return part(0);
+  return linearity == Linearity::Bilinear && args[0]->isConstant() ? std::optional(part(1)) : std::nullopt;
 }
 
 class AffineForms {
@@ -92,8 +81,7 @@ class AffineForms {
   std::unordered_map<Expr, Affine> forms_;
 };
 
-/// What stands in one place of both graphs. An even place is one under |.| or a square, whose making drops a
-/// sign.
+/// What stands in one place of both graphs. An even place is one whose sign is dropped (Parity::Even).
 struct Pair {
   Affine before, after;
   bool even = false;
@@ -133,7 +121,7 @@ class Matching {
     if (const PayloadPart* p = a.payloadPart(), *q = b.payloadPart();
         p && (p->payload != q->payload || p->part != q->part))
       return false;
-    const bool even = a.op() == Op::Abs || a.op() == Op::Square;
+    const bool even = info(a.op()).parity == Parity::Even;
     for (int i = 0; i < arity(a.op()); ++i) open_.push_back({a.arg(i), b.arg(i), even});
     return true;
   }

@@ -119,65 +119,55 @@ class TermReading {
   }
 
   double constantOf(const Instruction& n, int k) const { return tape_.constant(n.constants + k); }
-
-  T length(const Instruction& n) {
-    T q[3];
-    const int count = n.op == Op::Length2 ? 2 : 3;
-    for (int i = 0; i < count; ++i) {
-      q[i] = operand(n.in[i]);
-      if (n.op == Op::Distance3) q[i] = lessConstant(q[i], constantOf(n, i));
-    }
-    const T* const parts[3] = {&q[0], &q[1], &q[2]};
-    const T r = count == 2 ? lengthTerm<2>(parts, parts) : lengthTerm<3>(parts, parts);
-    return lessConstant(r, constantOf(n, n.op == Op::Distance3 ? 3 : 0));
-  }
+  T in(const Instruction& n, int k) const { return operand(n.in[k]); }
 
   T plain(const Instruction& n) {
-    const auto a = [&](int k) { return operand(n.in[k]); };
-    switch (n.op) {
-      case Op::Claim:
-        return a(0);
-      case Op::Neg:
-        return negated(a(0));
-      case Op::Add:
-        return sum(a(0), a(1));
-      case Op::Sub:
-        return sum(a(0), negated(a(1)));
-      case Op::Mul:
-        return product(a(0), a(1));
-      case Op::MulAdd:
-        return sum(product(a(0), a(1)), a(2));
-      case Op::Square:
-        return squareOf(a(0));
-      case Op::Min:
-        return smaller(a(0), a(1));
-      case Op::Max:
-        return larger(a(0), a(1));
-      case Op::Abs:
-        return absolute(a(0));
-      case Op::AbsMinus:
-        return lessConstant(absolute(a(0)), constantOf(n, 0));
-      case Op::Sin:
-        return sineOf(a(0));
-      case Op::Cos:
-        return cosineOf(a(0));
-      case Op::Length2:
-      case Op::Length3:
-      case Op::Distance3:
-        return length(n);
-      case Op::Sqrt: {
-        const T x = a(0);
-        unsure_ = hn::Or(unsure_, hn::Lt(x.v.lo, hn::Zero(kD)));
-        return rootOf(x);
-      }
-      case Op::Div: {
-        const T x = a(1);
-        unsure_ = hn::Or(unsure_, hasZero(x.v));
-        return product(a(0), inverseOf(x));
-      }
-      default:
-        return laneByLane(n);
-    }
+    if (n.op == Op::Payload) return laneByLane(n);
+    return dispatch(n.op, [&](auto op) HWY_ATTR { return valueOf(op, n); });
+  }
+
+  // The operations that terms have; the others take the last of these.
+  template <Op op>
+  using Is = std::integral_constant<Op, op>;
+  T valueOf(Is<Op::Neg>, const Instruction& n) { return negated(in(n, 0)); }
+  T valueOf(Is<Op::Add>, const Instruction& n) { return sum(in(n, 0), in(n, 1)); }
+  T valueOf(Is<Op::Sub>, const Instruction& n) { return sum(in(n, 0), negated(in(n, 1))); }
+  T valueOf(Is<Op::Mul>, const Instruction& n) { return product(in(n, 0), in(n, 1)); }
+  T valueOf(Is<Op::MulAdd>, const Instruction& n) { return sum(product(in(n, 0), in(n, 1)), in(n, 2)); }
+  T valueOf(Is<Op::Square>, const Instruction& n) { return squareOf(in(n, 0)); }
+  T valueOf(Is<Op::Min>, const Instruction& n) { return smaller(in(n, 0), in(n, 1)); }
+  T valueOf(Is<Op::Max>, const Instruction& n) { return larger(in(n, 0), in(n, 1)); }
+  T valueOf(Is<Op::Abs>, const Instruction& n) { return absolute(in(n, 0)); }
+  T valueOf(Is<Op::AbsMinus>, const Instruction& n) {
+    return lessConstant(absolute(in(n, 0)), constantOf(n, 0));
+  }
+  T valueOf(Is<Op::Sin>, const Instruction& n) { return sineOf(in(n, 0)); }
+  T valueOf(Is<Op::Cos>, const Instruction& n) { return cosineOf(in(n, 0)); }
+  T valueOf(Is<Op::Sqrt>, const Instruction& n) {
+    const T x = in(n, 0);
+    unsure_ = hn::Or(unsure_, hn::Lt(x.v.lo, hn::Zero(kD)));
+    return rootOf(x);
+  }
+  T valueOf(Is<Op::Div>, const Instruction& n) {
+    const T x = in(n, 1);
+    unsure_ = hn::Or(unsure_, hasZero(x.v));
+    return product(in(n, 0), inverseOf(x));
+  }
+  T valueOf(Is<Op::Length2>, const Instruction& n) { return length<2>(n); }
+  T valueOf(Is<Op::Length3>, const Instruction& n) { return length<3>(n); }
+  T valueOf(Is<Op::Distance3>, const Instruction& n) { return length<3>(n, 3); }
+  template <Op op>
+  T valueOf(Is<op>, const Instruction& n) {
+    return laneByLane(n);
+  }
+
+  // The first `shifts` constants are subtracted from the arguments, the one after them from the length.
+  template <int N>
+  T length(const Instruction& n, int shifts = 0) {
+    T q[3];
+    for (int i = 0; i < N; ++i) q[i] = lessConstant(in(n, i), shifts > 0 ? constantOf(n, i) : 0.0);
+    const T* const parts[3] = {&q[0], &q[1], &q[2]};
+    return lessConstant(lengthTerm<N>(parts, parts), constantOf(n, shifts));
   }
 
   // Any other operation, by the scalar intervals.

@@ -239,26 +239,10 @@ void placeRun(const PointRun& run, CreasePoint* points) {
 // between samples has a kink wherever two of its cells meet, which are no creases.
 bool mayCrease(const Tape& tape) {
   bool kinks = false;
-  for (const RegisterInstruction& i : tape.program()) switch (i.op) {
-      case Op::Payload:
-        return false;
-      case Op::Neg:
-      case Op::Square:
-      case Op::Sin:
-      case Op::Cos:
-      case Op::Exp:
-      case Op::Add:
-      case Op::Sub:
-      case Op::Mul:
-      case Op::Div:
-      case Op::MulAdd:
-      case Op::Length2:
-      case Op::Length3:
-      case Op::Distance3:
-        break;
-      default:
-        kinks = true;
-    }
+  for (const RegisterInstruction& i : tape.program()) {
+    if (i.op == Op::Payload) return false;
+    kinks = kinks || info(i.op).smoothness == Smoothness::MayKink;
+  }
   return kinks;
 }
 

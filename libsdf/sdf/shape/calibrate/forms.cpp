@@ -55,14 +55,17 @@ std::optional<Vec3E> linearGradient(const Expr& claimed) {
   const Expr& e = claimed.unclaimed();
   if (isUniform(e)) return Vec3E(0.0);
   if (e.op() == Op::Variable) return gradientOf(e);
-  if (e.op() != Op::Neg && e.op() != Op::Add && e.op() != Op::Sub && e.op() != Op::Mul) return {};
-  const auto a = linearGradient(e.arg(0));
-  if (!a) return {};
-  if (e.op() == Op::Neg) return scaled(*a, -1.0);
-  const auto b = linearGradient(e.arg(1));
+  const Linearity linearity = info(e.op()).linearity;
+  if (linearity != Linearity::Linear && linearity != Linearity::Bilinear) return {};
+  const int last = arity(e.op()) - 1;
+  const auto a = linearGradient(e.arg(0)), b = a && last > 0 ? linearGradient(e.arg(last)) : a;
   if (!b) return {};
-  if (e.op() == Op::Add) return *a + *b;
-  if (e.op() == Op::Sub) return *a - *b;
+  if (linearity == Linearity::Linear) {
+    const auto along = [&](const Expr& u, const Expr& v) {
+      return Expr::make(e.op(), std::span<const Expr>(std::array{u, v}).first(last + 1));
+    };
+    return Vec3E(along(a->x, b->x), along(a->y, b->y), along(a->z, b->z));
+  }
   if (isUniform(e.arg(0))) return scaled(*b, e.arg(0));
   return isUniform(e.arg(1)) ? std::optional(scaled(*a, e.arg(1))) : std::nullopt;
 }
