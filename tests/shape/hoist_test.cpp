@@ -93,7 +93,7 @@ TEST(Hoist, GivesTheSameValuesForTheWholeCatalog) {
   }
 }
 
-TEST(NumberOfLeast, ComparesWhatIsUnderCommonFunctions) {
+TEST(IndexOfMin, ComparesWhatIsUnderCommonFunctions) {
   const std::vector<Expr> operands = {balls(1, 0.0).distance,
                                       translate(sphere(0.3), Vec3E(Expr(1.0))).distance,
                                       translate(sphere(0.3), Vec3E(Expr(-2.0))).distance};
@@ -107,7 +107,7 @@ TEST(NumberOfLeast, ComparesWhatIsUnderCommonFunctions) {
   EXPECT_EQ(f({0.5, 0.5, 0.5}), 20.0) << "the last of a tie";
 }
 
-TEST(NumberOfLeast, TakesValuesOfAnyKind) {
+TEST(IndexOfMin, TakesValuesOfAnyKind) {
   const std::vector<Expr> operands = {position().x, sphere(1.0).distance, -position().x};
   const std::vector<Expr> numbers = {Expr(0.0), Expr(1.0), Expr(2.0)};
   const test::Evaluator f(indexOfMin(operands, numbers));
