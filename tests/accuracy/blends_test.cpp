@@ -17,12 +17,7 @@
 namespace sdf::accuracy {
 namespace blends_test {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kPoints = 5'000;
-#else
 constexpr int kPoints = 100'000;
-#endif
-
 constexpr unsigned kSeed = 1;
 constexpr double kWidths[] = {0.01, 0.3, 2.0};
 // Distances are tried up to this many widths from each other, the numbers themselves up to 10.

@@ -16,11 +16,7 @@ namespace sdf::accuracy {
 
 namespace operators_slope_test {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSegments = 250;
-#else
 constexpr int kSegments = 5'000;
-#endif
 
 // Of a formula of some hundred operations on numbers of about this size.
 double roundingAt(const glm::dvec3& p) { return 0x1p-40 * (1.0 + glm::length(p)); }

@@ -27,7 +27,7 @@ std::vector<Expr> filled(const Alike& alike, std::size_t row) {
 
 TEST(Alike, AreExpressionsThatDifferInNumbers) {
   const Lists lists{{ball(1.0, 2.0, 0.5)}, {position().x}, {ball(3.0, -4.0, 0.5)}};
-  const auto sorts = sortedByLikeness(lists, "n");
+  const auto sorts = groupByStructure(lists, "n");
   ASSERT_EQ(sorts.size(), 2u);
   EXPECT_EQ(sorts[0].places, (std::vector<std::size_t>{0, 2}));
   EXPECT_EQ(sorts[0].parameters.size(), 2u) << "the radius is one";
@@ -42,7 +42,7 @@ TEST(Alike, AreExpressionsThatShareTermsByChance) {
   const Vec3E p = position();
   const auto at = [&](double a, double b) { return square(p.x - a) + square(p.x - b) * a; };
   const Lists lists{{at(2.0, 2.0)}, {at(2.0, 5.0)}, {at(-1.0, 3.0)}};
-  const auto sorts = sortedByLikeness(lists, "n");
+  const auto sorts = groupByStructure(lists, "n");
   ASSERT_EQ(sorts.size(), 1u);
   EXPECT_EQ(sorts[0].parameters.size(), 2u);
   for (const std::size_t row : {0, 1, 2}) EXPECT_EQ(filled(sorts[0], row), withoutClaims(lists[row]));
@@ -51,7 +51,7 @@ TEST(Alike, AreExpressionsThatShareTermsByChance) {
 TEST(Alike, HaveFormulasOfParametersForNumbers) {
   const Expr time = Expr::parameter({"time", 0.0, 0.0, 10.0});
   const Lists lists{{position().y - sin(time + 1.0)}, {position().y - 2.0}, {position().y - time}};
-  const auto sorts = sortedByLikeness(lists, "n");
+  const auto sorts = groupByStructure(lists, "n");
   ASSERT_EQ(sorts.size(), 1u);
   ASSERT_EQ(sorts[0].parameters.size(), 1u);
   EXPECT_EQ(sorts[0].rows[0][0], sin(time + 1.0));
@@ -62,21 +62,21 @@ TEST(Alike, HaveFormulasOfParametersForNumbers) {
 
 TEST(Alike, LeaveFormulasThatAllShare) {
   const Expr sine = sin(Expr::parameter({"time", 0.0, 0.0, 10.0}));
-  const auto sorts = sortedByLikeness(Lists{{position().x * sine - 1.0}, {position().x * sine - 2.0}}, "n");
+  const auto sorts = groupByStructure(Lists{{position().x * sine - 1.0}, {position().x * sine - 2.0}}, "n");
   ASSERT_EQ(sorts.size(), 1u);
   EXPECT_EQ(sorts[0].common.front().arg(0), position().x * sine);
 }
 
 TEST(Alike, AreListsThatAreAlikeAllAlong) {
   const Lists lists{{position().x, 1.0}, {position().x, 2.0}, {position().x, position().y}};
-  const auto sorts = sortedByLikeness(lists, "n");
+  const auto sorts = groupByStructure(lists, "n");
   ASSERT_EQ(sorts.size(), 2u);
   EXPECT_EQ(sorts[0].places, (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(sorts[0].common[0], position().x);
 }
 
 TEST(Alike, NameTheirParametersApart) {
-  const auto sorts = sortedByLikeness(
+  const auto sorts = groupByStructure(
       Lists{{position().x - 1.0}, {position().y - 1.0}, {position().x - 2.0}, {position().y - 2.0}}, "n");
   ASSERT_EQ(sorts.size(), 2u);
   EXPECT_NE(sorts[0].parameters[0].parameterInfo().name, sorts[1].parameters[0].parameterInfo().name);

@@ -55,7 +55,7 @@ Seen expectSame(const Shape& shape, const Values& values, std::mt19937& random) 
                             uniform(random, -2.3, 2.3));
     const double most = uniform(random, 0.0, 0.1);
     const Box region{centre - half, centre + half};
-    const auto near = model.near(region, most, model.all());
+    const auto near = model.relevantOperands(region, most, model.all());
     EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
     const TapePtr tape = near.empty() ? nullptr : model.link(near);
     seen.linked += near.size();
@@ -138,10 +138,10 @@ TEST(Model, KnowsNoBoundsAndSlopesForValuesOutOfRange) {
   const std::uint32_t both[] = {0, 1};
   const Box beside{glm::dvec3(2.0), glm::dvec3(3.0)};
   EXPECT_EQ(model.at({{"r", 1.0}}).slope(), 1.0);
-  EXPECT_TRUE(model.at({{"r", 1.0}}).near(beside, 0.5, both).empty());
+  EXPECT_TRUE(model.at({{"r", 1.0}}).relevantOperands(beside, 0.5, both).empty());
   const ModelTapes large = model.at({{"r", 4.0}});
   EXPECT_EQ(large.slope(), kInfinity);
-  EXPECT_EQ(large.near(beside, 0.5, both), (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(large.relevantOperands(beside, 0.5, both), (std::vector<std::uint32_t>{0, 1}));
 
   const Expr k = Expr::parameter({"k", 0.1, 0.0, 0.2});
   const Model blend(unite({sphere(1.0), far}, Blend::quadratic(k)));

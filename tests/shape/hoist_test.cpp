@@ -93,12 +93,12 @@ TEST(Hoist, GivesTheSameValuesForTheWholeCatalog) {
   }
 }
 
-TEST(NumberOfLeast, ComparesWhatIsUnderCommonFunctions) {
+TEST(IndexOfMin, ComparesWhatIsUnderCommonFunctions) {
   const std::vector<Expr> operands = {balls(1, 0.0).distance,
                                       translate(sphere(0.3), Vec3E(Expr(1.0))).distance,
                                       translate(sphere(0.3), Vec3E(Expr(-2.0))).distance};
   const std::vector<Expr> numbers = {Expr(10.0), Expr(20.0), Expr(30.0)};
-  const Expr number = numberOfLeast(operands, numbers);
+  const Expr number = indexOfMin(operands, numbers);
   EXPECT_EQ(countOf(Op::Sqrt, number), 0);
   const test::Evaluator f(number);
   EXPECT_EQ(f({0.1, 0.0, 0.0}), 10.0);
@@ -107,10 +107,10 @@ TEST(NumberOfLeast, ComparesWhatIsUnderCommonFunctions) {
   EXPECT_EQ(f({0.5, 0.5, 0.5}), 20.0) << "the last of a tie";
 }
 
-TEST(NumberOfLeast, TakesValuesOfAnyKind) {
+TEST(IndexOfMin, TakesValuesOfAnyKind) {
   const std::vector<Expr> operands = {position().x, sphere(1.0).distance, -position().x};
   const std::vector<Expr> numbers = {Expr(0.0), Expr(1.0), Expr(2.0)};
-  const test::Evaluator f(numberOfLeast(operands, numbers));
+  const test::Evaluator f(indexOfMin(operands, numbers));
   EXPECT_EQ(f({-2.0, 0.0, 0.0}), 0.0);
   EXPECT_EQ(f({0.0, 0.5, 0.0}), 1.0);
   EXPECT_EQ(f({2.0, 0.0, 0.0}), 2.0);

@@ -182,6 +182,12 @@ TEST(TriangleDistance, AlongAWayIsTheSame) {
   }
 }
 
+TEST(WindingOf, OfAnOctantIsAnEighth) {
+  const glm::dvec3 x(3, 0, 0), y(0, 0.5, 0), z(0, 0, 1);
+  EXPECT_NEAR(windingOf(x, y, z), 1.0 / 8, 0x1p-52);
+  EXPECT_NEAR(windingOf(x, z, y), -1.0 / 8, 0x1p-52);
+}
+
 TEST(TriangleTree, HoldsWhatIsVeryUneven) {
   TriangleMesh mesh;
   for (int i = 0; i < 120; ++i) {

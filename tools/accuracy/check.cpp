@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "check_points.h"
+#include "command_line/text.h"
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
 
@@ -118,10 +118,10 @@ class Chunk {
   template <class... Values>
   void refute(const glm::dvec3& p, const char* format, Values... values) {
     if (++found_.refuted > 1) return;
-    char where[128], what[128];
-    std::snprintf(where, sizeof where, "at (%.9g, %.9g, %.9g), seed %u: ", p.x, p.y, p.z, bench_.seed);
-    std::snprintf(what, sizeof what, format, values...);
-    found_.worst = bench_.of.name + " " + where + what;
+    using command_line::formatted;
+    found_.worst = bench_.of.name +
+                   formatted(" at (%.9g, %.9g, %.9g), seed %u: ", p.x, p.y, p.z, bench_.seed) +
+                   formatted(format, values...);
   }
 
   const Bench& bench_;

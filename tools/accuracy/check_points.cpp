@@ -15,13 +15,23 @@ glm::dvec3 asFloats(const glm::dvec3& p) {
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
+}  // namespace
+
 Box boxOf(const TriangleMesh& mesh) {
   Box box;
   for (const glm::dvec3& p : mesh.points) box = unite(box, {p, p});
   return box;
 }
 
-}  // namespace
+ByArea::ByArea(const std::vector<glm::dvec3>& points, const std::vector<glm::ivec3>& triangles) {
+  double sum = 0.0;
+  for (const glm::ivec3& t : triangles)
+    sums_.push_back(sum += glm::length(glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x])));
+}
+
+std::size_t ByArea::at(double share) const {
+  return std::upper_bound(sums_.begin(), sums_.end() - 1, share * sums_.back()) - sums_.begin();
+}
 
 double largest(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -62,15 +72,13 @@ glm::dvec3 Turning::fromMesh(const glm::dvec3& q, std::mt19937_64& random) const
 }
 
 PointMaker::PointMaker(const ReferenceCase& c)
-    : case_(c), turning_(c.axis), box_(intersect(boxOf(c.mesh), c.region)) {
+    : case_(c),
+      turning_(c.axis),
+      byArea_(c.mesh.points, c.mesh.triangles),
+      box_(intersect(boxOf(c.mesh), c.region)) {
   size_ = box_.longestSide();
   reach_ = std::max(largest(box_.min), largest(box_.max));
   if (c.axis) reach_ += glm::length(c.axis->origin);
-  double sum = 0.0;
-  for (const glm::ivec3& t : c.mesh.triangles) {
-    const glm::dvec3 a = c.mesh.points[t.x], b = c.mesh.points[t.y], d = c.mesh.points[t.z];
-    areas_.push_back(sum += 0.5 * glm::length(glm::cross(b - a, d - a)));
-  }
 }
 
 glm::dvec3 PointMaker::operator()(std::uint64_t k, Random& random,
@@ -90,12 +98,8 @@ glm::dvec3 PointMaker::operator()(std::uint64_t k, Random& random,
 // Half of them by area; half by triangle, since small triangles stand where the surface bends. Some on
 // vertices and edges.
 PointMaker::OnSurface PointMaker::onSurface(Random& random) const {
-  std::size_t i = below(random, areas_.size());
-  if (below(random, 2)) {
-    const double share = uniform(random, 0.0, areas_.back());
-    i = std::min<std::size_t>(std::upper_bound(areas_.begin(), areas_.end(), share) - areas_.begin(),
-                              areas_.size() - 1);
-  }
+  std::size_t i = below(random, byArea_.size());
+  if (below(random, 2)) i = byArea_.at(uniform(random, 0.0, 1.0));
   const glm::ivec3& t = case_.mesh.triangles[i];
   const glm::dvec3 a = case_.mesh.points[t.x], b = case_.mesh.points[t.y], c = case_.mesh.points[t.z];
   double u = uniform(random, 0.0, 1.0), v = uniform(random, 0.0, 1.0);
@@ -167,14 +171,8 @@ glm::dvec3 PointMaker::onMedialAxis(Random& random,
 }
 
 glm::dvec3 gradient(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& p) {
-  constexpr double kStep = 1e-6;
-  glm::dvec3 slope;
-  for (int i = 0; i < 3; ++i) {
-    glm::dvec3 step(0.0);
-    step[i] = kStep;
-    slope[i] = (f(p + step) - f(p - step)) / (2.0 * kStep);
-  }
-  return slope;
+  const auto [x, y, z] = derivatives(f, p, 1e-6);
+  return {x, y, z};
 }
 
 }  // namespace sdf::accuracy

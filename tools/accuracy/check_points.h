@@ -1,5 +1,6 @@
 // The points at which shapes are held to their references.
 #pragma once
+#include <array>
 #include <functional>
 #include <random>
 #include <vector>
@@ -21,6 +22,21 @@ class Turning {
  private:
   std::optional<Axis> axis_;
   glm::dvec3 u_{}, w_{};  // across the axis
+};
+
+/// The box around a mesh.
+Box boxOf(const TriangleMesh& mesh);
+
+/// Picks triangles with chances that are as their areas.
+class ByArea {
+ public:
+  ByArea(const std::vector<glm::dvec3>& points, const std::vector<glm::ivec3>& triangles);
+  /// The number of one of them, for a share from 0 to 1 of all area.
+  std::size_t at(double share) const;
+  std::size_t size() const { return sums_.size(); }
+
+ private:
+  std::vector<double> sums_;  // of areas, twice each
 };
 
 /// Makes points of every kind that check() promises. Const calls may come from many threads.
@@ -57,7 +73,7 @@ class PointMaker {
 
   const ReferenceCase& case_;
   Turning turning_;
-  std::vector<double> areas_;  // running sums
+  ByArea byArea_;
   Box box_;
   double size_ = 0.0, reach_ = 0.0;
 };
@@ -70,5 +86,16 @@ double uniform(PointMaker::Random& random, double lo, double hi);
 /// The gradient by central differences, for functions and coordinates of about 1: what the step of 1e-6 cuts
 /// off and what is rounded are both about 1e-10.
 glm::dvec3 gradient(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& p);
+/// The derivatives along the axes by central differences over steps this long.
+template <class F>
+auto derivatives(const F& f, const glm::dvec3& p, double step) {
+  std::array<decltype(f(p)), 3> all;
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 by(0.0);
+    by[axis] = step;
+    all[axis] = (f(p + by) - f(p - by)) / (2.0 * step);
+  }
+  return all;
+}
 
 }  // namespace sdf::accuracy

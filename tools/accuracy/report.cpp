@@ -1,24 +1,8 @@
 #include "report.h"
 
-#include <array>
-#include <cstdio>
-
 #include "sdf/shape/catalog.h"
 
 namespace sdf::accuracy {
-
-std::string number(const char* format, double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
-std::string grouped(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
-
 namespace {
 
 constexpr const char* kIntroduction = R"(# How accurate the distances are
@@ -84,7 +68,7 @@ rounding.
 |---|---|---|---|---|---|---|---|
 )";
 
-std::string brief(double value) { return value == 0.0 ? "0" : number("%.1e", value); }
+std::string brief(double value) { return value == 0.0 ? "0" : formatted("%.1e", value); }
 
 /// As the text of a table's cell.
 std::string cell(std::string text) {
@@ -95,11 +79,12 @@ std::string cell(std::string text) {
 void writeRow(std::ostream& out, const Row& row) {
   const CatalogEntry& entry = *findEntry(row.entry);
   const Checked& c = row.found;
-  const auto limit = [](double l) { return l == kInfinity ? "∞" : number("%.6g", l); };
+  const auto limit = [](double l) { return l == kInfinity ? "∞" : formatted("%.6g", l); };
   out << "| `" << row.entry << "` | " << cell(entry.claim) << " | " << (row.exact ? brief(c.maxError) : "–")
-      << " | " << brief(row.chord) << " | " << (row.exact ? number("%.2f", c.maxUlps) : "–") << " | "
-      << number("%.3f", c.tightness) << " | " << limit(row.lipschitz) << " | " << number("%.4f", c.lipschitz)
-      << " | " << number("%.1f", c.floatUlps) << " | " << grouped(c.points);
+      << " | " << brief(row.chord) << " | " << (row.exact ? formatted("%.2f", c.maxUlps) : "–") << " | "
+      << formatted("%.3f", c.tightness) << " | " << limit(row.lipschitz) << " | "
+      << formatted("%.4f", c.lipschitz) << " | " << formatted("%.1f", c.floatUlps) << " | "
+      << grouped(c.points);
   if (c.refuted > 0) out << ", **" << grouped(c.refuted) << " refuted**";
   out << " |\n";
 }
@@ -116,14 +101,14 @@ void writeTable(std::ostream& out, const char* what, std::span<const Row> rows) 
 }
 
 void writeOffset(std::ostream& out, const OffsetRow& row) {
-  const auto error = [&](double part) { return number("%.3f", row.found.share(part)); };
+  const auto error = [&](double part) { return formatted("%.3f", row.found.share(part)); };
   out << "| " << row.deformation << " | " << row.name << " | " << error(0.5) << " | " << error(0.99) << " | "
       << error(1.0) << " | " << row.found.strays << " | " << grouped(row.found.errors.size()) << " |\n";
 }
 
 void writeFailure(std::ostream& out, const FailureRow& row) {
   const FailureCase& c = row.failure;
-  const auto figure = [](double v) { return v == kInfinity ? "∞" : number("%.3g", v); };
+  const auto figure = [](double v) { return v == kInfinity ? "∞" : formatted("%.3g", v); };
   out << "| " << cell(c.name) << " | " << cell(c.figure) << " | " << cell(c.naive.what) << " | "
       << figure(row.figures.naive) << " | " << cell(c.ours.what) << " | " << figure(row.figures.ours) << " | "
       << figure(c.ours.limit) << " | " << cell(c.reason);

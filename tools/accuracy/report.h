@@ -6,6 +6,7 @@
 
 #include "accuracy/meshes/mesh_cases.h"
 #include "accuracy/operators/offset_cases.h"
+#include "command_line/text.h"
 #include "failures/failure_case.h"
 #include "rows.h"
 
@@ -17,6 +18,8 @@ struct FailureRow {
   Figures figures;
 };
 
+using command_line::formatted, command_line::grouped;
+
 /// The whole page. Deterministic but for the float readings, which are those of the machine's instruction
 /// set.
 void writeReport(std::ostream& out, std::span<const Row> primitives, std::span<const Row> operators,
@@ -25,10 +28,5 @@ void writeReport(std::ostream& out, std::span<const Row> primitives, std::span<c
 
 /// Its section on meshes.
 void writeMeshes(std::ostream& out, std::span<const MeshRow> meshes);
-
-/// A number as printf's format says.
-std::string number(const char* format, double value);
-/// A count with commas between thousands.
-std::string grouped(std::uint64_t count);
 
 }  // namespace sdf::accuracy

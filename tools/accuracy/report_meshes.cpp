@@ -34,13 +34,13 @@ What these distances cost, by this mesher and by others, is charted ([charts.md]
 
 void writeRow(std::ostream& out, const MeshRow& row) {
   const auto distances = [](double rms, double max) {
-    return number("%.2e", rms) + " | " + number("%.2e", max);
+    return formatted("%.2e", rms) + " | " + formatted("%.2e", max);
   };
   const double proven = row.stats.provenDistance;
   out << "| " << row.shape << " | " << row.asked << " | " << grouped(row.stats.triangles) << " | "
       << distances(row.stats.rmsDistance, row.stats.maxDistance) << " | "
       << distances(row.toSurface.rms, row.toSurface.max) << " | " << distances(row.toMesh.rms, row.toMesh.max)
-      << " | " << (proven > 0.0 ? number("%.2e", proven) : "–");
+      << " | " << (proven > 0.0 ? formatted("%.2e", proven) : "–");
   if (row.refuted()) out << ", **refuted**";
   out << " |\n";
 }

@@ -5,7 +5,6 @@
 
 #include <fstream>
 #include <limits>
-#include <string>
 
 namespace sdf::exporter {
 
@@ -13,13 +12,13 @@ double physicalMemory() {
   return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
-double peakMemory() {
+std::optional<double> memoryFigure(const std::string& name) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word; status.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
     double kibibytes = 0.0;
-    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024.0;
+    if (word == name && status >> kibibytes) return kibibytes * 1024.0;
   }
-  return 0.0;
+  return std::nullopt;
 }
 
 void releaseFreedMemory() {

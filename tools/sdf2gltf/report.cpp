@@ -1,11 +1,10 @@
 #include "report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "command_line/text.h"
 #include "sdf/base/version.h"
 
 namespace sdf::exporter {
@@ -18,19 +17,7 @@ constexpr double kMiB = 1024.0 * 1024.0;
 /// Of linear light: some steps of a byte of sRGB in the dark, one in the middle.
 constexpr float kSeenError = 0.01f;
 
-std::string grouped(std::uint64_t n) {
-  std::string digits = std::to_string(n);
-  for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3) {
-    digits.insert(static_cast<std::size_t>(i), ",");
-  }
-  return digits;
-}
-
-std::string formatted(const char* format, double value) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
+using command_line::formatted, command_line::grouped;
 
 /// A bound is rounded up.
 std::string bound(double value) { return formatted("%.2e", 1.005 * value); }

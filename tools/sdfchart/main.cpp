@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -14,6 +13,7 @@
 #include "charts.h"
 
 #include "options.h"
+#include "sdf/base/fnv.h"
 #include "sdf/base/version.h"
 #include "sdfchart/measure/measurements.h"
 
@@ -68,15 +68,13 @@ std::vector<Batch> batchesOf(const Options& options, const std::vector<Subject>&
   return all;
 }
 
-// Tells a scene file's text from what it was before (FNV-1a).
+// Tells a scene file's text from what it was before.
 std::string mark(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::uint32_t hash = 2166136261u;
+  auto hash = kFnvBegin<std::uint32_t>;
   for (std::istreambuf_iterator<char> c(in), end; c != end; ++c)
-    hash = (hash ^ static_cast<unsigned char>(*c)) * 16777619u;
-  char text[16];
-  std::snprintf(text, sizeof text, " (%08x)", static_cast<unsigned>(hash));
-  return text;
+    hash = fnv(hash, std::uint32_t{static_cast<unsigned char>(*c)});
+  return command_line::formatted(" (%08x)", hash);
 }
 
 // What a run must have in common with the one that it goes on with.

@@ -1,9 +1,10 @@
 #include "results.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <sstream>
+
+#include "command_line/text.h"
 
 namespace sdf::chart {
 namespace {
@@ -19,12 +20,7 @@ std::string quoted(std::string text) {
   return cell + '"';
 }
 
-std::string shown(double number) {
-  if (std::isnan(number)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", number);
-  return text;
-}
+std::string shown(double number) { return std::isnan(number) ? "" : command_line::formatted("%.9g", number); }
 
 Error unwritable(const fs::path& file) {
   return {ErrorKind::Files, "cannot write '" + file.string() + "': " + std::strerror(errno)};

@@ -69,7 +69,7 @@ std::string leaveNothing(const Plan& plan) {
 // A term for both at p, the step and the distance: of one function where they differ, so that what they have
 // in common is computed once.
 std::string bothOf(const Marched& m, const std::string& distance, const std::string& both) {
-  return isApart(m) ? both + "(p, vec3(0.0)).xy" : "vec2(" + distance + "(p, vec3(0.0)))";
+  return hasOwnStep(m) ? both + "(p, vec3(0.0)).xy" : "vec2(" + distance + "(p, vec3(0.0)))";
 }
 
 /// Which shaders of a pass there are, the share of one of the whole that one of its readings counts as, and
@@ -152,8 +152,8 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
       {"BALLS", std::to_string(4 * obstacles.balls.size())},
       {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "1e30")},
       {"DISTANCE_UP_TO(p, enough)", obstacles.shared ? "sdfBoth(p, enough).y" : "sdfDistance(p, vec3(0.0))"},
-      {"IS_FREE", isApart(obstacles.whole) ? "false" : "f >= (1.0 - 1e-5) * h"},
-      {"OVER_SURFACE", isApart(obstacles.whole) ? "min(f, h)" : "f"},
+      {"IS_FREE", hasOwnStep(obstacles.whole) ? "false" : "f >= (1.0 - 1e-5) * h"},
+      {"OVER_SURFACE", hasOwnStep(obstacles.whole) ? "min(f, h)" : "f"},
       {"PLANES", std::to_string(2 * obstacles.planes.size())},
       {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
       {"OPERAND", !obstacles.operand                      ? "0.0"

@@ -32,11 +32,11 @@ Marched besideOf(const Plan& plan) { return leastOf(othersAndPlanes(plan)); }
 
 // Whether some of what the loops over the kinds read has a step that is not its distance.
 bool areApart(const Plan& plan) {
-  return std::ranges::any_of(plan.kinds->many, isApart<OperandKind>) ||
-         (!othersAndPlanes(plan).empty() && isApart(besideOf(plan)));
+  return std::ranges::any_of(plan.kinds->many, hasOwnStep<OperandKind>) ||
+         (!othersAndPlanes(plan).empty() && hasOwnStep(besideOf(plan)));
 }
 
-std::vector<Expr> outputsOf(const Marched& m) { return isApart(m) ? partsOf(m) : std::vector{m.distance}; }
+std::vector<Expr> outputsOf(const Marched& m) { return hasOwnStep(m) ? partsOf(m) : std::vector{m.distance}; }
 
 /// Writes the loops over the kinds' groups. What is least is a float where the distance of all is their step,
 /// else a vec2 of the step and the distance.
@@ -138,7 +138,7 @@ std::string Loops::loop(std::size_t i) const {
   const auto& [count, first, length] = rows_.rangeOf(i);
   const std::string all = std::to_string(first) + ", " + std::to_string(first + length * count);
   const std::string next = "sdfNext" + name + "(p, ", rest = ", span" + name + ".y, least)";
-  const std::string term = read(isApart(kind(i)), "sdfKind" + name), d = apart_ ? "d.y" : "d";
+  const std::string term = read(hasOwnStep(kind(i)), "sdfKind" + name), d = apart_ ? "d.y" : "d";
   return "  ivec2 span" + name + " = ivec2(" + (plan_.cells ? list : all) + ");\n  for (int at = " + next +
          "span" + name + ".x" + rest + "; at < span" + name + ".y; at = " + next + "at + " + stride(i) +
          rest + ") {\n    sdfTake" + name + "(" + rowAt(i) + ");\n    " + type_ + " d = " + term +
@@ -204,7 +204,7 @@ std::string sharing(const Plan& plan, const RowWriter& rows) {
   const auto from = [&](bool any, bool isVector, const std::string& function) {
     return any ? write.read(isVector, function) : write.type() + "(1e30)";
   };
-  const std::string beside = from(hasBeside, hasBeside && isApart(besideOf(plan)), "sdfBeside");
+  const std::string beside = from(hasBeside, hasBeside && hasOwnStep(besideOf(plan)), "sdfBeside");
   const auto both = [&](const std::string& name, const std::string& start) {
     return "vec2 " + name + "(vec3 p, float enough) {\n  vec3 n = vec3(0.0);\n  float number = 0.0;\n" +
            "  ivec2 place;\n  return vec2(sdfLeast(p, " + start + ", number, place, enough));\n}\n";
@@ -216,7 +216,7 @@ std::string sharing(const Plan& plan, const RowWriter& rows) {
       "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p, 1e30).y; }\n";
   if (hasPlanes)
     text += both("sdfBothOfRest",
-                 from(!others.empty(), !others.empty() && isApart(leastOf(others)), "sdfOthers"));
+                 from(!others.empty(), !others.empty() && hasOwnStep(leastOf(others)), "sdfOthers"));
   if (plan.bounces > 0 || !plan.grouped) text += nearest(plan, hasBeside, beside);
   return text;
 }

@@ -12,7 +12,7 @@ namespace sdf::viewer {
 
 /// Returns whether what is read has a step that is not its distance.
 template <typename Read>
-bool isApart(const Read& m) {
+bool hasOwnStep(const Read& m) {
   return m.step != m.distance;
 }
 

@@ -1,7 +1,8 @@
-// The sRGB curve in bytes (IEC 61966-2-1), for what readers take as it would be shown.
+// The sRGB curve (IEC 61966-2-1), both ways.
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 
 namespace sdf {
@@ -14,8 +15,9 @@ inline std::uint8_t srgb(float linear) {
 }
 
 /// The linear light of sRGB, where 1 is white.
-inline float linearOf(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+template <std::floating_point T>
+T linearOf(T srgb) {
+  return srgb <= T(0.04045) ? srgb / T(12.92) : std::pow((srgb + T(0.055)) / T(1.055), T(2.4));
 }
 
 /// The linear light of an sRGB byte.

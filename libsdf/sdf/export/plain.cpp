@@ -26,9 +26,6 @@ class Soup : public om::IO::ExporterT<om::TriMesh_ArrayKernelT<>> {
     for (const ExportPart& part : parts) {
       const Mesh& mesh = part.mesh;
       const auto first = static_cast<std::uint32_t>(vertices_.n_vertices());
-      const auto welded = [&](std::uint32_t i) {
-        return first + (i < mesh.welded ? i : mesh.copyOf[i - mesh.welded]);
-      };
       for (std::uint32_t i = 0; i < mesh.welded; ++i) {
         const glm::vec3 &p = mesh.positions[i], &n = mesh.normals[i], &c = mesh.colors[i];
         const om::VertexHandle v = vertices_.add_vertex({p.x, p.y, p.z});
@@ -36,7 +33,7 @@ class Soup : public om::IO::ExporterT<om::TriMesh_ArrayKernelT<>> {
         vertices_.set_color(v, {srgb(c.x), srgb(c.y), srgb(c.z)});
       }
       for (const glm::uvec3& t : mesh.triangles)
-        triangles_.push_back({welded(t.x), welded(t.y), welded(t.z)});
+        triangles_.push_back(first + glm::uvec3(mesh.pointOf(t.x), mesh.pointOf(t.y), mesh.pointOf(t.z)));
     }
   }
 

@@ -113,7 +113,7 @@ Expr numberAmong(const std::string& name, std::span<const Expr> numbers) {
   return Expr::parameter({name, all.lo, all.lo, all.hi});
 }
 
-std::vector<Alike> sortedByLikeness(std::span<const std::vector<Expr>> lists, const std::string& prefix) {
+std::vector<Alike> groupByStructure(std::span<const std::vector<Expr>> lists, const std::string& prefix) {
   Forms forms;
   std::vector<Nodes> roots;
   std::map<std::vector<std::size_t>, std::size_t> sorts;

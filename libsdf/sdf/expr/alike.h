@@ -24,7 +24,7 @@ Expr numberAmong(const std::string& name, std::span<const Expr> numbers);
 /// Groups lists of expressions that differ only in numbers, in the order of each group's first. Parameters
 /// are named `prefix` and a count, over all groups. Claims are dropped. Cost: linear in the size of the
 /// graphs.
-std::vector<Alike> sortedByLikeness(std::span<const std::vector<Expr>> lists, const std::string& prefix);
+std::vector<Alike> groupByStructure(std::span<const std::vector<Expr>> lists, const std::string& prefix);
 
 /// Operations that a reading of the expressions takes, each once; numbers cost none.
 std::size_t operationsOf(std::span<const Expr> expressions);

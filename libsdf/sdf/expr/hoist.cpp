@@ -81,7 +81,7 @@ Expr hoisted(const Expr& e) {
   return rewrite(withoutClaims({&e, 1}), hoist).front();
 }
 
-Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers) {
+Expr indexOfMin(std::span<const Expr> values, std::span<const Expr> numbers) {
   Expr least = hoisted(values.front()), number = numbers.front();
   for (std::size_t i = 1; i < values.size(); ++i) {
     const Expr value = hoisted(values[i]);

@@ -19,6 +19,6 @@ Expr hoisted(const Expr& e);
 /// compared instead. If these are equal, the last of them counts; if only the function rounds to one value,
 /// any of them may. There are as many numbers as values, at least one. Cost: linear in the size of the
 /// graphs.
-Expr numberOfLeast(std::span<const Expr> values, std::span<const Expr> numbers);
+Expr indexOfMin(std::span<const Expr> values, std::span<const Expr> numbers);
 
 }  // namespace sdf

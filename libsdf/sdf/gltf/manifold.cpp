@@ -11,7 +11,7 @@ Merges mergesOf(const Mesh& mesh, const std::vector<std::uint32_t>& vertices,
   std::vector<std::uint32_t> sameAs(vertices.size());
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     const std::uint32_t v = vertices[i];
-    std::uint32_t& first = firstAt[v < mesh.welded ? v : mesh.copyOf[v - mesh.welded]];
+    std::uint32_t& first = firstAt[mesh.pointOf(v)];
     if (first == kNone) first = i;
     sameAs[i] = first;
   }

@@ -40,7 +40,12 @@ bool marchesBalls(MarchMethod m) { return m != MarchMethod::Segment && m != Marc
 // The methods that step by unbounding spheres, as march.h states them.
 class BallWalker {
  public:
-  enum class Aim : std::uint8_t { Free, Behind, Onto };  // where a step ends, of the surface
+  // Where a step ends, of the surface.
+  enum class StepEnds : std::uint8_t {
+    Before,  // or nothing is known of it
+    Behind,  // to look whether there is one
+    On       // where a look behind has placed it
+  };
   struct State {
     double at;         // t + step: where g is read next
     double t, radius;  // the last point taken, and g there
@@ -48,7 +53,7 @@ class BallWalker {
     double slope;      // of g along the ray, as the method estimates it
     double fall;       // of g along the step before, a unit
     bool relaxed;      // OverRelaxed: no failure yet
-    Aim aim;
+    StepEnds ends;
     int close;  // readings within the threshold, those that fall or stay kFalling times
     std::uint32_t steps;
     std::size_t ray;
@@ -59,18 +64,18 @@ class BallWalker {
 
   State start(std::size_t ray) const {
     const double t = rays_.tMin[ray];
-    return {t, t, 0.0, 0.0, -1.0, 1.0, true, Aim::Free, 0, 0, ray};
+    return {t, t, 0.0, 0.0, -1.0, 1.0, true, StepEnds::Before, 0, 0, ray};
   }
 
   bool advance(State& s, const Sample& sample) {
     const double g = sample.step;
     ++s.steps;
     if (std::isnan(sample.distance)) return finish(s, s.at, RayStatus::Undefined);
-    const bool inside = s.aim == Aim::Behind && g <= 0.0;
+    const bool inside = s.ends == StepEnds::Behind && g <= 0.0;
     if (inside && s.step <= kLongest * threshold(options_, s.t)) return finishBetween(s, g);
     if (inside || (s.step > s.radius && s.step > s.radius + g && !passesFilm(s, g))) {
-      s.aim = s.aim == Aim::Behind ? Aim::Onto : Aim::Free;
-      s.step = s.aim == Aim::Onto ? s.radius / s.fall : s.radius;
+      s.ends = s.ends == StepEnds::Behind ? StepEnds::On : StepEnds::Before;
+      s.step = s.ends == StepEnds::On ? s.radius / s.fall : s.radius;
       s.slope = -1.0;
       s.relaxed = false;
     } else {
@@ -82,10 +87,10 @@ class BallWalker {
       if (isHit(s, sample.toHit(), rise)) return finish(s, s.t, RayStatus::Hit);
       if (g >= left) return finish(s, rays_.tMax[s.ray], RayStatus::Miss);
       const bool near = sample.toHit() <= kCandidate * threshold(options_, s.t);
-      s.aim = options_.lookBehind && near && rise < 0.0 ? Aim::Behind : Aim::Free;
+      s.ends = options_.lookBehind && near && rise < 0.0 ? StepEnds::Behind : StepEnds::Before;
       s.fall = std::max(-rise, kLeastFall);
-      s.step = s.aim == Aim::Behind ? kBehind * std::max(g, options_.epsilon) / s.fall
-                                    : std::min(relaxedStep(s), left);
+      s.step = s.ends == StepEnds::Behind ? kBehind * std::max(g, options_.epsilon) / s.fall
+                                          : std::min(relaxedStep(s), left);
     }
     s.at = s.t + s.step;
     return s.steps < static_cast<std::uint32_t>(options_.maxSteps) || finish(s, s.t, RayStatus::Budget);
@@ -102,7 +107,8 @@ class BallWalker {
 
   // Of a film nothing is known to lie between the readings on both sides of it.
   bool passesFilm(const State& s, double g) const {
-    return (s.aim == Aim::Behind && s.radius <= options_.epsilon) || (s.aim == Aim::Onto && g < s.radius);
+    return (s.ends == StepEnds::Behind && s.radius <= options_.epsilon) ||
+           (s.ends == StepEnds::On && g < s.radius);
   }
 
   // Between t and a reading in the solid, no farther than the slopes before and after t place the surface,

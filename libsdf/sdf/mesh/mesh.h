@@ -33,6 +33,11 @@ struct Mesh {
   std::vector<MeshMaterial> materials;
   std::uint32_t welded = 0;
   std::vector<std::uint32_t> copyOf;
+
+  /// The distinct point that a vertex is at, by its first vertex.
+  std::uint32_t pointOf(std::uint32_t vertex) const {
+    return vertex < welded ? vertex : copyOf[vertex - welded];
+  }
 };
 
 /// What was measured of one mesh.

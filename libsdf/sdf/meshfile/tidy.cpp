@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "sdf/meshfile/read_formats.h"
+#include "sdf/triangles/compaction.h"
 
 namespace sdf {
 namespace {
@@ -52,31 +53,10 @@ void dropFlatTriangles(ReadMesh& read) {
   }
 }
 
-template <class T>
-void keepOnly(const std::vector<std::uint32_t>& kept, std::vector<T>& values) {
-  if (values.empty()) return;
-  for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-  values.resize(kept.size());
-}
-
-void dropUnusedVertices(TriangleMesh& mesh) {
-  constexpr std::uint32_t kUnused = ~0u;
-  std::vector<std::uint32_t> places(mesh.positions.size(), kUnused);
-  for (const glm::uvec3& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) places[t[k]] = 0;
-  std::vector<std::uint32_t> kept;
-  kept.reserve(places.size());
-  for (std::uint32_t v = 0; v < places.size(); ++v) {
-    if (places[v] == kUnused) continue;
-    places[v] = static_cast<std::uint32_t>(kept.size());
-    kept.push_back(v);
-  }
-  if (kept.size() == places.size()) return;
-  keepOnly(kept, mesh.positions);
-  keepOnly(kept, mesh.normals);
-  keepOnly(kept, mesh.colors);
-  keepOnly(kept, mesh.textureAt);
-  for (glm::uvec3& t : mesh.triangles) t = {places[t.x], places[t.y], places[t.z]};
+void dropUnused(TriangleMesh& mesh) {
+  const Compaction left = dropUnusedVertices(mesh.triangles, mesh.positions.size());
+  left.apply(mesh.positions), left.apply(mesh.normals);
+  left.apply(mesh.colors), left.apply(mesh.textureAt);
 }
 
 /// Unit; 0 where there is no direction.
@@ -137,7 +117,7 @@ Status tidy(const std::filesystem::path& file, ReadMesh& read) {
   if (Status sound = checkPositions(file, read.mesh.positions); !sound) return sound;
   dropFlatTriangles(read);
   if (read.mesh.triangles.empty()) return unreadable(file, "none of its triangles has an area");
-  dropUnusedVertices(read.mesh);
+  dropUnused(read.mesh);
   fillNormals(read.mesh);
   clampLook(read.mesh);
   return okStatus();

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "sdf/base/fnv.h"
 #include "sdf/eval/batch.h"
 
 namespace sdf {
@@ -97,8 +98,8 @@ struct Reading {
 
 struct Hash {
   std::size_t operator()(const std::vector<int>& list) const {
-    std::size_t hash = 14695981039346656037u;  // Fowler, Noll, Vo 1991
-    for (const int i : list) hash = (hash ^ static_cast<std::size_t>(i)) * 1099511628211u;
+    std::size_t hash = kFnvBegin<std::size_t>;
+    for (const int i : list) hash = fnv(hash, static_cast<std::size_t>(i));
     return hash;
   }
 };

@@ -181,7 +181,7 @@ OperandKind kindOf(const Alike& alike, std::span<const NumberedOperand> operands
   }
   kind.distance = distances.front();
   for (std::size_t k = 1; k < distances.size(); ++k) kind.distance = min(kind.distance, distances[k]);
-  kind.nearest = numberOfLeast(distances, numbers);
+  kind.nearest = indexOfMin(distances, numbers);
   addStep(kind);
   return kind;
 }
@@ -237,7 +237,7 @@ Expr numberOfNearest(std::span<const NumberedOperand> operands) {
     distances.push_back(operand.distance);
     numbers.emplace_back(operand.number);
   }
-  return numberOfLeast(distances, numbers);
+  return indexOfMin(distances, numbers);
 }
 
 OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare) {
@@ -251,7 +251,7 @@ OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare)
     lists.emplace_back(operand.surface.begin(), operand.surface.end());
     own.push_back(operand.surface);
   }
-  const std::vector<Alike> sorts = sortedByLikeness(lists, kOwn + std::string("surface "));
+  const std::vector<Alike> sorts = groupByStructure(lists, kOwn + std::string("surface "));
   std::size_t saved = 0;
   for (const Alike& sort : sorts) saved += savedBy(sort) + choicesAmong(sort);
   if (!mayShare || saved < kWorthSharing) {
@@ -284,7 +284,7 @@ Kinds kindsOf(std::span<const NumberedOperand> operands, Grouping grouping) {
   for (const NumberedOperand& operand : operands) distances.push_back({operand.distance});
   Kinds kinds;
   Names names("group ");
-  for (const Alike& alike : sortedByLikeness(distances, kOwn + std::string("operand "))) {
+  for (const Alike& alike : groupByStructure(distances, kOwn + std::string("operand "))) {
     if (savedBy(alike) >= kWorthSharing && alike.parameters.size() < kMostNumbers)
       kinds.many.push_back(kindOf(alike, operands, grouping, names));
     else

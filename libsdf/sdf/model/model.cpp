@@ -62,40 +62,41 @@ ModelTapes Model::at(const Values& values) const {
   if (compiled_->blend) {
     join = compiled_->blend->at(values);
     const double k = join->constant(join->outputs().back().index());
-    result.sink_ = k * deepestBlend(shape().outer->blend.kind, tapes.size());
-    result.width_ = k + result.sink_;
+    result.blendDepth_ = k * deepestBlend(shape().outer->blend.kind, tapes.size());
+    result.blendWidth_ = k + result.blendDepth_;
   }
   result.tapes_.emplace(tapes, join);
   result.whole_ = result.tapes_->link(result.all_);
   for (const Shape& operand : operands()) {
     const Box bounds = covered ? operand.bounds : Box::everything();
-    result.reaches_.push_back({bounds, growthOf(operand.claim)});
+    result.bounds_.push_back({bounds, growthOf(operand.claim)});
   }
   return result;
 }
 
-// Where the model's distance is at most `most`, some operand's is at most most + sink. Among the distances of
-// n operands there is then a gap of a width between those and most + sink + (n + 1) widths: what lies beyond
-// it has no part in what is blended before it, and whatever was blended before is lost in the first operand
-// that is nearer than the gap (see booleans.h: a blend is its lesser distance where the other is k larger).
-std::vector<std::uint32_t> ModelTapes::near(const Box& box, double most,
-                                            std::span<const std::uint32_t> among) const {
+// Where the model's distance is at most `most`, some operand's is at most most + depth. Among the distances
+// of n operands there is then a gap of a width between those and most + depth + (n + 1) widths: what lies
+// beyond it has no part in what is blended before it, and whatever was blended before is lost in the first
+// operand that is nearer than the gap (see booleans.h: a blend is its lesser distance where the other is k
+// larger).
+std::vector<std::uint32_t> ModelTapes::relevantOperands(const Box& box, double most,
+                                                        std::span<const std::uint32_t> among) const {
   if (!tapes_) return {among.begin(), among.end()};
   std::vector<double> least(among.size());
   for (std::size_t i = 0; i < among.size(); ++i) {
-    const Reach& reach = reaches_[among[i]];
-    const double gap = gapBetween(box, reach.bounds);
-    least[i] = gap > 0.0 ? gap / reach.growth : 0.0;
+    const auto& [bounds, growth] = bounds_[among[i]];
+    const double gap = gapBetween(box, bounds);
+    least[i] = gap > 0.0 ? gap / growth : 0.0;
   }
   std::vector<std::uint32_t> result;
   std::size_t before;
   do {
     before = result.size();
-    const double limit = most + sink_ + width_ * static_cast<double>(before + 1);
+    const double limit = most + blendDepth_ + blendWidth_ * static_cast<double>(before + 1);
     result.clear();
     for (std::size_t i = 0; i < among.size(); ++i)
       if (least[i] <= limit) result.push_back(among[i]);
-  } while (width_ != 0.0 && result.size() != before);
+  } while (blendWidth_ != 0.0 && result.size() != before);
   return result;
 }
 

@@ -39,22 +39,23 @@ class ModelTapes {
   /// `most` (>= 0): there the distance is that of these operands alone. An operand is left out if the box is
   /// so far from its bounds that its distance is proven to be larger. In a blend it must be larger by as many
   /// widths as there may be operands in between. Cost: linear in the length of `among`.
-  std::vector<std::uint32_t> near(const Box& box, double most, std::span<const std::uint32_t> among) const;
+  std::vector<std::uint32_t> relevantOperands(const Box& box, double most,
+                                              std::span<const std::uint32_t> among) const;
   /// The tape of these operands, as UnionTapes::link.
   TapePtr link(std::span<const std::uint32_t> operands) const;
 
  private:
   friend class Model;
-  struct Reach {
+  struct OperandBounds {
     Box bounds;
     double growth;
   };
   ModelTapes() = default;
 
-  std::optional<UnionTapes> tapes_;  // of a union
-  std::vector<Reach> reaches_;       // of its operands
-  double sink_ = 0.0;                // the blend lies below the least distance by this at most
-  double width_ = 0.0;               // a distance larger than another by this does not change their blend
+  std::optional<UnionTapes> tapes_;    // of a union
+  std::vector<OperandBounds> bounds_;  // of its operands
+  double blendDepth_ = 0.0;            // the blend lies below the least distance by this at most
+  double blendWidth_ = 0.0;            // a distance larger than another by this does not change their blend
   double slope_ = 0.0;
   TapePtr whole_;
   std::vector<std::uint32_t> all_;

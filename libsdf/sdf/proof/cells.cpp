@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+
+#include "sdf/base/disjoint_sets.h"
 
 namespace sdf {
 namespace {
@@ -13,23 +14,6 @@ constexpr int kDeepest = 9;
 constexpr double kFinest = 1.0 / 32;  // of the voxel size: cells are not divided further
 constexpr double kHopeless = 0.25;    // where no prism is proven, so that none helps
 constexpr std::uint64_t kMostCells = 150'000;
-
-// Groups of what touches.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a), b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // The first cell that was seen at each corner: a hash table with open addressing.
 class Corners {
@@ -148,7 +132,7 @@ void CellProver::divide(const Cell& cell, bool isHopeless, std::vector<Cell>& pa
 }
 
 std::vector<CellProver::Cell> CellProver::outsideOf(const std::vector<Cell>& inside) const {
-  Groups groups(inside.size());
+  DisjointSets groups(inside.size());  // of what touches
   Corners corners(4 * inside.size());
   for (std::uint32_t i = 0; i < inside.size(); ++i)
     for (int k = 0; k < 8; ++k) {

@@ -138,7 +138,7 @@ class Certifier {
     part.tape = region.tape;
     part.operands = region.operands;
     if (part.operands.size() > 1 && model_.slope() < kInfinity) {
-      part.operands = model_.near(reach, region.box.longestSide(), region.operands);
+      part.operands = model_.relevantOperands(reach, region.box.longestSide(), region.operands);
       if (part.operands.empty()) part.operands = {region.operands.front()};
       if (part.operands.size() < region.operands.size())
         part.tape = model_.link(part.operands)->firstOutputOnly();

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "sdf/triangles/incidence.h"
+
 namespace sdf {
 namespace {
 
@@ -33,23 +35,6 @@ glm::dvec3 coneAxis(const glm::dvec3* first, const glm::dvec3* last) {
   return axis;
 }
 
-// The triangles around each vertex.
-struct Fans {
-  std::vector<std::uint32_t> first, triangles;
-  std::span<const std::uint32_t> around(std::size_t v) const {
-    return {triangles.data() + first[v], triangles.data() + first[v + 1]};
-  }
-  Fans(const std::vector<glm::uvec3>& all, std::size_t vertices)
-      : first(vertices + 1), triangles(3 * all.size()) {
-    for (const glm::uvec3& t : all)
-      for (int k = 0; k < 3; ++k) ++first[t[k] + 1];
-    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-    std::vector<std::uint32_t> at(first.begin(), first.end() - 1);
-    for (std::uint32_t t = 0; t < all.size(); ++t)
-      for (int k = 0; k < 3; ++k) triangles[at[all[t][k]]++] = t;
-  }
-};
-
 Box around(const Prism& p, bool flat) {
   Box box;
   for (int k = 0; k < 3; ++k) {
@@ -70,28 +55,27 @@ double leastCosine(const glm::dvec3& axis, std::span<const std::uint32_t> fan,
 
 // In the middle of the normals around each vertex, and turned a little towards those of its neighbours:
 // beside a crease, so that the field of the face beyond it rises along them, too.
-std::vector<glm::dvec3> offsetDirections(const std::vector<glm::uvec3>& triangles, const Fans& fans,
+std::vector<glm::dvec3> offsetDirections(const std::vector<glm::uvec3>& triangles, const Incidence& fans,
                                          const std::vector<glm::dvec3>& normals,
                                          std::vector<double>& steepest) {
-  const std::size_t count = fans.first.size() - 1;
+  const std::size_t count = steepest.size();
   std::vector<glm::dvec3> axes(count), own;
-  steepest.resize(count);
   for (std::size_t v = 0; v < count; ++v) {
     own.clear();
-    for (const std::uint32_t t : fans.around(v))
+    for (const std::uint32_t t : fans.of(v))
       if (normals[t] != glm::dvec3(0.0)) own.push_back(normals[t]);
     axes[v] = coneAxis(own.data(), own.data() + own.size());
-    steepest[v] = leastCosine(axes[v], fans.around(v), normals);
+    steepest[v] = leastCosine(axes[v], fans.of(v), normals);
   }
   std::vector<glm::dvec3> turned = axes;
   for (std::size_t v = 0; v < count; ++v) {
     if (steepest[v] < kFlat) continue;
     glm::dvec3 sum(0.0);
-    for (const std::uint32_t t : fans.around(v))
+    for (const std::uint32_t t : fans.of(v))
       for (int k = 0; k < 3; ++k) sum += axes[triangles[t][k]];
     if (!(glm::length(sum) > 0.0)) continue;
     const glm::dvec3 axis = glm::normalize(sum);
-    const double least = leastCosine(axis, fans.around(v), normals);
+    const double least = leastCosine(axis, fans.of(v), normals);
     if (least < kTurned) continue;
     turned[v] = axis;
     steepest[v] = least;
@@ -105,18 +89,18 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 
 Shell::Shell(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles, double least)
     : positions_(positions.begin(), positions.end()), triangles_(triangles), offsets_(positions.size()) {
-  const Fans fans(triangles, positions.size());
+  const Incidence fans(triangles, positions.size());
   std::vector<glm::dvec3> normals(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const glm::uvec3& v = triangles[t];
     const glm::dvec3 n = glm::cross(positions_[v.y] - positions_[v.x], positions_[v.z] - positions_[v.x]);
     if (const double area = glm::length(n); area > 0.0) normals[t] = n / area;
   }
-  std::vector<double> steepest;
+  std::vector<double> steepest(positions.size());
   const std::vector<glm::dvec3> axes = offsetDirections(triangles, fans, normals, steepest);
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     double shortest = kInfinity;
-    for (const std::uint32_t t : fans.around(v))
+    for (const std::uint32_t t : fans.of(v))
       for (int k = 0; k < 3; ++k)
         if (triangles[t][k] == v)
           shortest = std::min(shortest, glm::length(positions_[triangles[t][(k + 1) % 3]] - positions_[v]));

@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "sdf/base/srgb.h"
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/shape/catalog.h"
@@ -351,9 +352,6 @@ std::string alongEachAxis(lua_State* L, int index, int size) {
                (isNumeric(L, index) ? "; write " + alongEachAxis(L, index, size) : ""));
 }
 
-// IEC 61966-2-1.
-double linearFromSrgb(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
-
 Vec3E colorFromText(lua_State* L, const std::string& text, const std::string& what) {
   const bool valid = (text.size() == 4 || text.size() == 7) && text[0] == '#' &&
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
@@ -362,7 +360,7 @@ Vec3E colorFromText(lua_State* L, const std::string& text, const std::string& wh
   std::array<Expr, 3> c;
   for (std::size_t i = 0; i < 3; ++i) {
     const int v = std::stoi(text.substr(1 + i * digits, digits), nullptr, 16);
-    c[i] = linearFromSrgb((digits == 1 ? v * 17 : v) / 255.0);
+    c[i] = linearOf((digits == 1 ? v * 17 : v) / 255.0);
   }
   return {c[0], c[1], c[2]};
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sdf/base/file.h"
+#include "sdf/base/fnv.h"
 
 namespace sdf {
 namespace {
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kFormat = "libsdf bricks 3\n";
 constexpr const char* kExtension = ".bricks";
 
-/// FNV-1a, by Fowler, Noll and Vo (1991), of words instead of bytes.
+/// FNV-1a of words instead of bytes.
 class Hash {
  public:
   void add(const void* data, std::size_t bytes) {
@@ -40,10 +41,10 @@ class Hash {
 
  private:
   void add(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x100000001b3u;
+    value_ = fnv(value_, word);
     value_ ^= value_ >> 32;  // bits of a word's upper half would never come down
   }
-  std::uint64_t value_ = 0xcbf29ce484222325u;
+  std::uint64_t value_ = kFnvBegin<std::uint64_t>;
 };
 
 // Numbers go into a file as they lie in memory.

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "sdf/base/flat_map.h"
+#include "sdf/triangles/incidence.h"
 #include "sdf/triangles/triangle_pairs.h"
 
 namespace sdf {
@@ -20,9 +21,6 @@ using Triangles = std::vector<glm::uvec3>;
 constexpr float kJoin = 1e-5f;  // of the mesh's size: how far apart points of borders may be that are one
 
 std::uint64_t directed(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
-std::uint64_t undirected(std::uint32_t a, std::uint32_t b) {
-  return directed(std::min(a, b), std::max(a, b));
-}
 
 struct SamePlace {
   std::size_t operator()(const glm::vec3& p) const {
@@ -33,6 +31,20 @@ struct SamePlace {
     return h ^ h >> 29;
   }
 };
+
+/// Gives corners new numbers, and drops the triangles that lose a corner or have no area then.
+void renumber(const std::vector<std::uint32_t>& becomes, ClosedTriangles& out) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < out.triangles.size(); ++i) {
+    const glm::uvec3& old = out.triangles[i];
+    const glm::uvec3 t(becomes[old.x], becomes[old.y], becomes[old.z]);
+    if (t.x == t.y || t.y == t.z || t.z == t.x || hasNoArea(out.points, t)) continue;
+    out.triangles[kept] = t;
+    out.source[kept++] = out.source[i];
+  }
+  out.triangles.resize(kept);
+  out.source.resize(kept);
+}
 
 void join(const TriangleMesh& mesh, ClosedTriangles& out) {
   std::unordered_map<glm::vec3, std::uint32_t, SamePlace> placeOf;
@@ -45,13 +57,10 @@ void join(const TriangleMesh& mesh, ClosedTriangles& out) {
     if (fresh) out.points.push_back(p);
     pointOf.push_back(place->second);
   }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3& t = mesh.triangles[i];
-    const glm::uvec3 u(pointOf[t.x], pointOf[t.y], pointOf[t.z]);
-    if (u.x == u.y || u.y == u.z || u.z == u.x || hasNoArea(out.points, u)) continue;
-    out.triangles.push_back(u);
-    out.source.push_back(static_cast<std::uint32_t>(i));
-  }
+  out.triangles = mesh.triangles;
+  out.source.resize(mesh.triangles.size());
+  std::iota(out.source.begin(), out.source.end(), 0u);
+  renumber(pointOf, out);
 }
 
 /// Calls f(a, b) for each edge of each triangle, the way that it runs.
@@ -66,7 +75,7 @@ void forEdges(const Triangles& triangles, F f) {
 FlatMap<int> balances(const Triangles& triangles) {
   FlatMap<int> balance;
   forEdges(triangles, [&](std::uint32_t a, std::uint32_t b) {
-    balance.insert(undirected(a, b), 0).first += a < b ? 1 : -1;
+    balance.insert(edgeKey(a, b), 0).first += a < b ? 1 : -1;
   });
   return balance;
 }
@@ -76,7 +85,7 @@ std::vector<std::array<std::uint32_t, 2>> missingEdges(const Triangles& triangle
   FlatMap<int> balance = balances(triangles);
   std::vector<std::array<std::uint32_t, 2>> missing;
   forEdges(triangles, [&](std::uint32_t a, std::uint32_t b) {
-    int& more = balance.insert(undirected(a, b), 0).first;
+    int& more = balance.insert(edgeKey(a, b), 0).first;
     const int way = a < b ? 1 : -1;
     for (; more * way > 0; more -= way) missing.push_back({b, a});
   });
@@ -114,16 +123,7 @@ void joinBorders(ClosedTriangles& out) {
   };
   for (const std::uint32_t i : border)
     if (!joined(i)) cells[cellOf(out.points[i], glm::ivec3(0))].push_back(i);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < out.triangles.size(); ++i) {
-    glm::uvec3 t = out.triangles[i];
-    for (int k = 0; k < 3; ++k) t[k] = becomes[t[k]];
-    if (t.x == t.y || t.y == t.z || t.z == t.x || hasNoArea(out.points, t)) continue;
-    out.triangles[kept] = t;
-    out.source[kept++] = out.source[i];
-  }
-  out.triangles.resize(kept);
-  out.source.resize(kept);
+  renumber(becomes, out);
 }
 
 /// Turns triangles over until neighbours across edges of two run the same way around; of each patch as few
@@ -137,7 +137,7 @@ void orient(ClosedTriangles& out) {
   FlatMap<Pair> pairs;
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      Pair& pair = pairs.insert(undirected(triangles[i][k], triangles[i][(k + 1) % 3]), Pair()).first;
+      Pair& pair = pairs.insert(edgeKey(triangles[i][k], triangles[i][(k + 1) % 3]), Pair()).first;
       (pair.count == 0 ? pair.first : pair.second) = i;
       ++pair.count;
     }
@@ -156,7 +156,7 @@ void orient(ClosedTriangles& out) {
     for (std::size_t next = 0; next < patch.size(); ++next)
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t i = patch[next], a = triangles[i][k], b = triangles[i][(k + 1) % 3];
-        const Pair& pair = pairs.insert(undirected(a, b), Pair()).first;
+        const Pair& pair = pairs.insert(edgeKey(a, b), Pair()).first;
         if (pair.count != 2) continue;
         const std::uint32_t other = pair.first == i ? pair.second : pair.first;
         if (over[other] != kUnseen) continue;

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <utility>
 
+#include "sdf/base/disjoint_sets.h"
 #include "sdf/base/flat_map.h"
+#include "sdf/triangles/incidence.h"
 #include "sdf/triangles/twofold.h"
 
 namespace sdf {
@@ -71,10 +72,7 @@ void TriangleDistance::setNormals() {
   const std::vector<glm::uvec3>& all = triangles_.triangles;
   std::vector<glm::dvec3> atPoint(triangles_.points.size(), glm::dvec3(0.0));
   FlatMap<glm::dvec3> atEdge;
-  const auto key = [&](std::uint32_t i, int k) {
-    const std::uint32_t a = all[i][k], b = all[i][(k + 1) % 3];
-    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-  };
+  const auto key = [&](std::uint32_t i, int k) { return edgeKey(all[i][k], all[i][(k + 1) % 3]); };
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     const std::array<glm::dvec3, 3> t = corners(i);
     const glm::dvec3 area = areaOf(t);
@@ -91,24 +89,25 @@ void TriangleDistance::setNormals() {
     for (int k = 0; k < 3; ++k) edgeNormals_.emplace_back(atEdge.insert(key(i, k), glm::dvec3(0.0)).first);
 }
 
+std::vector<std::uint32_t> TriangleDistance::largestOfEach(
+    std::size_t sets, const std::function<std::uint32_t(std::uint32_t)>& setOf) const {
+  const auto count = static_cast<std::uint32_t>(triangles_.triangles.size());
+  const auto sizeOf = [&](std::uint32_t i) { return glm::length(areaOf(corners(i))); };
+  std::vector<std::uint32_t> largest(sets, count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::uint32_t& best = largest[setOf(i)];
+    if (best == count || sizeOf(i) > sizeOf(best)) best = i;
+  }
+  return largest;
+}
+
 /// Is it outside of the solid on that side of each piece of the surface that its normals point to? So it is
 /// not where a shell within a shell is turned the wrong way. Asked is beside one triangle of each piece.
 bool TriangleDistance::normalsTellSides() const {
   const std::vector<glm::uvec3>& all = triangles_.triangles;
-  std::vector<std::uint32_t> piece(triangles_.points.size());
-  std::iota(piece.begin(), piece.end(), 0u);
-  const auto rootOf = [&](std::uint32_t i) {
-    while (piece[i] != i) i = piece[i] = piece[piece[i]];
-    return i;
-  };
-  for (const glm::uvec3& t : all) piece[rootOf(t.x)] = piece[rootOf(t.y)] = rootOf(t.z);
-  std::vector<std::uint32_t> largest(piece.size(), static_cast<std::uint32_t>(all.size()));
-  const auto sizeOf = [&](std::uint32_t i) { return glm::length(areaOf(corners(i))); };
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    std::uint32_t& best = largest[rootOf(all[i].x)];
-    if (best == all.size() || sizeOf(i) > sizeOf(best)) best = i;
-  }
-  for (const std::uint32_t i : largest)
+  const std::vector<std::uint32_t> pieces = piecesOf(all, triangles_.points.size());
+  for (const std::uint32_t i :
+       largestOfEach(pieces.size(), [&](std::uint32_t triangle) { return pieces[all[triangle].x]; }))
     if (i < all.size() && sidesOf(i) != std::array{false, true}) return false;
   return true;
 }
@@ -117,20 +116,14 @@ void TriangleDistance::setPatches() {
   const std::vector<glm::uvec3>& all = triangles_.triangles;
   const auto count = static_cast<std::uint32_t>(all.size());
   patches_.resize(count);
-  std::vector<std::uint32_t> patch(count);
-  std::iota(patch.begin(), patch.end(), 0u);
-  const auto rootOf = [&](std::uint32_t i) {
-    while (patch[i] != i) i = patch[i] = patch[patch[i]];
-    return i;
-  };
+  DisjointSets sets(count);
   struct Edge {
     int triangles = 0;
     std::uint32_t first = 0, place = 0;  // of those that cross nothing; and which of its edges it is
   };
   FlatMap<Edge> edges;
   const auto edgeAt = [&](std::uint32_t i, int k) -> Edge& {
-    const std::uint32_t a = all[i][k], b = all[i][(k + 1) % 3];
-    return edges.insert(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), Edge{0, count, 0}).first;
+    return edges.insert(edgeKey(all[i][k], all[i][(k + 1) % 3]), Edge{0, count, 0}).first;
   };
   for (std::uint32_t i = 0; i < count; ++i)
     for (int k = 0; k < 3; ++k) ++edgeAt(i, k).triangles;
@@ -143,19 +136,14 @@ void TriangleDistance::setPatches() {
         edge.first = i, edge.place = static_cast<std::uint32_t>(k);
         continue;
       }
-      patch[rootOf(i)] = rootOf(edge.first);
+      sets.join(i, edge.first);
       patches_[i].joined |= 1u << k, patches_[edge.first].joined |= 1u << edge.place;
     }
   }
-  std::vector<std::uint32_t> largest(count, count);
-  const auto sizeOf = [&](std::uint32_t i) { return glm::length(areaOf(corners(i))); };
-  for (std::uint32_t i = 0; i < count; ++i) {
-    std::uint32_t& best = largest[rootOf(i)];
-    if (best == count || sizeOf(i) > sizeOf(best)) best = i;
-  }
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (patches_[i].known && largest[rootOf(i)] == i) patches_[rootOf(i)].inside = sidesOf(i);
-  for (std::uint32_t i = 0; i < count; ++i) patches_[i].inside = patches_[rootOf(i)].inside;
+  for (const std::uint32_t i :
+       largestOfEach(count, [&](std::uint32_t triangle) { return sets.of(triangle); }))
+    if (i < count && patches_[i].known) patches_[sets.of(i)].inside = sidesOf(i);
+  for (std::uint32_t i = 0; i < count; ++i) patches_[i].inside = patches_[sets.of(i)].inside;
 }
 
 std::array<bool, 2> TriangleDistance::sidesOf(std::uint32_t triangle) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -53,6 +54,9 @@ class TriangleDistance {
   glm::dvec3 pseudonormal(const NearestPoint& nearest) const;
   bool isInside(const glm::dvec3& p, const NearestPoint& nearest, const glm::dvec3& way) const;
   void setNormals();
+  /// The largest triangle of each of so many sets, the number of triangles where it has none.
+  std::vector<std::uint32_t> largestOfEach(std::size_t sets,
+                                           const std::function<std::uint32_t(std::uint32_t)>& setOf) const;
   bool normalsTellSides() const;
   /// Is the solid before a triangle, where its normal points to, and behind it?
   std::array<bool, 2> sidesOf(std::uint32_t triangle) const;

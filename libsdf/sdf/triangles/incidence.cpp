@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "sdf/base/disjoint_sets.h"
+
 namespace sdf {
 
 Incidence::Incidence(const std::vector<glm::uvec3>& triangles, std::size_t vertices)
@@ -18,18 +20,10 @@ Incidence::Incidence(const std::vector<glm::uvec3>& triangles, std::size_t verti
 }
 
 std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
+  DisjointSets pieces(vertices);
+  for (const glm::uvec3& t : triangles) pieces.join(t.x, t.y), pieces.join(t.y, t.z);
   std::vector<std::uint32_t> of(vertices);
-  std::iota(of.begin(), of.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (of[v] != v) v = of[v] = of[of[v]];
-    return v;
-  };
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    (a < b ? of[b] : of[a]) = std::min(a, b);
-  };
-  for (const glm::uvec3& t : triangles) join(t.x, t.y), join(t.y, t.z);
-  for (std::uint32_t& v : of) v = of[v];
+  for (std::uint32_t v = 0; v < vertices; ++v) of[v] = pieces.of(v);
   return of;
 }
 

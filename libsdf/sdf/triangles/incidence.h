@@ -1,5 +1,6 @@
-// The triangles around the vertices of a mesh.
+// The triangles around the vertices of a mesh, and its edges.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -8,6 +9,11 @@
 #include <vector>
 
 namespace sdf {
+
+/// One number for the edge between two vertices, whichever comes first.
+inline std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
 
 /// For each vertex the triangles that have it as a corner, by their numbers, ascending. Cost: linear.
 class Incidence {

@@ -207,11 +207,7 @@ void TriangleTree::setDipoles() {
   }
 }
 
-// The solid angle (van Oosterom, Strackee 1983) over 4 pi.
-double TriangleTree::windingOf(std::uint32_t triangle, const glm::dvec3& p) const {
-  const glm::uvec3& t = triangles_[triangle];
-  const glm::dvec3 a = glm::dvec3(points_[t.x]) - p, b = glm::dvec3(points_[t.y]) - p,
-                   c = glm::dvec3(points_[t.z]) - p;
+double windingOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
   const double volume = glm::dot(a, glm::cross(b, c));
   const double rest = x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y;
@@ -235,7 +231,11 @@ double TriangleTree::winding(const glm::dvec3& p) const {
     } else if (node.count == 0) {
       open[left++] = node.first, open[left++] = node.first + 1;
     } else {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) sum += windingOf(order_[i], p);
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        const glm::uvec3& t = triangles_[order_[i]];
+        sum += windingOf(glm::dvec3(points_[t.x]) - p, glm::dvec3(points_[t.y]) - p,
+                         glm::dvec3(points_[t.z]) - p);
+      }
     }
   }
   return sum;

@@ -30,6 +30,10 @@ struct NearestPoint {
 /// section 5.1.5).
 NearestPoint nearestOf(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
+/// How often a triangle winds around the origin: the share of the sphere that it covers, positive where it is
+/// seen from behind (Van Oosterom, Strackee 1983).
+double windingOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
 /// Immutable, and read from any thread.
 class TriangleTree {
  public:
@@ -61,7 +65,6 @@ class TriangleTree {
   };
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth);
   void setDipoles();
-  double windingOf(std::uint32_t triangle, const glm::dvec3& p) const;
 
   const std::vector<glm::vec3>& points_;
   const std::vector<glm::uvec3>& triangles_;

@@ -28,7 +28,7 @@ inline Rays cameraRays(const glm::dvec3& from, double tangent) {
 }
 
 inline Hits trace(const Shape& shape, const Rays& rays, const MarchOptions& options) {
-  return got(got(Marcher::make(shape, options)).trace(rays));
+  return take(take(Marcher::make(shape, options)).trace(rays));
 }
 
 /// t of the hits, infinite where there is none.

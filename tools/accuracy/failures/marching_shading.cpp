@@ -58,12 +58,12 @@ Vectors naiveNormals(const Shape& shape, const Vectors& points, float h) {
 Figures normalFigures(const glm::dvec3& centre, float h) {
   const Shape ball = translate(sphere(1.0), Vec3E(centre));
   const SpherePoints at(centre);
-  const Vectors ours = got(normals(got(marchField(ball)), at.points, at.points, {}));
+  const Vectors ours = take(normals(take(marchField(ball)), at.points, at.points, {}));
   return {worstDegrees(naiveNormals(ball, at.points, h), at.normals), worstDegrees(ours, at.normals)};
 }
 
 std::vector<double> lightOf(const Shape& solid, const Rays& rays, const ShadowOptions& options) {
-  return got(shadows(got(marchField(solid)), rays, options)).light;
+  return take(shadows(take(marchField(solid)), rays, options)).light;
 }
 
 // Shadow rays past a box towards a light overhead.
@@ -231,7 +231,7 @@ std::vector<FailureCase> shadingFailures() {
            [] {
              const Shape sponge = menger(8);
              const Rays rays = cameraRays({2.0, 3.0, 6.0}, 0.25);
-             const MarchField field = got(marchField(sponge));
+             const MarchField field = take(marchField(sponge));
              const auto variance = [&](double footprint, const NormalOptions& options) {
                const Hits hits = trace(sponge, rays, {.footprint = footprint, .maxSteps = 4000});
                Vectors at, back;
@@ -239,7 +239,7 @@ std::vector<FailureCase> shadingFailures() {
                  at.add(rays.at(i, hits.t[i]));
                  back.add(-rays.direction[i]);
                }
-               return normalVariance(got(normals(field, at, back, options)), timesOf(hits));
+               return normalVariance(take(normals(field, at, back, options)), timesOf(hits));
              };
              const double pixel = 0.25 / 50.0;  // width at distance 1; the sponge is 7 away
              return Figures{variance(0.0, {}), variance(0.5 * pixel, {NormalMethod::Central, 7.0 * pixel})};

@@ -121,9 +121,7 @@ std::optional<MeshedShape> ourMesh(const Shape& s, std::optional<Box> bounds = {
 
 double boundaryEdges(const Mesh& mesh) {
   std::vector<glm::uvec3> triangles = mesh.triangles;
-  for (glm::uvec3& t : triangles)
-    for (int k = 0; k < 3; ++k)
-      if (t[k] >= mesh.welded) t[k] = mesh.copyOf[t[k] - mesh.welded];
+  for (glm::uvec3& t : triangles) t = {mesh.pointOf(t.x), mesh.pointOf(t.y), mesh.pointOf(t.z)};
   return BadEdges(triangles).boundary;
 }
 

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "accuracy/take.h"
 #include "failure_case.h"
 #include "reference/reference.h"
-#include "sdf/base/result.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/shape.h"
 
@@ -15,13 +15,6 @@ namespace sdf::accuracy {
 
 // Some tens of roundings in double of numbers of size 1 to 10, as each formula here makes.
 inline constexpr double kRounding = 1e-13;
-
-/// What was refused must not pass for what holds.
-template <class T>
-T got(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(result).value();
-}
 
 /// The shape's distance in double. A shape that was refused must not pass for one that holds.
 class Distance {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 
+#include "accuracy/take.h"
 #include "bench/shapes.h"
 
 namespace sdf::accuracy {
@@ -82,9 +82,7 @@ NamedMeshCase named(int i, const std::string& what, PiecewiseSolid (*solid)(), b
 MeshedShape meshed(const MeshCase& c, MeshOptions options) {
   Progress progress;
   options.certify = c.easy;
-  Result<MeshedShape> result = meshShape(c.shape, c.name, options, progress);
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(*result);
+  return take(meshShape(c.shape, c.name, options, progress));
 }
 
 }  // namespace

@@ -27,17 +27,11 @@ Spread spreadOf(const std::vector<double>& distances) {
 }  // namespace
 
 std::vector<glm::dvec3> pointsOn(const TriangleMesh& mesh, std::size_t count, unsigned seed) {
-  std::vector<double> areas;  // running sums
-  double area = 0.0;
-  for (const glm::ivec3& t : mesh.triangles) {
-    const glm::dvec3 &a = mesh.points[t.x], &b = mesh.points[t.y], &c = mesh.points[t.z];
-    areas.push_back(area += 0.5 * glm::length(glm::cross(b - a, c - a)));
-  }
+  const ByArea byArea(mesh.points, mesh.triangles);
   PointMaker::Random random(seed);
   std::vector<glm::dvec3> points;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto at = std::upper_bound(areas.begin(), areas.end() - 1, uniform(random, 0.0, area));
-    const glm::ivec3& t = mesh.triangles[at - areas.begin()];
+    const glm::ivec3& t = mesh.triangles[byArea.at(uniform(random, 0.0, 1.0))];
     double u = uniform(random, 0.0, 1.0), v = uniform(random, 0.0, 1.0);
     if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
     points.push_back((1.0 - u - v) * mesh.points[t.x] + u * mesh.points[t.y] + v * mesh.points[t.z]);
@@ -53,10 +47,8 @@ Spread spreadOver(const std::vector<glm::dvec3>& points,
 TriangleMesh weldedMesh(const Mesh& mesh) {
   TriangleMesh welded;
   for (std::uint32_t i = 0; i < mesh.welded; ++i) welded.points.emplace_back(mesh.positions[i]);
-  const auto point = [&](std::uint32_t i) {
-    return static_cast<int>(i < mesh.welded ? i : mesh.copyOf[i - mesh.welded]);
-  };
-  for (const glm::uvec3& t : mesh.triangles) welded.triangles.push_back({point(t.x), point(t.y), point(t.z)});
+  for (const glm::uvec3& t : mesh.triangles)
+    welded.triangles.emplace_back(mesh.pointOf(t.x), mesh.pointOf(t.y), mesh.pointOf(t.z));
   return welded;
 }
 

@@ -41,14 +41,7 @@ std::string call(const char* name, std::initializer_list<double> arguments) {
 
 // The columns of the map's Jacobian.
 std::array<glm::dvec3, 3> jacobian(const PointMap& map, const glm::dvec3& p) {
-  constexpr double kStep = 1e-5;
-  std::array<glm::dvec3, 3> columns;
-  for (int i = 0; i < 3; ++i) {
-    glm::dvec3 step(0.0);
-    step[i] = kStep;
-    columns[i] = (map(p + step) - map(p - step)) / (2.0 * kStep);
-  }
-  return columns;
+  return derivatives(map, p, 1e-5);
 }
 
 // How much more the map stretches one direction than another at p: the quotient of its singular values. Their
@@ -209,16 +202,10 @@ Part torusPart() {
           kMinor};
 }
 
-Box boundsOf(const TriangleMesh& mesh) {
-  Box b;
-  for (const glm::dvec3& p : mesh.points) b = unite(b, {p, p});
-  return b;
-}
-
 // Rates by what they do at the part's ends, in whole hundredths.
 double hundredths(double v) { return std::round(100.0 * v) / 100.0; }
 double highest(const Deformed& d) {
-  const Box b = boundsOf(d.mesh);
+  const Box b = boxOf(d.mesh);
   return std::max(std::abs(b.min.y), std::abs(b.max.y));
 }
 Deformed taperedTo(const Deformed& d, double change) { return tapered(d, hundredths(change / highest(d))); }
@@ -247,18 +234,11 @@ std::vector<glm::dvec3> sharpEdges(const TriangleMesh& mesh) {
 class Surface {
  public:
   explicit Surface(const Part& part, std::vector<glm::ivec3> triangles)
-      : part_(part), triangles_(std::move(triangles)) {
-    for (const glm::ivec3& t : triangles_) {
-      const auto& p = part.mesh.points;
-      sums_.push_back((sums_.empty() ? 0.0 : sums_.back()) +
-                      glm::length(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x])));
-    }
-  }
+      : part_(part), triangles_(std::move(triangles)), byArea_(part.mesh.points, triangles_) {}
 
   SurfacePoint any(std::mt19937& random) const {
     std::uniform_real_distribution<> share(0.0, 1.0);
-    const auto at = std::upper_bound(sums_.begin(), sums_.end() - 1, share(random) * sums_.back());
-    const glm::ivec3& t = triangles_[at - sums_.begin()];
+    const glm::ivec3& t = triangles_[byArea_.at(share(random))];
     double u = share(random), v = share(random);
     if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
     const auto& p = part_.mesh.points;
@@ -274,7 +254,7 @@ class Surface {
  private:
   const Part& part_;
   std::vector<glm::ivec3> triangles_;
-  std::vector<double> sums_;
+  ByArea byArea_;
 };
 
 }  // namespace
@@ -306,33 +286,17 @@ Deformed deformedBy(const Deformed& d, std::string text, Shape shape, const Poin
 
 Deformed twisted(const Deformed& d, double degrees) {
   const double rate = radians(degrees);
-  return deformedBy(
-      d, call("twist", {degrees}), twist(d.shape, rate),
-      [=](const glm::dvec3& p) {
-        return turn({0, 1, 0}, rate * p.y) * p;
-      },
-      1.0);
+  return deformedBy(d, call("twist", {degrees}), twist(d.shape, rate), twistMap(rate), 1.0);
 }
 
 Deformed tapered(const Deformed& d, double rate) {
-  return deformedBy(
-      d, call("taper", {rate}), taper(d.shape, rate),
-      [=](const glm::dvec3& p) {
-        const double factor = 1.0 + rate * p.y;
-        return glm::dvec3(p.x * factor, p.y, p.z * factor);
-      },
-      1.0 - std::abs(rate) * highest(d));
+  return deformedBy(d, call("taper", {rate}), taper(d.shape, rate), taperMap(rate),
+                    1.0 - std::abs(rate) * highest(d));
 }
 
 Deformed bent(const Deformed& d, double degrees) {
   const double k = radians(degrees);
-  return deformedBy(
-      d, call("bend", {degrees}), bend(d.shape, k),
-      [=](const glm::dvec3& p) {
-        const double radius = 1.0 / k - p.y;
-        return glm::dvec3(radius * std::sin(k * p.x), 1.0 / k - radius * std::cos(k * p.x), p.z);
-      },
-      1.0 - std::abs(k) * highest(d));
+  return deformedBy(d, call("bend", {degrees}), bend(d.shape, k), bendMap(k), 1.0 - std::abs(k) * highest(d));
 }
 
 Deformed scaledBy(const Deformed& d, const glm::dvec3& factors) {
@@ -406,7 +370,7 @@ const std::vector<Deformation>& deformations() {
 DeformedSolid::DeformedSolid(const Part& part, Deformed deformed, unsigned seed)
     : deformed_(std::move(deformed)),
       reference_(deformed_.mesh),
-      box_(boundsOf(deformed_.mesh)),
+      box_(boxOf(deformed_.mesh)),
       edges_(sharpEdges(deformed_.mesh)) {
   std::mt19937 random(seed);
   std::normal_distribution<> normal;

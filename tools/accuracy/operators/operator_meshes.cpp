@@ -107,6 +107,24 @@ glm::dmat3 turn(const glm::dvec3& axis, double angle) {
   return glm::dmat3(glm::rotate(glm::dmat4(1.0), angle, glm::normalize(axis)));
 }
 
+PointMap twistMap(double rate) {
+  return [=](const glm::dvec3& p) { return turn({0, 1, 0}, rate * p.y) * p; };
+}
+
+PointMap bendMap(double k) {
+  return [=](const glm::dvec3& p) {
+    const double radius = 1.0 / k - p.y;
+    return glm::dvec3(radius * std::sin(k * p.x), 1.0 / k - radius * std::cos(k * p.x), p.z);
+  };
+}
+
+PointMap taperMap(double rate) {
+  return [=](const glm::dvec3& p) {
+    const double factor = 1.0 + rate * p.y;
+    return glm::dvec3(p.x * factor, p.y, p.z * factor);
+  };
+}
+
 TriangleMesh mapped(TriangleMesh mesh, const PointMap& map, bool reflects) {
   for (glm::dvec3& p : mesh.points) p = map(p);
   return reflects ? flipped(std::move(mesh)) : mesh;

@@ -23,6 +23,10 @@ TriangleMesh sphereMesh(double radius, int times);
 glm::dmat3 turn(const glm::dvec3& axis, double angle);
 
 using PointMap = std::function<glm::dvec3(const glm::dvec3&)>;
+/// What twist, bend and taper do to a point, by their definitions; radians.
+PointMap twistMap(double rate);
+PointMap bendMap(double k);
+PointMap taperMap(double rate);
 /// Each vertex moved; `reflects`: the map turns space inside out.
 TriangleMesh mapped(TriangleMesh mesh, const PointMap& map, bool reflects = false);
 TriangleMesh moved(const TriangleMesh& mesh, const glm::dvec3& by);

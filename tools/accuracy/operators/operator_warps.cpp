@@ -91,33 +91,19 @@ ReferenceCase warpedCase(const std::string& name, const Shape& shape, const Tria
 
 ReferenceCase twisted(const std::string& name, const Solid& s, double rate) {
   const double radius = largest(s.mesh, [](const glm::dvec3& p) { return std::hypot(p.x, p.z); });
-  return warpedCase(
-      name + ", " + std::to_string(rate), twist(s.shape, rate), s.mesh,
-      [=](const glm::dvec3& p) {
-        return turn({0, 1, 0}, rate * p.y) * p;
-      },
-      bendingOf(rate * rate * radius, std::abs(rate)));
+  return warpedCase(name + ", " + std::to_string(rate), twist(s.shape, rate), s.mesh, twistMap(rate),
+                    bendingOf(rate * rate * radius, std::abs(rate)));
 }
 
 ReferenceCase bent(const std::string& name, const Solid& s, double k) {
   const double widest = largest(s.mesh, [=](const glm::dvec3& p) { return std::abs(1.0 - k * p.y); });
-  return warpedCase(
-      name + ", " + std::to_string(k), bend(s.shape, k), s.mesh,
-      [=](const glm::dvec3& p) {
-        const double radius = 1.0 / k - p.y;
-        return glm::dvec3(radius * std::sin(k * p.x), 1.0 / k - radius * std::cos(k * p.x), p.z);
-      },
-      bendingOf(std::abs(k) * widest, std::abs(k)));
+  return warpedCase(name + ", " + std::to_string(k), bend(s.shape, k), s.mesh, bendMap(k),
+                    bendingOf(std::abs(k) * widest, std::abs(k)));
 }
 
 ReferenceCase tapered(const std::string& name, const Solid& s, double rate) {
-  return warpedCase(
-      name + ", " + std::to_string(rate), taper(s.shape, rate), s.mesh,
-      [=](const glm::dvec3& p) {
-        const double factor = 1.0 + rate * p.y;
-        return glm::dvec3(p.x * factor, p.y, p.z * factor);
-      },
-      bendingOf(0.0, std::abs(rate)));
+  return warpedCase(name + ", " + std::to_string(rate), taper(s.shape, rate), s.mesh, taperMap(rate),
+                    bendingOf(0.0, std::abs(rate)));
 }
 
 // A bound only, and not convex.

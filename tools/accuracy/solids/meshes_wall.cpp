@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "accuracy/check_points.h"
 #include "meshes.h"
 
 namespace sdf::accuracy {
@@ -110,20 +111,10 @@ class Level {
     const glm::dvec3 middle = (t[0] + t[1] + t[2]) / 3.0;
     double r = 0.0;
     for (const glm::dvec3& p : t) r = std::max(r, glm::length(p - middle));
-    const double slope = glm::length(gradient(middle)) - r * c, root = slope * slope - c * c * r * r;
+    const auto [x, y, z] = derivatives(wave_.value, middle, 1e-5);
+    const double slope = glm::length(glm::dvec3(x, y, z)) - r * c, root = slope * slope - c * c * r * r;
     const double diameter = std::numbers::sqrt3 * step_;
     return slope > 0.0 && root >= 0.0 ? std::min(diameter, (slope - std::sqrt(root)) / c) : diameter;
-  }
-
-  glm::dvec3 gradient(const glm::dvec3& p) const {
-    constexpr double kStep = 1e-5;
-    glm::dvec3 g;
-    for (int i = 0; i < 3; ++i) {
-      glm::dvec3 by(0.0);
-      by[i] = kStep;
-      g[i] = (wave_.value(p + by) - wave_.value(p - by)) / (2.0 * kStep);
-    }
-    return g;
   }
 
   const Wave& wave_;

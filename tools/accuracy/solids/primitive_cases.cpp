@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 
+#include "accuracy/operators/operator_meshes.h"
+#include "command_line/text.h"
 #include "meshes.h"
 #include "sdf/shape/catalog.h"
 
@@ -95,7 +96,7 @@ Tessellation cutSphereMesh(double radius, double height) {
       profile.to({0, height}).arc({0, 0}, radius, std::asin(height / radius), 0.5 * kPi, 2 * kQuarter));
 }
 
-Tessellation boxMesh(const Numbers& a) {
+Tessellation boxCells(const Numbers& a) {
   return cells({{{-a[0], a[0]}, {-a[1], a[1]}, {-a[2], a[2]}}}, [](const glm::ivec3&) { return true; });
 }
 
@@ -117,16 +118,11 @@ Tessellation column(int sides, double radius, double half) {
                [](const glm::dvec3& p) { return glm::dvec3(p.x, p.z, p.y); });
 }
 
-Tessellation octahedronMesh(double r) {
-  const std::vector<std::vector<int>> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                            {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  return polyhedron({{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}}, faces);
-}
-
-Tessellation tetrahedronMesh(double radius) {
-  const double r = radius / std::numbers::sqrt3;
-  const std::vector<std::vector<int>> faces{{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-  return polyhedron({{r, r, r}, {r, -r, -r}, {-r, r, -r}, {-r, -r, r}}, faces);
+// Of triangles.
+Tessellation polyhedron(const TriangleMesh& mesh) {
+  std::vector<std::vector<int>> faces;
+  for (const glm::ivec3& t : mesh.triangles) faces.push_back({t.x, t.y, t.z});
+  return polyhedron(mesh.points, faces);
 }
 
 Tessellation pyramidMesh(double w, double h) {
@@ -193,20 +189,22 @@ void addRound(Table& table) {
                          {{0.5, 0.25, 0.5}, {0.1, 0.5, 0.25}, {1, 0.05, 0.48}, {1, 1, 1}, {0.01, 0.02, 3}}};
   table["round_box"] = {[](const Numbers& a) {
                           const glm::dvec3 half(a[0], a[1], a[2]);
-                          return a[3] > 0.0 ? roundedBox(half, a[3], kRounding) : boxMesh(a);
+                          return a[3] > 0.0 ? roundedBox(half, a[3], kRounding) : boxCells(a);
                         },
                         {{1, 1, 1, 0.1}, {1, 2, 0.5, 0}, {1, 1, 0.4, 0.4}, {1, 1, 1, 1}, {3, 0.2, 1, 0.01}}};
 }
 
 void addStraight(Table& table) {
-  table["box"] = {boxMesh, {{1, 1, 1}, {0.01, 2, 0.5}, {5, 5, 0.1}, {0.001, 0.001, 10}}};
+  table["box"] = {boxCells, {{1, 1, 1}, {0.01, 2, 0.5}, {5, 5, 0.1}, {0.001, 0.001, 10}}};
   table["box_frame"] = {frameMesh, {{1, 1, 1, 0.1}, {1, 2, 0.5, 0.5}, {1, 0.6, 2, 0.02}, {1, 1, 1, 1}}};
   table["plane"] = {[](const Numbers& a) {
                       return halfSpace({a[0], a[1], a[2]}, a[3]);
                     },
                     {{0, 1, 0, 0}, {1, 2, -3, 0.5}, {-4, 0, 0, -1}, {1e-3, 1, 0, 7}}};
-  table["octahedron"] = {[](const Numbers& a) { return octahedronMesh(a[0]); }, {{1}, {0.1}, {7}}};
-  table["tetrahedron"] = {[](const Numbers& a) { return tetrahedronMesh(a[0]); }, {{1}, {0.1}, {7}}};
+  table["octahedron"] = {[](const Numbers& a) { return polyhedron(octahedronMesh(a[0])); },
+                         {{1}, {0.1}, {7}}};
+  table["tetrahedron"] = {[](const Numbers& a) { return polyhedron(tetrahedronMesh(a[0])); },
+                          {{1}, {0.1}, {7}}};
   table["pyramid"] = {[](const Numbers& a) { return pyramidMesh(a[0], a[1]); },
                       {{1, 1}, {2, 0.1}, {0.1, 2}, {1, 0.001}, {0.01, 3}}};
   table["cylinder"] = {[](const Numbers& a) { return frustum(a[0], a[0], a[1]); },
@@ -298,11 +296,7 @@ std::vector<std::vector<glm::dvec2>> polygons() {
 
 std::string text(const Numbers& numbers) {
   std::string result;
-  for (const double n : numbers) {
-    char word[32];
-    std::snprintf(word, sizeof word, "%s%.6g", result.empty() ? " " : ", ", n);
-    result += word;
-  }
+  for (const double n : numbers) result += command_line::formatted("%s%.6g", result.empty() ? " " : ", ", n);
   return result;
 }
 

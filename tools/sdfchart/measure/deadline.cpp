@@ -1,6 +1,6 @@
 #include "deadline.h"
 
-#include <cstdio>
+#include "command_line/text.h"
 
 namespace sdf::chart {
 
@@ -23,10 +23,8 @@ Deadline::~Deadline() {
 }
 
 void Deadline::check() const {
-  if (!stopped()) return;
-  char text[80];
-  std::snprintf(text, sizeof text, "stopped: it took more than %g s", seconds_);
-  throw std::runtime_error(text);
+  if (stopped())
+    throw std::runtime_error(command_line::formatted("stopped: it took more than %g s", seconds_));
 }
 
 }  // namespace sdf::chart

@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/take.h"
+#include "command_line/text.h"
 #include "sdfchart/results.h"
 #include "sdfchart/run_progress.h"
 
 namespace sdf::chart {
+
+using command_line::formatted;
 
 /// One cell of the matrix.
 struct Measurement {
@@ -59,13 +63,6 @@ double secondsOfShort(const Work& work) {
     if (seconds >= kLongEnough) return seconds / count;
   }
   return seconds;
-}
-
-/// Throws what a Result holds instead of a value.
-template <class T>
-T take(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(*result);
 }
 
 }  // namespace sdf::chart

@@ -132,13 +132,10 @@ std::unique_ptr<ShaderReading> compiledShader(int count, const Scene& scene, dou
   constexpr double kGrowth = 8.0;
   if (const int fewer = count / 4; fewer >= kSoonCompiled) {
     const double seconds = secondsOf([&] { compiledShader(fewer, scene, mostSeconds); });
-    if (kGrowth * seconds > mostSeconds) {
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "OpenGL took %.2g s to compile %d balls; four times as many would take more than %g s",
-                    seconds, fewer, mostSeconds);
-      throw std::runtime_error(text);
-    }
+    if (kGrowth * seconds > mostSeconds)
+      throw std::runtime_error(
+          formatted("OpenGL took %.2g s to compile %d balls; four times as many would take more than %g s",
+                    seconds, fewer, mostSeconds));
   }
   return std::make_unique<ShaderReading>(ballsOf(count), texels(scene.points), timesFor(scene));
 }

@@ -80,9 +80,8 @@ Light lampPoints(int count, double radius) {
 std::vector<Measurement> ofLamp(const std::string& what, const Blocker& blocker, double degrees, int side) {
   constexpr int kTrueRays = 1024;
   const double radius = glm::radians(degrees);
-  char name[80];
-  std::snprintf(name, sizeof name, "%s, lamp of %g°", what.c_str(), degrees);
-  const auto ground = std::make_shared<Ground>(name, blocker, side, false);
+  const auto ground =
+      std::make_shared<Ground>(what + formatted(", lamp of %g°", degrees), blocker, side, false);
   ground->truth = lightOf(blocker, ground->points, lampDirections(lamp(), radius, kTrueRays), kReach);
   Row row{.kind = "shadows"};
   row.truth = 1.0 / std::sqrt(kTrueRays);

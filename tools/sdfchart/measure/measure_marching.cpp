@@ -36,12 +36,10 @@ struct Allowed {
 
 Measurement measurement(const std::shared_ptr<KnownRays>& known, const NamedMethod& method, double epsilon,
                         const Allowed& allowed) {
-  char setting[64];
-  std::snprintf(setting, sizeof setting, "threshold %g", epsilon);
   Row row{.kind = "marching",
           .scene = budgetName(known->scene().name + (allowed.cones ? ", cone starts" : ""), allowed.steps),
           .method = method.name,
-          .setting = setting,
+          .setting = formatted("threshold %g", epsilon),
           .size = epsilon};
   row.isDefault =
       method.lookBehind && epsilon == kViewersEpsilon && allowed.steps == kViewersSteps && !allowed.cones;

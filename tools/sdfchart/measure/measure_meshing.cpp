@@ -62,8 +62,7 @@ Mesh plainMesh(const JudgedMesh& judged) {
 double fileBytes(const Mesh& mesh) {
   const auto file =
       std::filesystem::temp_directory_path() / ("sdfchart_" + std::to_string(::getpid()) + ".glb");
-  const Status written = writeMeshes(file, Scene{}, {ExportPart{"part", mesh, MeshStats{}}});
-  if (!written) throw std::runtime_error(written.error().message);
+  take(writeMeshes(file, Scene{}, {ExportPart{"part", mesh, MeshStats{}}}));
   const double bytes = static_cast<double>(std::filesystem::file_size(file));
   std::filesystem::remove(file);
   return bytes;
@@ -92,11 +91,16 @@ Measurement measurement(const std::shared_ptr<Shared>& shared, Row row, Mesher m
           }};
 }
 
+std::vector<std::array<glm::dvec3, 3>> cornerNormals(const std::vector<glm::vec3>& normals,
+                                                     const std::vector<glm::uvec3>& triangles) {
+  std::vector<std::array<glm::dvec3, 3>> corners;
+  for (const glm::uvec3& t : triangles) corners.push_back({normals[t.x], normals[t.y], normals[t.z]});
+  return corners;
+}
+
 Made judgedAsOurs(MeshedShape meshed) {
-  Made made{{accuracy::weldedMesh(meshed.mesh)}, std::nullopt};
-  for (const glm::uvec3& t : meshed.mesh.triangles)
-    made.judged.normals.push_back(
-        {meshed.mesh.normals[t.x], meshed.mesh.normals[t.y], meshed.mesh.normals[t.z]});
+  const Mesh& mesh = meshed.mesh;
+  Made made{{accuracy::weldedMesh(mesh), cornerNormals(mesh.normals, mesh.triangles)}, std::nullopt};
   made.ours = std::move(meshed);
   return made;
 }
@@ -116,13 +120,6 @@ accuracy::TriangleMesh inDouble(const std::vector<glm::vec3>& points,
   for (const glm::vec3& p : points) mesh.points.emplace_back(p);
   for (const glm::uvec3& t : triangles) mesh.triangles.emplace_back(t);
   return mesh;
-}
-
-std::vector<std::array<glm::dvec3, 3>> cornerNormals(const std::vector<glm::vec3>& normals,
-                                                     const std::vector<glm::uvec3>& triangles) {
-  std::vector<std::array<glm::dvec3, 3>> corners;
-  for (const glm::uvec3& t : triangles) corners.push_back({normals[t.x], normals[t.y], normals[t.z]});
-  return corners;
 }
 
 enum class Stage { Extraction, Projection, Creases };
@@ -147,20 +144,13 @@ Mesher stagesTo(Stage last, double h) {
         sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress);
     Mesh mesh;
     splitAtCreases(sharp.mesh, field, 0.0f, progress, mesh);
-    Made made{{accuracy::weldedMesh(mesh), cornerNormals(mesh.normals, mesh.triangles)}};
-    return made;
+    return Made{{accuracy::weldedMesh(mesh), cornerNormals(mesh.normals, mesh.triangles)}};
   };
-}
-
-std::string shown(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
 }
 
 void addVoxels(const std::shared_ptr<Shared>& shared, int resolution, std::vector<Measurement>& all) {
   const double h = shared->subject.bounds.longestSide() / resolution;
-  const std::string setting = shown(resolution) + " voxels";
+  const std::string setting = std::to_string(resolution) + " voxels";
   const auto add = [&](const char* method, Mesher mesher) {
     all.push_back(measurement(shared, {.method = method, .setting = setting, .size = h}, std::move(mesher)));
   };
@@ -177,7 +167,7 @@ void addVoxels(const std::shared_ptr<Shared>& shared, int resolution, std::vecto
 void addTolerance(const std::shared_ptr<Shared>& shared, double share, std::vector<Measurement>& all) {
   const double tolerance = share * glm::length(shared->subject.bounds.size());
   const MeshOptions options{.tolerance = tolerance, .strict = false};
-  Row row{.setting = shown(100.0 * share) + " % of the diagonal", .size = tolerance};
+  Row row{.setting = formatted("%g %% of the diagonal", 100.0 * share), .size = tolerance};
   const auto add = [&](const char* method, Mesher mesher) {
     row.method = method;
     all.push_back(measurement(shared, row, std::move(mesher)));
@@ -223,7 +213,7 @@ std::vector<Batch> meshingBatches(const std::vector<Subject>& subjects, Extent e
           [n](const auto& s, auto& all) { addVoxels(s, n, all); });
     for (const double share : tolerances) {
       if (!subject.easy && share != kDefaultTolerance) continue;
-      add("tolerance " + shown(100.0 * share) + " %", 4e-3 / share + 1.0,
+      add(formatted("tolerance %g %%", 100.0 * share), 4e-3 / share + 1.0,
           [share](const auto& s, auto& all) { addTolerance(s, share, all); });
     }
   }

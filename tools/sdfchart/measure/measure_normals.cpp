@@ -70,9 +70,7 @@ std::size_t pointsFor(Extent extent) { return byExtent<std::size_t>(extent, 4096
 std::vector<Measurement> awayFromOrigin(double away, Extent extent) {
   const auto torus = std::make_shared<const Torus>(away, pointsFor(extent));
   const int factor = byExtent(extent, 1, 2, 6);  // powers of two between steps
-  char scene[64];
-  std::snprintf(scene, sizeof scene, "torus %g from the origin", away);
-  Row row{.scene = scene, .method = kExact, .setting = "no step"};
+  Row row{.scene = formatted("torus %g from the origin", away), .method = kExact, .setting = "no step"};
   row.isDefault = 1.0;
   std::vector<Measurement> all{measurement(torus, row, {})};
   row.isDefault = 0.0;
@@ -93,11 +91,9 @@ std::vector<Measurement> overDistance(Extent extent) {
   for (const double away : byExtent<std::vector<double>>(extent, {1.0, 10.0, 100.0, 1e3, 1e4, 1e5},
                                                          {1.0, 10.0, 100.0, 1e3, 1e4}, {1.0})) {
     const auto torus = std::make_shared<const Torus>(away, pointsFor(extent));
-    char setting[64];
-    std::snprintf(setting, sizeof setting, "%g away", away);
     Row row{.scene = "over the distance from the origin (torus, step 2^" + std::to_string(kPower) + ")",
             .method = kExact,
-            .setting = setting,
+            .setting = formatted("%g away", away),
             .size = away};
     row.isDefault = 1.0;
     all.push_back(measurement(torus, row, {}));

@@ -1,23 +1,14 @@
 #include "memory_peak.h"
 
-#include <malloc.h>
-
 #include <fstream>
-#include <limits>
-#include <string>
+
+#include "sdf2gltf/memory.h"
+#include "sdfchart/row.h"
 
 namespace sdf::chart {
 namespace {
 
-// A figure of /proc/self/status in bytes.
-double statusBytes(const std::string& name) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word; status.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
-    double kibibytes = 0.0;
-    if (word == name && status >> kibibytes) return kibibytes * 1024.0;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
+using exporter::memoryFigure;
 
 // Sets the peak back to what is held now; false where the system does not let us.
 bool forgetPeak() {
@@ -29,13 +20,11 @@ bool forgetPeak() {
 }  // namespace
 
 MemoryPeak::MemoryPeak() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-  before_ = forgetPeak() ? statusBytes("VmRSS:") : std::numeric_limits<double>::quiet_NaN();
+  exporter::releaseFreedMemory();
+  before_ = forgetPeak() ? memoryFigure("VmRSS:").value_or(kNone) : kNone;
 }
 
-double MemoryPeak::bytes() const { return statusBytes("VmHWM:") - before_; }
+double MemoryPeak::bytes() const { return memoryFigure("VmHWM:").value_or(kNone) - before_; }
 
 double MemoryPeak::restart() {
   const double most = bytes();

@@ -57,7 +57,7 @@ class Drawing {
   double draw(const Limits& limits) {
     if (!renderer_) open();
     return secondsOf([&] {
-      must(renderer_->draw(frame(limits), *target_));
+      take(renderer_->draw(frame(limits), *target_));
       viewer::finish();
     });
   }
@@ -81,7 +81,7 @@ class Drawing {
   /// Readings a ray of such a frame, those of the cones included.
   double readings(const Limits& limits) {
     if (!counter_) counter_ = take(Renderer::make(scene_, options(true)));
-    must(counter_->draw(frame(limits), *target_));
+    take(counter_->draw(frame(limits), *target_));
     return take(counter_->readings(*target_)).primary;
   }
 
@@ -163,12 +163,10 @@ std::vector<Measurement> drawnRays(const std::shared_ptr<KnownRays>& known, int 
   for (const int steps : budgets)
     for (std::size_t i = 0; i < drawings.size(); ++i)
       for (const double threshold : kThresholds) {
-        char setting[64];
-        std::snprintf(setting, sizeof setting, "%g of a pixel's cone", threshold);
         Row row{.kind = "marching",
                 .scene = budgetName(known->scene().name + ", OpenGL", steps),
                 .method = kWays[i].name,
-                .setting = setting,
+                .setting = formatted("%g of a pixel's cone", threshold),
                 .size = threshold};
         row.isDefault = isUsual(kWays[i], {threshold, steps});
         all.push_back(measurement(drawings[i], row, {threshold, steps}));

@@ -20,12 +20,8 @@ std::unique_ptr<viewer::Context> opened() {
 // Never closed: at the end of the process the driver's own threads may be gone already.
 const viewer::Driver& openedDriver() {
   static viewer::Context* const context = opened().release();
-  must(context->makeCurrent());
+  take(context->makeCurrent());
   return context->driver();
-}
-
-void must(const Status& status) {
-  if (!status) throw std::runtime_error(status.error().message);
 }
 
 }  // namespace sdf::chart

@@ -8,7 +8,4 @@ namespace sdf::chart {
 /// Throws std::runtime_error where there is none.
 const viewer::Driver& openedDriver();
 
-/// Throws what went wrong.
-void must(const Status& status);
-
 }  // namespace sdf::chart

@@ -59,7 +59,7 @@ void ShaderReading::run() const {
   state_->target.bind();
   state_->program.draw();
   viewer::finish();
-  must(viewer::check("read by a shader"));
+  take(viewer::check("read by a shader"));
 }
 
 std::vector<float> ShaderReading::values() const {

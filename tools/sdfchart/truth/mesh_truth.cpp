@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 
+#include "accuracy/take.h"
 #include "reference/triangle_soup.h"
 #include "sdf/mesh/mesher.h"
 
@@ -23,14 +24,7 @@ class SolidTruth : public MeshTruth {
       : solid_(std::move(solid)), points_(solid_->surfacePoints(points, kSeed)) {}
   double distance(const glm::dvec3& p) const override { return solid_->distance(p); }
   glm::dvec3 normal(const glm::dvec3& p) const override {
-    constexpr double kStep = 1e-6;
-    glm::dvec3 gradient;
-    for (int axis = 0; axis < 3; ++axis) {
-      glm::dvec3 step(0.0);
-      step[axis] = kStep;
-      gradient[axis] = solid_->value(p + step) - solid_->value(p - step);
-    }
-    return glm::normalize(gradient);
+    return glm::normalize(accuracy::gradient([this](const glm::dvec3& q) { return solid_->value(q); }, p));
   }
   const std::vector<glm::dvec3>& points() const override { return points_; }
   double error() const override { return 1e-9; }
@@ -109,9 +103,8 @@ std::unique_ptr<MeshTruth> truthOf(const Subject& subject, std::size_t points) {
   constexpr double kFine = 400.0;
   Progress progress;
   const MeshOptions options{.voxelSize = subject.bounds.longestSide() / kFine};
-  const Result<MeshedShape> fine = meshShape(subject.shape, subject.name, options, progress);
-  if (!fine) throw std::runtime_error(fine.error().message);
-  return std::make_unique<FineMeshTruth>(accuracy::weldedMesh(fine->mesh), fine->stats.maxDistance, points);
+  const MeshedShape fine = take(meshShape(subject.shape, subject.name, options, progress));
+  return std::make_unique<FineMeshTruth>(accuracy::weldedMesh(fine.mesh), fine.stats.maxDistance, points);
 }
 
 void judgeMesh(const JudgedMesh& judged, const MeshTruth& truth, std::size_t points, Row& row) {

@@ -241,7 +241,7 @@ class BandSampler {
   Places operandsNear(const Cell& cell, const openvdb::Coord& origin, int size) const {
     if (cell.operands->size() == 1 || model_.slope() == kInfinity) return cell.operands;
     const double most = kExact * h_ * model_.slope() + slack(centre(origin, size));
-    std::vector<std::uint32_t> near = model_.near(reached(origin, size), most, *cell.operands);
+    std::vector<std::uint32_t> near = model_.relevantOperands(reached(origin, size), most, *cell.operands);
     if (near.size() == cell.operands->size()) return cell.operands;
     return std::make_shared<const std::vector<std::uint32_t>>(std::move(near));
   }

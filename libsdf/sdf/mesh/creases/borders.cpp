@@ -9,6 +9,7 @@
 #include "sdf/mesh/edit/divide.h"
 #include "sdf/mesh/edit/short_edges.h"
 #include "sdf/mesh/surface/surface_paint.h"
+#include "sdf/triangles/incidence.h"
 
 namespace sdf {
 namespace {
@@ -67,7 +68,7 @@ class BorderCutter {
       mesh_.triangles.clear(), mesh_.materials.clear(), paint_.clear(), middles_.clear();
       for (std::size_t t = 0; t < triangles.size(); ++t) cut(t, triangles[t]);
       if (!leaveOutWhatCrosses()) {
-        if (whole) dropLeftOut();
+        if (whole) dropUnused(mesh_);
         break;
       }
       mesh_.creases = creases, mesh_.positions = positions;
@@ -273,10 +274,6 @@ class BorderCutter {
       for (const std::uint32_t t : pair)
         for (int k = 0; k < 3; ++k) leaveOut(mesh_.triangles[t][k], leave);
     return std::erase_if(crossings_, [&](const auto& entry) { return leave[entry.second] != 0; }) > 0;
-  }
-  void dropLeftOut() {
-    std::vector<glm::vec3> normals(mesh_.positions.size());
-    dropUnused(mesh_, normals);
   }
   // The middle of three crossings stands for them.
   void leaveOut(std::uint32_t v, std::vector<char>& leave) const {

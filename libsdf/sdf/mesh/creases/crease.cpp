@@ -1,13 +1,12 @@
 #include "sdf/mesh/creases/crease.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "sdf/mesh/edit/indices-inl.h"
 #include "sdf/mesh/surface/surface_points.h"
 
 namespace sdf {
@@ -305,19 +304,12 @@ using Edges = std::vector<std::array<std::uint32_t, 2>>;
 
 // Each edge whose ends have different normals, once.
 Edges edgesThatTurn(const std::vector<glm::vec3>& normals, const std::vector<glm::uvec3>& triangles) {
-  constexpr std::size_t kChunk = 8192;
-  std::vector<Edges> pieces((triangles.size() + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
-    const std::size_t end = std::min(triangles.size(), (piece + 1) * kChunk);
-    for (std::size_t t = piece * kChunk; t < end; ++t)
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-        if (a < b && glm::dot(normals[a], normals[b]) < kSmooth) pieces[piece].push_back({a, b});
-      }
+  return collected<Edges::value_type>(triangles.size(), [&](std::uint32_t t, Edges& out) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      if (a < b && glm::dot(normals[a], normals[b]) < kSmooth) out.push_back({a, b});
+    }
   });
-  Edges all;
-  for (const Edges& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
-  return all;
 }
 
 // Where both halves of an edge turn by nearly as much, the surface bends and has no crease there.

@@ -1,7 +1,5 @@
 #include "sdf/mesh/creases/sharpen.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -11,11 +9,13 @@
 
 #include "sdf/mesh/edit/divide.h"
 #include "sdf/mesh/edit/feature_mesh.h"
+#include "sdf/mesh/edit/indices-inl.h"
 #include "sdf/mesh/edit/islands.h"
 #include "sdf/mesh/edit/short_edges.h"
 #include "sdf/mesh/edit/uncross.h"
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/project.h"
+#include "sdf/triangles/incidence.h"
 
 namespace sdf {
 namespace {
@@ -65,7 +65,7 @@ class Sharpener {
     const double shortest = kShort * field_.finder()->at(mesh_.positions[0]).voxel;
     const Collapses collapses = collapseShortEdges(mesh_, normals_, anchors_, shortest);
     std::vector<std::uint32_t> doubtful = uncross(mesh_, normals_, cuts_, collapses);
-    const std::vector<std::uint32_t> place = dropUnused(mesh_, normals_);
+    const std::vector<std::uint32_t> place = dropUnused(mesh_, &normals_);
     for (std::uint32_t& v : doubtful) v = place[v];
     std::erase(doubtful, Collapses::kNone);
     return {std::move(mesh_), std::move(doubtful)};
@@ -140,21 +140,12 @@ class Sharpener {
 
   // Those that any crossing lies on, in their order.
   std::vector<Crossed> crossedTriangles() const {
-    constexpr std::size_t kChunk = 8192;
-    std::vector<std::vector<Crossed>> pieces((triangles_.size() + kChunk - 1) / kChunk);
-    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
-      const std::size_t end = std::min(triangles_.size(), (piece + 1) * kChunk);
-      for (std::size_t i = piece * kChunk; i < end; ++i) {
-        const glm::uvec3& t = triangles_[i];
-        if (touched_[t.x] + touched_[t.y] + touched_[t.z] < 2) continue;
-        const auto x = crossingsOf(t);
-        if (x[0] != kNone || x[1] != kNone || x[2] != kNone)
-          pieces[piece].push_back({static_cast<std::uint32_t>(i), x});
-      }
+    return collected<Crossed>(triangles_.size(), [&](std::uint32_t i, std::vector<Crossed>& out) {
+      const glm::uvec3& t = triangles_[i];
+      if (touched_[t.x] + touched_[t.y] + touched_[t.z] < 2) return;
+      const auto x = crossingsOf(t);
+      if (x[0] != kNone || x[1] != kNone || x[2] != kNone) out.push_back({i, x});
     });
-    std::vector<Crossed> all;
-    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
-    return all;
   }
 
   static bool isThreefold(const std::array<std::uint32_t, 3>& x) {

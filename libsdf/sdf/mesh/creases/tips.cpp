@@ -1,6 +1,5 @@
 #include "sdf/mesh/creases/tips.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "sdf/mesh/edit/crossings.h"
+#include "sdf/mesh/edit/indices-inl.h"
 #include "sdf/mesh/edit/islands.h"
 #include "sdf/mesh/edit/short_edges.h"
 #include "sdf/mesh/surface/surface_points.h"
@@ -107,24 +107,18 @@ class Finder {
   void gather() {
     std::vector<char> creased(mesh_.positions.size(), 0);
     for (const auto& [a, b] : mesh_.creases) creased[a] = creased[b] = 1;
-    constexpr std::size_t kChunk = 8192;
-    std::vector<std::vector<Pair>> pieces((mesh_.triangles.size() + kChunk - 1) / kChunk);
-    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
-      const std::size_t end = std::min(mesh_.triangles.size(), (piece + 1) * kChunk);
-      for (std::size_t t = piece * kChunk; t < end; ++t) {
-        const glm::uvec3& c = mesh_.triangles[t];
-        const auto turns = [&](std::uint32_t a, std::uint32_t b) {
-          return glm::dot(normals_[a], normals_[b]) < kTurned;
-        };
-        if (!turns(c.x, c.y) && !turns(c.y, c.z) && !turns(c.z, c.x)) continue;
-        if (creased[c.x] || creased[c.y] || creased[c.z]) continue;
-        for (int k = 0; k < 3; ++k) {
-          pieces[piece].push_back({c[k], c[(k + 1) % 3]});
-          pieces[piece].push_back({c[k], c[(k + 2) % 3]});
-        }
+    around_ = collected<Pair>(mesh_.triangles.size(), [&](std::uint32_t t, std::vector<Pair>& out) {
+      const glm::uvec3& c = mesh_.triangles[t];
+      const auto turns = [&](std::uint32_t a, std::uint32_t b) {
+        return glm::dot(normals_[a], normals_[b]) < kTurned;
+      };
+      if (!turns(c.x, c.y) && !turns(c.y, c.z) && !turns(c.z, c.x)) return;
+      if (creased[c.x] || creased[c.y] || creased[c.z]) return;
+      for (int k = 0; k < 3; ++k) {
+        out.push_back({c[k], c[(k + 1) % 3]});
+        out.push_back({c[k], c[(k + 2) % 3]});
       }
     });
-    for (const auto& piece : pieces) around_.insert(around_.end(), piece.begin(), piece.end());
     tbb::parallel_sort(around_);
     around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
   }
@@ -257,8 +251,6 @@ class Crowner {
   static constexpr int kRings = 3;
   // What a fan's triangle may turn around the axis: 100 degrees.
   static constexpr double kRound = 1.745;
-  // Cosine between a fan's triangle and the normals at its corners, squared, at least: 60 degrees.
-  static constexpr double kAgree = 0.25;
 
   // The triangles around the vertices within reach, and the sides of the hole that they leave.
   bool find(const Tip& tip, double reach) {
@@ -310,11 +302,8 @@ class Crowner {
       const glm::dvec3 u = glm::dvec3(mesh_.positions[a]) - tip.at,
                        v = glm::dvec3(mesh_.positions[b]) - tip.at;
       const glm::dvec3 area = glm::cross(u, v);
-      for (const std::uint32_t c : {a, b}) {
-        const double along = glm::dot(area, glm::dvec3(normals_[c]));
-        if (normals_[c] != glm::vec3(0.0f) && !(along > 0.0 && along * along > kAgree * glm::dot(area, area)))
-          return false;
-      }
+      for (const std::uint32_t c : {a, b})
+        if (!isNone(normals_[c]) && !isFacing(area, glm::dvec3(normals_[c]))) return false;
       const glm::dvec3 axis = glm::normalize(tip.axis);
       const auto flat = [&](const glm::dvec3& p) { return p - glm::dot(p, axis) * axis; };
       const double turn = std::atan2(glm::dot(area, axis), glm::dot(flat(u), flat(v)));
@@ -404,7 +393,7 @@ void placeTips(FeatureMesh& mesh, std::vector<glm::vec3>& normals, std::vector<s
   for (const Tip& tip : tips) crowner.crown(tip, locals->at(glm::vec3(tip.at)).voxel);
   std::erase_if(mesh.triangles, isGone);
   dropSwallowed(mesh, findIslands(mesh.positions, mesh.triangles));
-  const std::vector<std::uint32_t> place = dropUnused(mesh, normals);
+  const std::vector<std::uint32_t> place = dropUnused(mesh, &normals);
   for (std::uint32_t& v : doubtful) v = place[v];
   std::erase(doubtful, Collapses::kNone);
 }

@@ -169,7 +169,7 @@ class BorderPainter {
       mesh_.normals.push_back(glm::vec3(mesh_.normals[v]));
       mesh_.colors.emplace_back();
       mesh_.ambient.emplace_back();
-      mesh_.copyOf.push_back(v < mesh_.welded ? v : mesh_.copyOf[v - mesh_.welded]);
+      mesh_.copyOf.push_back(mesh_.pointOf(v));
     } else {
       taken_[v] = 1;
     }

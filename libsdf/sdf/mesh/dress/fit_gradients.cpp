@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/mesh/edit/feature_mesh.h"
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/surface_points.h"
 
@@ -16,8 +17,6 @@ namespace {
 constexpr int kFewest = 2, kMost = 8;
 // Triangles at a time, to bound the memory.
 constexpr std::size_t kChunk = std::size_t{1} << 14;
-// Gradients 60 degrees or more from a facet (cosine) are of another side of an edge.
-constexpr float kFacing = 0.5f;
 // What a vertex's own gradient weighs, beside those of the triangles around it.
 constexpr float kOwn = 0.02f;
 // The matrix's condition is at most four for each vertex: of the error a thousandth is left.

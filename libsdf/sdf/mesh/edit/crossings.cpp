@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <memory>
@@ -20,9 +19,6 @@
 namespace sdf {
 namespace {
 
-// Tiles are chosen so that one holds about so many triangles of a surface, and those on a side are bounded.
-constexpr double kTileTriangles = 100.0;
-constexpr int kMostTiles = 160;
 // Fewer triangles than these are compared each with each.
 constexpr std::size_t kFew = 24;
 // Halves that together hold more than this share of the whole make it no easier.
@@ -67,7 +63,6 @@ class Search {
     return {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), t};
   }
 
-  // A surface passes about 3 n² of n³ tiles.
   void layTiles() {
     using Range = tbb::blocked_range<std::size_t>;
     constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -83,8 +78,7 @@ class Search {
         [](const Item& a, const Item& b) {
           return Item{glm::min(a.low, b.low), glm::max(a.high, b.high), 0};
         });
-    const double wanted = std::sqrt(static_cast<double>(among_.size()) / (3.0 * kTileTriangles));
-    tiles_ = Tiles(all.low, all.high, std::clamp(static_cast<int>(wanted), 1, kMostTiles));
+    tiles_ = Tiles::ofTriangles(all.low, all.high, among_.size());
   }
 
   template <class Work>

@@ -1,16 +1,22 @@
 // A closed triangle mesh that knows its creases: what is handed from the finding of edges to remeshing.
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "sdf/triangles/compaction.h"
+
 namespace sdf {
 
-/// What remeshing is to leave of a vertex: nothing in particular; where it is, for it is a tip (tips.h); its
-/// edges, too; and of triangles between such also as far from the surface as they are.
-enum class Hold : std::uint8_t { None, Tip, Kept, Left };
+/// What remeshing may do with a vertex; each value forbids what those before it do.
+enum class Hold : std::uint8_t {
+  Free,   ///< anything
+  Tip,    ///< it does not move: it is a tip (tips.h)
+  Fixed,  ///< nor do its edges go or turn
+  Exempt  ///< nor does the tolerance hold for triangles that have three such vertices
+};
 
 /// Triangles, counter-clockwise seen from outside, closed and manifold, and those of their edges along which
 /// the surface has an edge or its paint a border. A vertex without creases lies on one smooth piece of the
@@ -23,16 +29,27 @@ struct FeatureMesh {
   std::vector<int> materials{};
   std::vector<Hold> held{};  ///< of the first vertices; of all others none is held
 
-  Hold heldAt(std::uint32_t v) const { return v < held.size() ? held[v] : Hold::None; }
+  Hold heldAt(std::uint32_t v) const { return v < held.size() ? held[v] : Hold::Free; }
 };
 
 /// A triangle that was taken away, and keeps its place in the list for a while, has one vertex for all
 /// corners.
 inline bool isGone(const glm::uvec3& triangle) { return triangle.x == triangle.y; }
 
-/// One number for the edge between two vertices, whichever comes first.
-inline std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+/// Does a vertex have no normal of its own, as on a crease?
+inline bool isNone(const glm::vec3& normal) { return normal == glm::vec3(0.0f); }
+
+/// A triangle and a normal that are 60 degrees or more from each other (cosine) belong to different pieces.
+inline constexpr float kFacing = 0.5f;
+/// Are they nearer? `area` is along the triangle's normal.
+template <class Vector>
+bool isFacing(const Vector& area, const Vector& normal) {
+  const auto along = glm::dot(area, normal), square = glm::dot(area, area);
+  return along > 0 && along * along > kFacing * kFacing * square;
 }
+
+/// Drops the triangles that are gone, and the vertices that no triangle has, with their normals, if these are
+/// given. What is left keeps its order. Returns Compaction::after. Cost: linear.
+std::vector<std::uint32_t> dropUnused(FeatureMesh& mesh, std::vector<glm::vec3>* normals = nullptr);
 
 }  // namespace sdf

@@ -47,26 +47,21 @@ HalfEdgeMesh::HalfEdgeMesh(const FeatureMesh& mesh)
     for (const Index v : edge) creases_[v] = static_cast<std::uint8_t>(std::min(creases_[v] + 1, 3));
   }
   for (Index v = 0; v < held_.size(); ++v)
-    if (held_[v] != Hold::None) creases_[v] = 3;
+    if (held_[v] != Hold::Free) creases_[v] = 3;
 }
 
 FeatureMesh HalfEdgeMesh::compacted() const {
   FeatureMesh mesh;
-  std::vector<Index> number(out_.size(), kNone);
-  for (Index v = 0; v < out_.size(); ++v) {
-    if (!vertexAlive(v)) continue;
-    number[v] = static_cast<Index>(mesh.positions.size());
-    mesh.positions.push_back(positions[v]);
-    if (!held_.empty()) mesh.held.push_back(v < held_.size() ? held_[v] : Hold::None);
-  }
+  mesh.positions = positions, mesh.held = held_;
   for (Index h = 0; h < from_.size(); h += 3) {
     if (!alive(h)) continue;
-    mesh.triangles.emplace_back(number[from_[h]], number[from_[h + 1]], number[from_[h + 2]]);
+    mesh.triangles.emplace_back(from_[h], from_[h + 1], from_[h + 2]);
     if (hasMaterials()) mesh.materials.push_back(material(h));
   }
   for (Index h = 0; h < from_.size(); ++h)
-    if (alive(h) && isCrease(h) && from(h) < to(h)) mesh.creases.push_back({number[from(h)], number[to(h)]});
-  std::sort(mesh.creases.begin(), mesh.creases.end());
+    if (alive(h) && isCrease(h) && from(h) < to(h)) mesh.creases.push_back({from(h), to(h)});
+  std::ranges::sort(mesh.creases);
+  dropUnused(mesh);
   return mesh;
 }
 
@@ -81,7 +76,7 @@ bool HalfEdgeMesh::adjacent(Index u, Index v) const {
 
 bool HalfEdgeMesh::canCollapse(Index h) const {
   const Index u = from(h), v = to(h), g = twin(h);
-  if (isHeld(v)) return false;
+  if (isFixed(v)) return false;
   if (creases_[u] == 2 ? !isCrease(h) : creases_[u] != 0) return false;
   // The sides that come to lie on each other: from u, and from v, to the corner across.
   if (isCrease(previous(h)) && isCrease(next(h))) return false;
@@ -117,7 +112,7 @@ void HalfEdgeMesh::collapse(Index h) {
 }
 
 bool HalfEdgeMesh::canFlip(Index h) const {
-  return !isCrease(h) && !isHeld(from(h)) && !isHeld(to(h)) && apex(h) != apex(twin(h)) &&
+  return !isCrease(h) && !isFixed(from(h)) && !isFixed(to(h)) && apex(h) != apex(twin(h)) &&
          !adjacent(apex(h), apex(twin(h)));
 }
 

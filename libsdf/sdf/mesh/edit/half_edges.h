@@ -43,15 +43,15 @@ class HalfEdgeMesh {
   Index halfEdges() const { return static_cast<Index>(from_.size()); }
   Index vertices() const { return static_cast<Index>(out_.size()); }
   std::size_t liveTriangles() const { return live_; }
-  /// Is v to stay, and with it the edges that end there?
-  bool isHeld(Index v) const { return v < held_.size() && held_[v] >= Hold::Kept; }
-  bool isLeft(Index v) const { return v < held_.size() && held_[v] == Hold::Left; }
-  /// Is the triangle that h is the first half-edge of to be left as it is?
-  bool isLeftTriangle(Index h) const {
-    return isLeft(from_[h]) && isLeft(from_[h + 1]) && isLeft(from_[h + 2]);
+  /// Is v to stay where it is, and with it the edges that end there?
+  bool isFixed(Index v) const { return v < held_.size() && held_[v] >= Hold::Fixed; }
+  bool isExempt(Index v) const { return v < held_.size() && held_[v] == Hold::Exempt; }
+  /// Of the triangle that h is the first half-edge of: need it not keep the tolerance?
+  bool isExemptTriangle(Index h) const {
+    return isExempt(from_[h]) && isExempt(from_[h + 1]) && isExempt(from_[h + 2]);
   }
-  /// Creases that end at v: 0 on a smooth piece, 2 on a crease; any other number makes a corner, which a tip
-  /// and a vertex that is held count as.
+  /// Creases that end at v: 0 on a smooth piece, 2 on a crease; any other number makes a corner, which a
+  /// vertex that is not free counts as.
   int creasesAt(Index v) const { return creases_[v]; }
   bool adjacent(Index u, Index v) const;
 

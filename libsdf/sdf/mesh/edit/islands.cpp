@@ -1,13 +1,10 @@
 #include "sdf/mesh/edit/islands.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -15,6 +12,7 @@
 #include "sdf/mesh/edit/indices-inl.h"
 #include "sdf/mesh/edit/tiles.h"
 #include "sdf/triangles/incidence.h"
+#include "sdf/triangles/tree.h"
 
 namespace sdf {
 namespace {
@@ -25,13 +23,6 @@ constexpr int kProbes = 16, kSwallowed = 2;
 constexpr float kTurned = -0.1736f;  // cos 100 degrees
 constexpr std::uint32_t kNone = ~0u;
 constexpr double kMostTiles = 1024.0;  // to a side
-
-// Of a triangle seen from the origin, positive from behind (Van Oosterom, Strackee 1983).
-double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const double p = glm::length(a), q = glm::length(b), r = glm::length(c);
-  return 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                          p * q * r + glm::dot(a, b) * r + glm::dot(b, c) * p + glm::dot(c, a) * q);
-}
 
 // A point of an island.
 struct Probe {
@@ -81,15 +72,12 @@ void findTurns(const FeatureMesh& mesh, const std::vector<std::uint32_t>& island
       }
     });
   };
-  constexpr std::size_t kChunk = 8192;
-  std::vector<std::vector<std::pair<std::uint32_t, int>>> met((mesh.triangles.size() + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, met.size(), [&](std::size_t chunk) {
-    const std::size_t end = std::min(mesh.triangles.size(), (chunk + 1) * kChunk);
-    for (std::size_t t = chunk * kChunk; t < end; ++t)
-      forEachMet(mesh.triangles[t], [&](std::uint32_t i, int way) { met[chunk].emplace_back(i, way); });
-  });
-  for (const auto& some : met)
-    for (const auto& [i, way] : some) probes[i].turns += way;
+  using Met = std::pair<std::uint32_t, int>;
+  for (const auto& [i, way] :
+       collected<Met>(mesh.triangles.size(), [&](std::uint32_t t, std::vector<Met>&out) {
+         forEachMet(mesh.triangles[t], [&](std::uint32_t probe, int turn) { out.emplace_back(probe, turn); });
+       }))
+    probes[i].turns += way;
 }
 
 }  // namespace
@@ -132,7 +120,7 @@ std::vector<Island> findIslands(const std::vector<glm::vec3>& positions,
       };
       const glm::dvec3 a = corner(t.x), b = corner(t.y), c = corner(t.z);
       volume[i] += glm::dot(a, glm::cross(b, c));
-      turns[i] += solidAngle(a, b, c) / (4.0 * std::numbers::pi);
+      turns[i] += windingOf(a, b, c);
     }
   for (std::uint32_t i = 0; i < islands.size(); ++i) {
     islands[i].solid = volume[i] > 0.0;

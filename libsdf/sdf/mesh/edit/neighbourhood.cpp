@@ -1,10 +1,8 @@
 #include "sdf/mesh/edit/neighbourhood.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "sdf/mesh/edit/indices-inl.h"
 
@@ -29,19 +27,14 @@ void markCorners(std::vector<char>& marked, const FeatureMesh& mesh,
 }
 
 Tiles tilesOf(const FeatureMesh& mesh) {
-  // A surface passes about 3 n² of n³ tiles.
-  constexpr double kTileTriangles = 100.0;
-  constexpr int kMostTiles = 160;
   glm::vec3 low = mesh.positions[0], high = low;
   for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  const double along = std::sqrt(static_cast<double>(mesh.triangles.size()) / (3.0 * kTileTriangles));
-  return Tiles(low, high, std::clamp(static_cast<int>(along), 1, kMostTiles));
+  return Tiles::ofTriangles(low, high, mesh.triangles.size());
 }
 
 Neighbourhood::Neighbourhood(const FeatureMesh& mesh, const Tiles& tiles,
                              const std::vector<std::uint32_t>& some)
     : mesh_(mesh), tiles_(tiles), inside_(tiles.count(), 0) {
-  constexpr std::size_t kChunk = 8192;
   for (const std::uint32_t i : some) {
     const glm::uvec3& t = mesh.triangles[i];
     const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
@@ -49,9 +42,8 @@ Neighbourhood::Neighbourhood(const FeatureMesh& mesh, const Tiles& tiles,
     tiles_.forEach(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), enter, 1);
   }
   std::vector<char> marked(mesh.positions.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, marked.size(), kChunk), [&](const auto& range) {
-    for (std::size_t v = range.begin(); v != range.end(); ++v) marked[v] = contains(mesh.positions[v]);
-  });
+  tbb::parallel_for(std::size_t{0}, marked.size(),
+                    [&](std::size_t v) { marked[v] = contains(mesh.positions[v]); });
   triangles_ = trianglesWith(marked, mesh);
 }
 

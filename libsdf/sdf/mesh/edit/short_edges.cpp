@@ -332,27 +332,4 @@ Collapses collapseShortEdges(FeatureMesh& mesh, const std::vector<glm::vec3>& no
   return Collapser(mesh, normals, anchors, shortest).run();
 }
 
-std::vector<std::uint32_t> dropUnused(FeatureMesh& mesh, std::vector<glm::vec3>& normals) {
-  constexpr std::uint32_t kUnused = Collapses::kNone;
-  std::erase_if(mesh.triangles, isGone);
-  std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
-  for (const glm::uvec3& t : mesh.triangles) place[t.x] = place[t.y] = place[t.z] = 0;
-  std::uint32_t count = 0, held = 0;
-  for (std::uint32_t v = 0; v < place.size(); ++v) {
-    if (place[v] == kUnused) continue;
-    mesh.positions[count] = glm::vec3(mesh.positions[v]);
-    normals[count] = glm::vec3(normals[v]);
-    if (v < mesh.held.size()) mesh.held[count] = mesh.held[v], held = count + 1;
-    place[v] = count++;
-  }
-  mesh.positions.resize(count), normals.resize(count), mesh.held.resize(held);
-  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
-    glm::uvec3& t = mesh.triangles[i];
-    t = {place[t.x], place[t.y], place[t.z]};
-  });
-  // Numbers keep their order, and so do the creases.
-  for (auto& [a, b] : mesh.creases) a = place[a], b = place[b];
-  return place;
-}
-
 }  // namespace sdf

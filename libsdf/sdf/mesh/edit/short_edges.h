@@ -33,13 +33,9 @@ struct Collapses {
 /// their places: a vertex on a crease only moves along it, one of the `anchors` (corners) not at all, but for
 /// those that are the same point. Then any edges, where that turns triangles back that were turned over.
 /// `normals` are the vertices'; each triangle has its least vertex inside its piece. What goes stays in the
-/// mesh, for undoing: see dropUnused. Cost: n log n in the number of creases, and linear in that of
-/// triangles.
+/// mesh, for undoing: see dropUnused (feature_mesh.h). Cost: n log n in the number of creases, and linear in
+/// that of triangles.
 Collapses collapseShortEdges(FeatureMesh& mesh, const std::vector<glm::vec3>& normals,
                              const std::vector<std::uint32_t>& anchors, double shortest);
-
-/// Drops the triangles that are gone, and the vertices that no triangle has, with their normals. What is left
-/// keeps its order. Returns the vertices' new numbers, kNone of those that went. Cost: linear.
-std::vector<std::uint32_t> dropUnused(FeatureMesh& mesh, std::vector<glm::vec3>& normals);
 
 }  // namespace sdf

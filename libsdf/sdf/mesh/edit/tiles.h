@@ -1,6 +1,7 @@
 // A box cut into equal cubes.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -16,6 +17,14 @@ class Tiles {
     const float longest = std::max({size.x, size.y, size.z});
     scale_ = longest > 0.0f ? static_cast<float>(along) / longest : 0.0f;
     counts_ = glm::min(glm::ivec3(size * scale_), along - 1) + 1;
+  }
+
+  /// So many that one holds about a hundred of a surface's triangles: it passes about 3 n² of n³ tiles.
+  static Tiles ofTriangles(const glm::vec3& low, const glm::vec3& high, std::size_t triangles) {
+    constexpr double kTriangles = 100.0;
+    constexpr int kMost = 160;  // along a side
+    const double along = std::sqrt(static_cast<double>(triangles) / (3.0 * kTriangles));
+    return {low, high, std::clamp(static_cast<int>(along), 1, kMost)};
   }
 
   std::size_t count() const { return static_cast<std::size_t>(counts_.x) * counts_.y * counts_.z; }

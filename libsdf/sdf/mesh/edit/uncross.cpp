@@ -16,8 +16,6 @@ namespace {
 // Rounds until a mesh is given up as it is: some ten are the most that any has taken.
 constexpr int kRounds = 60;
 
-bool isNone(const glm::vec3& normal) { return normal == glm::vec3(0.0f); }
-
 TrianglePairs crossingsOf(const std::vector<std::uint32_t>& triangles, const FeatureMesh& mesh,
                           const Neighbourhood& near) {
   std::vector<char> asked(mesh.triangles.size(), 0);
@@ -27,17 +25,13 @@ TrianglePairs crossingsOf(const std::vector<std::uint32_t>& triangles, const Fea
 
 /// Does a triangle agree with the normals at its corners, of which it has one at least?
 bool agrees(const FeatureMesh& mesh, const std::vector<glm::vec3>& normals, const glm::uvec3& t) {
-  constexpr float kLeast = 0.25f;  // the square of the cosine of 60 degrees
   const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
   const glm::vec3 area = glm::cross(b - a, c - a);
-  const float least = kLeast * glm::dot(area, area);
   bool any = false;
   for (int k = 0; k < 3; ++k) {
-    const float along = glm::dot(area, normals[t[k]]);
-    if (along > 0.0f && along * along > least)
-      any = true;
-    else if (!isNone(normals[t[k]]))
-      return false;
+    const bool faces = isFacing(area, normals[t[k]]);
+    if (!faces && !isNone(normals[t[k]])) return false;
+    any = any || faces;
   }
   return any;
 }

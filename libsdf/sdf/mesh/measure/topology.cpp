@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "sdf/base/disjoint_sets.h"
 #include "sdf/triangles/incidence.h"
 
 namespace sdf {
@@ -26,7 +27,6 @@ struct Summary {
 struct Spoke {
   std::uint32_t neighbour;
   int outgoing = 0, incoming = 0;
-  std::uint32_t fan;  // index of another spoke of the same fan; itself at the root
 };
 
 // Examines one vertex at a time: its edges to larger vertices, and whether its triangles form one fan, that
@@ -40,43 +40,37 @@ class VertexExaminer {
     const std::span<const std::uint32_t> around = incidence_.of(v);
     if (around.empty()) return;
     ++s.vertices;
-    spokes_.clear();
+    spokes_.clear(), fans_.clear();
+    std::size_t joins = 0;
     for (const std::uint32_t t : around) {
       const glm::uvec3& c = triangles_[t];
       const int k = c.x == v ? 0 : c.y == v ? 1 : 2;
-      const std::size_t next = spoke(c[(k + 1) % 3]), previous = spoke(c[(k + 2) % 3]);
+      const std::uint32_t next = spoke(c[(k + 1) % 3]), previous = spoke(c[(k + 2) % 3]);
       ++spokes_[next].outgoing;
       ++spokes_[previous].incoming;
-      spokes_[root(next)].fan = root(previous);
+      joins += fans_.join(next, previous);
     }
-    int fans = 0;
-    for (std::uint32_t i = 0; i < spokes_.size(); ++i) {
-      const Spoke& e = spokes_[i];
-      fans += e.fan == i;
+    for (const Spoke& e : spokes_) {
       if (e.neighbour < v) continue;
       ++s.edges;
       s.balanced = s.balanced && e.outgoing == e.incoming;
       s.manifold = s.manifold && e.outgoing == 1 && e.incoming == 1;
     }
-    s.manifold = s.manifold && fans == 1;
+    s.manifold = s.manifold && spokes_.size() == joins + 1;
   }
 
  private:
   std::uint32_t spoke(std::uint32_t neighbour) {
     for (std::uint32_t i = 0; i < spokes_.size(); ++i)
       if (spokes_[i].neighbour == neighbour) return i;
-    const auto i = static_cast<std::uint32_t>(spokes_.size());
-    spokes_.push_back({neighbour, 0, 0, i});
-    return i;
-  }
-  std::uint32_t root(std::uint32_t i) const {
-    while (spokes_[i].fan != i) i = spokes_[i].fan;
-    return i;
+    spokes_.push_back({neighbour}), fans_.add();
+    return static_cast<std::uint32_t>(spokes_.size() - 1);
   }
 
   const std::vector<glm::uvec3>& triangles_;
   const Incidence& incidence_;
   std::vector<Spoke> spokes_;
+  DisjointSets fans_;  // of spokes
 };
 
 }  // namespace

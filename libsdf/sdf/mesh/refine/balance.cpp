@@ -1,17 +1,16 @@
 #include "sdf/mesh/refine/balance.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/mesh/edit/indices-inl.h"
+
 namespace sdf {
 namespace {
 
-// Triangles of one task; fixed, so that sums do not depend on the number of threads.
-constexpr std::size_t kChunk = 8192;
 // Of an edge: half of what normals turn by along it, in radians, where that still tells of the distance.
 constexpr float kMostBend = 0.35f;
 // Cosine between the ways along a crease at a vertex, below which it is a corner: 40 degrees.
@@ -21,8 +20,6 @@ constexpr float kStraight = 0.766f;
 // degrees.
 constexpr float kMostMove = 1.0f / 6.0f;
 
-bool isNone(const glm::vec3& normal) { return normal == glm::vec3(0.0f); }
-
 class Balancer {
  public:
   Balancer(FeatureMesh& mesh, const std::vector<glm::vec3>& normals) : mesh_(mesh), normals_(normals) {}
@@ -30,9 +27,8 @@ class Balancer {
   void run() {
     if (!mesh_.creases.empty()) findCurvatures();
     addTriangles();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sums_.size(), kChunk), [&](const auto& range) {
-      for (std::size_t v = range.begin(); v != range.end(); ++v)
-        if (sums_[v].area > 0.0) mesh_.positions[v] += moveOf(v);
+    tbb::parallel_for(std::size_t{0}, sums_.size(), [&](std::size_t v) {
+      if (sums_[v].area > 0.0) mesh_.positions[v] += moveOf(v);
     });
   }
 
@@ -113,27 +109,25 @@ class Balancer {
 
   // Each task adds to a range of vertices that is its own; what it has for others is added afterwards.
   void addTriangles() {
-    const std::size_t chunks = (mesh_.triangles.size() + kChunk - 1) / kChunk;
+    const std::size_t chunks = (mesh_.triangles.size() + kIndexChunk - 1) / kIndexChunk;
     sums_.assign(mesh_.positions.size(), {});
     std::vector<std::uint32_t> owned(chunks + 1, 0);
     for (std::size_t c = 1; c < chunks; ++c) {
-      const glm::uvec3& first = mesh_.triangles[c * kChunk];
+      const glm::uvec3& first = mesh_.triangles[c * kIndexChunk];
       owned[c] = std::max(owned[c - 1], std::min({first.x, first.y, first.z}));
     }
     owned[chunks] = static_cast<std::uint32_t>(sums_.size());
-    std::vector<std::vector<Share>> others(chunks);
-    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-      const std::size_t end = std::min(mesh_.triangles.size(), (c + 1) * kChunk);
-      for (std::size_t t = c * kChunk; t < end; ++t)
-        addTriangle(mesh_.triangles[t], [&](std::uint32_t v, const Sum& sum) {
-          if (owned[c] <= v && v < owned[c + 1])
-            sums_[v] += sum;
-          else
-            others[c].push_back({v, sum});
+    const auto others =
+        collected<Share>(mesh_.triangles.size(), [&](std::uint32_t t, std::vector<Share>& out) {
+          const std::size_t c = t / kIndexChunk;
+          addTriangle(mesh_.triangles[t], [&](std::uint32_t v, const Sum& sum) {
+            if (owned[c] <= v && v < owned[c + 1])
+              sums_[v] += sum;
+            else
+              out.push_back({v, sum});
+          });
         });
-    });
-    for (const std::vector<Share>& shares : others)
-      for (const Share& s : shares) sums_[s.vertex] += s.sum;
+    for (const Share& s : others) sums_[s.vertex] += s.sum;
   }
 
   /// Of a crease, at a vertex that it passes through.

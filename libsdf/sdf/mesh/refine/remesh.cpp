@@ -28,8 +28,6 @@ constexpr int kHalvings = 16;
 constexpr double kHeld = 0.98, kMeasured = 0.998;
 // Where halving makes more triangles exceed it, so many times the fewest and some, it is given up.
 constexpr std::size_t kRunaway = 2, kFew = 20;
-// Each time that a budget is not met the tolerance gives way by so much.
-constexpr double kGiveWay = 1.2;
 
 // Passes on the wish to stop, and reports nothing: each batch would begin at 0 again.
 class Quiet : public Progress {
@@ -65,16 +63,11 @@ class Remesher {
     }
     adjust(0.0f);
     report(0.7);
-    if (!overBudget()) keepTolerance();
-    if (!overBudget()) halveExceeding();
-    if (!overBudget() && options_.painted) keepColors();
-    if (overBudget()) keepBudget();
+    keepTolerance();
+    halveExceeding();
+    if (options_.painted) keepColors();
     report(1.0);
-    RemeshResult result{measured_.largest,
-                        measured_.rms,
-                        colors_.largest,
-                        measured_.largest <= options_.tolerance && !quiet_.stopped(),
-                        {}};
+    RemeshResult result{measured_.largest, measured_.largest <= options_.tolerance && !quiet_.stopped(), {}};
     for (const std::uint32_t t : measured_.exceeding)
       for (std::uint32_t k = 0; k < 3; ++k) result.exceeding.push_back(mesh_.positions[mesh_.from(t + k)]);
     return result;
@@ -82,10 +75,6 @@ class Remesher {
   FeatureMesh take() const { return mesh_.compacted(); }
 
  private:
-  bool overBudget() const {
-    return options_.maxTriangles != 0 && mesh_.liveTriangles() > options_.maxTriangles;
-  }
-
   void adjust(float loose) {
     for (int i = 0; i < kSweeps && !quiet_.stopped(); ++i) {
       const std::size_t changed = changes_.flip(loose) + changes_.relocate(loose);
@@ -103,7 +92,7 @@ class Remesher {
     changes_.split();
     for (int i = 0; i < kCleanings; ++i) {
       // What splitting and adjusting have made superfluous.
-      changes_.collapse(0, RemeshChanges::Care::Strict);
+      changes_.collapse(RemeshChanges::Care::Strict);
       adjust(0.0f);
       changes_.split();
     }
@@ -127,25 +116,12 @@ class Remesher {
   // Splits what blurs the colours, down to a voxel.
   void keepColors() {
     for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
-      colors_ = measureColors(mesh_, static_cast<float>(options_.tolerance), field_, paint_, quiet_);
-      if (colors_.exceeding.empty()) break;
-      changes_.splitTriangles(colors_.exceeding, options_.force);
+      const ColorErrors colors =
+          measureColors(mesh_, static_cast<float>(options_.tolerance), field_, paint_, quiet_);
+      if (colors.exceeding.empty()) break;
+      changes_.splitTriangles(colors.exceeding, options_.force);
     }
     halveExceeding();
-  }
-
-  // Goes on collapsing in the order of the errors, as far as the budget asks.
-  void keepBudget() {
-    for (double by = kOvershoot * kGiveWay; overBudget() && !quiet_.stopped(); by *= kGiveWay) {
-      const std::size_t before = mesh_.liveTriangles();
-      changes_.setTolerance(by * options_.tolerance);
-      changes_.collapse(options_.maxTriangles);
-      adjust(0.0f);
-      if (mesh_.liveTriangles() == before && by > kHopeless) break;
-    }
-    adjust(kLoose);
-    adjust(0.0f);
-    measure();
   }
 
   void report(double done) {
@@ -153,8 +129,6 @@ class Remesher {
     outer_.update(done);
   }
 
-  // A tolerance that has given way so far without anything going is not what keeps the triangles.
-  static constexpr double kHopeless = 1e9;
   const LocalField& field_;
   const RemeshOptions& options_;
   Progress& outer_;
@@ -162,7 +136,6 @@ class Remesher {
   HalfEdgeMesh mesh_;
   RemeshChanges changes_;
   DenseDistances measured_;
-  ColorErrors colors_;
   std::vector<TriangleDistances> distances_;
   std::vector<TriangleColors> paint_;
 };
@@ -174,7 +147,7 @@ void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions
   Quiet quiet(progress);
   HalfEdgeMesh topology(mesh);
   RemeshChanges(topology, field, kRough * options.tolerance, options.painted, quiet)
-      .collapse(0, RemeshChanges::Care::Rough);
+      .collapse(RemeshChanges::Care::Rough);
   mesh = topology.compacted();
 }
 

@@ -11,8 +11,7 @@
 namespace sdf {
 
 struct RemeshOptions {
-  double tolerance;              ///< distance between mesh and surface, scene units; positive
-  std::size_t maxTriangles = 0;  ///< a budget: the tolerance gives way until it is met; 0: none
+  double tolerance;  ///< distance between mesh and surface, scene units; positive
   /// Does what is seen on the surface change from place to place? Then borders of materials and colours are
   /// held, too (remesh_paint.h).
   bool painted = false;
@@ -22,9 +21,7 @@ struct RemeshOptions {
 
 /// What was measured of the mesh that remesh left.
 struct RemeshResult {
-  double maxDistance = 0.0;  ///< scene units; at most the tolerance, unless a budget made it give way
-  double rmsDistance = 0.0;  ///< weighted by area
-  double colorError = 0.0;   ///< of a painted mesh: ColorErrors::largest
+  double maxDistance = 0.0;  ///< scene units
   bool kept = false;         ///< maxDistance is within the tolerance that was asked for
   /// Corners of the triangles beyond the tolerance: what would mend them would make needles or fold the mesh.
   std::vector<glm::vec3> exceeding;

@@ -71,6 +71,18 @@ void RemeshChanges::dropWorse(const Fans& before, const Fans& after,
   changes.resize(kept);
 }
 
+std::vector<std::uint32_t> RemeshChanges::claimSome(std::vector<std::uint32_t>& waiting, Fans& fans) {
+  ++round_;
+  std::vector<std::uint32_t> chosen;
+  std::erase_if(waiting, [&](std::uint32_t v) {
+    if (!claim(v)) return false;
+    chosen.push_back(v);
+    fans.addAround(mesh_, v);
+    return true;
+  });
+  return chosen;
+}
+
 std::size_t RemeshChanges::relocate(float loose) {
   std::size_t moved = 0;
   std::vector<std::uint32_t> waiting;
@@ -79,18 +91,9 @@ std::size_t RemeshChanges::relocate(float loose) {
         changed_[v] >= settled_[v])
       waiting.push_back(v);
   while (!waiting.empty() && !progress_.stopped()) {
-    ++round_;
     Fans before;
-    std::vector<std::uint32_t> later, chosen;
-    for (const std::uint32_t v : waiting) {
-      if (!claim(v)) {
-        later.push_back(v);
-        continue;
-      }
-      chosen.push_back(v);
-      settled_[v] = round_ + 1;
-      before.addAround(mesh_, v);
-    }
+    std::vector<std::uint32_t> chosen = claimSome(waiting, before);
+    for (const std::uint32_t v : chosen) settled_[v] = round_ + 1;
     std::vector<FanError> old, errors;
     evaluate(before, Sampling::Few, old);
     if (progress_.stopped()) return moved;
@@ -135,7 +138,6 @@ std::size_t RemeshChanges::relocate(float loose) {
       touch(chosen[i]);
       ++moved;
     }
-    waiting = std::move(later);
   }
   return moved;
 }
@@ -157,17 +159,8 @@ void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
   for (const std::uint32_t v : vertices)
     if (mesh_.creasesAt(v) == 0 || mesh_.creasesAt(v) == 2) waiting.push_back(v);
   while (!waiting.empty() && !progress_.stopped()) {
-    ++round_;
-    std::vector<std::uint32_t> chosen, later;
     Fans fans;
-    for (const std::uint32_t v : waiting) {
-      if (!claim(v)) {
-        later.push_back(v);
-        continue;
-      }
-      chosen.push_back(v);
-      fans.addAround(mesh_, v);
-    }
+    const std::vector<std::uint32_t> chosen = claimSome(waiting, fans);
     std::vector<FanError> old, errors;
     evaluate(fans, Sampling::Few, old);
     for (std::size_t i = 0; i < chosen.size(); ++i) fans.all[i].centre += old[i].onto;
@@ -178,7 +171,6 @@ void RemeshChanges::project(const std::vector<std::uint32_t>& vertices) {
       mesh_.positions[chosen[i]] = fans.all[i].centre;
       touch(chosen[i]);
     }
-    waiting = std::move(later);
   }
 }
 

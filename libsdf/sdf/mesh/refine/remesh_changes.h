@@ -27,9 +27,9 @@ class RemeshChanges {
     Usual,  ///< along creases a little more than the tolerance is let pass
     Strict
   };
-  /// Collapses edges, those first along which the surface turns least, until no collapse keeps the tolerance
-  /// or `maxTriangles` are left. Edges that failed are tried anew only when something near them has changed.
-  void collapse(std::size_t maxTriangles = 0, Care care = Care::Usual);
+  /// Collapses edges, those first along which the surface turns least, until no collapse keeps the tolerance.
+  /// Edges that failed are tried anew only when something near them has changed.
+  void collapse(Care care = Care::Usual);
   /// Merges vertices whose distance is next to nothing beside the tolerance, which splits have brought
   /// together; returns how many went.
   std::size_t collapseShortest();
@@ -88,6 +88,8 @@ class RemeshChanges {
   void moveToOffsets(Fans& fans, const std::vector<FanError>& errors) const;
   bool claim(std::uint32_t v);
   bool claimEdge(std::uint32_t h);
+  // Takes those of the waiting vertices that can be changed in one round, and adds their fans.
+  std::vector<std::uint32_t> claimSome(std::vector<std::uint32_t>& waiting, Fans& fans);
   void touch(std::uint32_t v);
   void grow();
 

@@ -177,11 +177,11 @@ std::size_t RemeshChanges::collapseShortest() {
   return gone;
 }
 
-void RemeshChanges::collapse(std::size_t maxTriangles, Care care) {
-  while (!progress_.stopped() && mesh_.liveTriangles() > std::max<std::size_t>(maxTriangles, 4)) {
+void RemeshChanges::collapse(Care care) {
+  while (!progress_.stopped() && mesh_.liveTriangles() > 4) {
     const std::size_t before = mesh_.liveTriangles();
     bool more = false;
-    if (!collapseRound((before - maxTriangles + 1) / 2, care, more)) return;
+    if (!collapseRound((before + 1) / 2, care, more)) return;
     const auto gone = static_cast<double>(before - mesh_.liveTriangles());
     const bool enough = care == Care::Rough || (!more && before > kFew);
     if (enough && gone < kStale * static_cast<double>(before)) return;

@@ -34,8 +34,6 @@ struct Reading {
   glm::vec3 normal;
 };
 
-/// Facets' normals stay within 60 degrees of the gradient (cosine).
-inline constexpr float kFacing = 0.5f;
 /// Sides of a crease that meet at less than 5 degrees (cosine) are one.
 inline constexpr float kOneSide = 0.9962f;
 

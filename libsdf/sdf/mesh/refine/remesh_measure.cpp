@@ -40,14 +40,12 @@ void addPoints(const std::array<glm::vec3, 3>& corners, float cell, std::vector<
 
 // What these distances, the corners' first, say of a triangle.
 TriangleDistances judged(const std::array<glm::vec3, 3>& corners, std::span<const float> distances) {
-  TriangleDistances t{corners, {distances[0], distances[1], distances[2]}, 0.0f, 0.0};
+  TriangleDistances t{corners, {distances[0], distances[1], distances[2]}, 0.0f, true};
   for (const float d : distances) t.largest = d <= t.largest ? t.largest : d;
-  for (const float d : distances.subspan(3)) t.meanSquare += static_cast<double>(d) * static_cast<double>(d);
-  t.meanSquare /= static_cast<double>(distances.size() - 3);
   return t;
 }
 
-bool counts(const HalfEdgeMesh& mesh, std::uint32_t h) { return mesh.alive(h) && !mesh.isLeftTriangle(h); }
+bool counts(const HalfEdgeMesh& mesh, std::uint32_t h) { return mesh.alive(h) && !mesh.isExemptTriangle(h); }
 
 // Reads those of the triangles, by their first half-edges, that are not known.
 class Reader {
@@ -100,27 +98,21 @@ DenseDistances measureDensely(const HalfEdgeMesh& mesh, const LocalField& field,
   known.resize(mesh.halfEdges() / 3);
   Reader reader(mesh, field, known, progress);
   for (std::uint32_t h = 0; h < mesh.halfEdges() && !progress.stopped(); h += 3)
-    if (counts(mesh, h) && !(known[h / 3].meanSquare >= 0.0 && known[h / 3].corners == mesh.corners(h)))
-      reader.add(h);
+    if (counts(mesh, h) && !(known[h / 3].known && known[h / 3].corners == mesh.corners(h))) reader.add(h);
   reader.flush();
   DenseDistances result;
   if (progress.stopped()) return result;
-  double area = 0.0, squares = 0.0;
   for (std::uint32_t h = 0; h < mesh.halfEdges(); h += 3) {
     if (!counts(mesh, h)) continue;
     const TriangleDistances& t = known[h / 3];
     for (std::uint32_t i = 0; i < 3; ++i)
       if (!(t.atCorners[i] <= tolerance)) result.vertices.push_back(mesh.from(h + i));
-    const glm::dvec3 a(t.corners[0]), b(t.corners[1]), c(t.corners[2]);
-    const double size = glm::length(glm::cross(b - a, c - a)), largest = t.largest;
-    area += size;
-    squares += size * t.meanSquare;
+    const double largest = t.largest;
     result.largest = largest <= result.largest ? result.largest : largest;
     if (!(largest <= tolerance)) result.exceeding.push_back(h);
   }
   std::sort(result.vertices.begin(), result.vertices.end());
   result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
-  if (area > 0.0) result.rms = std::sqrt(squares / area);
   return result;
 }
 

@@ -17,7 +17,6 @@ std::vector<float> distancesAt(const std::vector<glm::vec3>& points, const Local
 
 struct DenseDistances {
   double largest = 0.0;                  ///< scene units
-  double rms = 0.0;                      ///< weighted by area
   std::vector<std::uint32_t> exceeding;  ///< triangles (their first half-edges) beyond the tolerance
   std::vector<std::uint32_t> vertices;   ///< those beyond it themselves
 };
@@ -27,7 +26,7 @@ struct TriangleDistances {
   std::array<glm::vec3, 3> corners{};
   std::array<float, 3> atCorners{};
   float largest = 0.0f;
-  double meanSquare = -1.0;  ///< negative before anything is read
+  bool known = false;
 };
 
 /// First-order distances at points all over each triangle, half a voxel (LocalField::Local::voxel) apart at

@@ -124,7 +124,7 @@ ColorErrors measureColors(const HalfEdgeMesh& mesh, float tolerance, const Local
     points.clear(), weights.clear(), triangles.clear(), ends.clear();
   };
   for (std::uint32_t h = 0; h < mesh.halfEdges() && !progress.stopped(); h += 3) {
-    if (!mesh.alive(h) || mesh.isLeftTriangle(h)) continue;
+    if (!mesh.alive(h) || mesh.isExemptTriangle(h)) continue;
     TriangleColors& t = known[h / 3];
     const std::array<glm::vec3, 3> corners = mesh.corners(h);
     if (t.largest >= 0.0f && t.corners == corners) continue;
@@ -141,7 +141,7 @@ ColorErrors measureColors(const HalfEdgeMesh& mesh, float tolerance, const Local
   ColorErrors result;
   if (progress.stopped()) return result;
   for (std::uint32_t h = 0; h < mesh.halfEdges(); h += 3) {
-    if (!mesh.alive(h) || mesh.isLeftTriangle(h)) continue;
+    if (!mesh.alive(h) || mesh.isExemptTriangle(h)) continue;
     const TriangleColors& t = known[h / 3];
     result.largest = std::max(result.largest, static_cast<double>(t.largest));
     if (!t.mayExceed && t.largest > kColorTolerance) result.exceeding.push_back(h);

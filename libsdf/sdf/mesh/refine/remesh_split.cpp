@@ -26,7 +26,7 @@ constexpr double kShortest = 1.0 / 16;
 
 bool RemeshChanges::maySplit(std::uint32_t edge) const {
   const glm::vec3 &a = mesh_.positions[mesh_.from(edge)], &b = mesh_.positions[mesh_.to(edge)];
-  if (mesh_.isLeft(mesh_.from(edge)) && mesh_.isLeft(mesh_.to(edge))) return false;
+  if (mesh_.isExempt(mesh_.from(edge)) && mesh_.isExempt(mesh_.to(edge))) return false;
   return glm::distance(a, b) > kShortest * field_.finder()->at(a).voxel;
 }
 
@@ -49,7 +49,7 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::splitCandidates() {
   std::vector<std::uint32_t> vertices;
   Fans fans;
   for (std::uint32_t v = 0; v < mesh_.vertices(); ++v) {
-    if (!mesh_.vertexAlive(v) || mesh_.isLeft(v) || changed_[v] < since) continue;
+    if (!mesh_.vertexAlive(v) || mesh_.isExempt(v) || changed_[v] < since) continue;
     vertices.push_back(v);
     fans.addAround(mesh_, v);
   }

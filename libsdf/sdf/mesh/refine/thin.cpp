@@ -83,7 +83,7 @@ void holdNear(const std::vector<glm::vec3>& places, double reach, Hold hold, Fea
   for (const glm::vec3& p : places)
     tiles.forEach(
         p, p, [&](std::uint32_t tile) { marked[tile] = 1; }, 1);
-  mesh.held.resize(mesh.positions.size(), Hold::None);
+  mesh.held.resize(mesh.positions.size(), Hold::Free);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     if (marked[tiles.at(mesh.positions[v])]) mesh.held[v] = std::max(mesh.held[v], hold);
 }
@@ -144,7 +144,7 @@ class Thinner {
     for (int i = 0; i < kHolds && !progress_.stopped(); ++i, reach *= kFarther) {
       const std::vector<glm::vec3> crossing = cornersOfCrossings(mesh);
       if (crossing.empty()) break;
-      holdNear(crossing, reach, Hold::Kept, start);
+      holdNear(crossing, reach, Hold::Fixed, start);
       mesh = thinned(start, tolerance);
     }
     return mesh;
@@ -186,7 +186,7 @@ class Thinner {
 
   // Around trouble: where the tolerance need not be kept nothing is asked of it any more.
   void hold(const std::vector<glm::vec3>& places, double reach, FeatureMesh& mesh) {
-    holdNear(places, reach, options_.strict ? Hold::Kept : Hold::Left, mesh);
+    holdNear(places, reach, options_.strict ? Hold::Fixed : Hold::Exempt, mesh);
     leaves_ = !options_.strict;
   }
 

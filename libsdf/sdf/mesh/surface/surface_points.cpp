@@ -23,20 +23,30 @@ constexpr float kVanishing = 1e-3f;
 // Has this sum of squares neither overflown nor lost what matters?
 bool isOrdinary(float squared) { return squared > 0x1p-80f && squared < 0x1p80f; }
 
-}  // namespace
-
-void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point,
-                const LocalField& field, Progress& progress,
-                const std::function<void(const PointRun&)>& work) {
+// Calls work(first, count, evaluator) for each kRunChunk of so many points, in parallel.
+template <class Work>
+void forEachChunk(std::size_t count, Progress& progress, const Work& work) {
   tbb::enumerable_thread_specific<BatchEvaluator> evaluators;
   const std::size_t chunks = (count + kRunChunk - 1) / kRunChunk;
   std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
     if (progress.stopped()) return;
-    const std::size_t end = std::min(count, (chunk + 1) * kRunChunk);
+    const std::size_t first = chunk * kRunChunk;
+    work(first, std::min(count - first, kRunChunk), evaluators.local());
+    progress.update(static_cast<double>(++done) / static_cast<double>(chunks));
+  });
+}
+
+}  // namespace
+
+void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& point,
+                const LocalField& field, Progress& progress,
+                const std::function<void(const PointRun&)>& work) {
+  forEachChunk(count, progress, [&](std::size_t first, std::size_t size, BatchEvaluator& evaluator) {
+    const std::size_t end = first + size;
     const auto finder = field.finder();
     PointRows points;
-    for (std::size_t first = chunk * kRunChunk; first < end;) {
+    while (first < end) {
       const LocalField::Local here = finder->at(point(first));
       std::size_t taken = 0;
       for (; taken < kBatchPoints && first + taken < end; ++taken) {
@@ -45,10 +55,9 @@ void forEachRun(std::size_t count, const std::function<glm::vec3(std::size_t)>& 
         if (there.tapes.surface != here.tapes.surface || there.voxel != here.voxel) break;
         points.set(taken, p);
       }
-      work({first, taken, points, here.tapes, here.voxel, evaluators.local()});
+      work({first, taken, points, here.tapes, here.voxel, evaluator});
       first += taken;
     }
-    progress.update(static_cast<double>(++done) / chunks);
   });
 }
 
@@ -98,12 +107,7 @@ class GroupedChunk {
 
 void forEachGroupedRun(const std::vector<glm::vec3>& points, const LocalField& field, Progress& progress,
                        const std::function<void(const PointRun&, const std::size_t*)>& work) {
-  tbb::enumerable_thread_specific<BatchEvaluator> evaluators;
-  const std::size_t chunks = (points.size() + kRunChunk - 1) / kRunChunk;
-  std::atomic<std::size_t> done{0};
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-    if (progress.stopped()) return;
-    const std::size_t first = chunk * kRunChunk, count = std::min(points.size() - first, kRunChunk);
+  forEachChunk(points.size(), progress, [&](std::size_t first, std::size_t count, BatchEvaluator& evaluator) {
     const GroupedChunk grouped(&points[first], count, *field.finder());
     PointRows rows;
     std::size_t which[kBatchPoints], k = 0;
@@ -114,9 +118,8 @@ void forEachGroupedRun(const std::vector<glm::vec3>& points, const LocalField& f
           which[k - begin] = first + grouped.order()[k];
           rows.set(k - begin, points[which[k - begin]]);
         }
-        work({first + begin, k - begin, rows, group.here.tapes, group.here.voxel, evaluators.local()}, which);
+        work({first + begin, k - begin, rows, group.here.tapes, group.here.voxel, evaluator}, which);
       }
-    progress.update(static_cast<double>(++done) / static_cast<double>(chunks));
   });
 }
 

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/base/srgb.h"
 #include "sdf/expr/gradient.h"
 
 namespace sdf {
 namespace {
-
-double linear(unsigned char srgb) {
-  const double c = srgb / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 glm::dvec3 texel(const TextureImage& image, const glm::dvec2& at) {
   if (image.width < 1 || image.height < 1) return glm::dvec3(1.0);
@@ -21,7 +17,8 @@ glm::dvec3 texel(const TextureImage& image, const glm::dvec2& at) {
   };
   const std::size_t i =
       4 * (static_cast<std::size_t>(place(at.y, image.height)) * image.width + place(at.x, image.width));
-  return {linear(image.pixels[i]), linear(image.pixels[i + 1]), linear(image.pixels[i + 2])};
+  const auto linear = [&](std::size_t k) { return linearOf(image.pixels[i + k] / 255.0); };
+  return {linear(0), linear(1), linear(2)};
 }
 
 glm::dvec3 colorOf(const TriangleMesh& mesh, const glm::uvec3& t, const TriangleMaterial& material) {
