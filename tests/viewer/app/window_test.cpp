@@ -16,7 +16,7 @@
 #include "viewer/app/orbit.h"
 #include "viewer/app/window.h"
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/picture.h"
+#include "viewer/gpu/read_png.h"
 
 namespace sdf::viewer {
 namespace window_test {
@@ -259,9 +259,7 @@ TEST_F(BareWindowTest, SavesThePictureAndCopiesTheCamera) {
   keys("p");
   ASSERT_TRUE(until([&] { return std::filesystem::exists(folder / "ball.png"); }));
   std::filesystem::current_path(before);
-  const auto saved = readPng(folder / "ball.png", 3);
-  ASSERT_TRUE(saved) << saved.error().message;
-  EXPECT_EQ(saved->bytes, screenshot().picture.bytes);
+  EXPECT_EQ(test::readPng(folder / "ball.png", 3).bytes, screenshot().picture.bytes);
 
   keys("3 c");
   ASSERT_TRUE(until([&] { return glfwGetClipboardString(window->handle()) != nullptr; }));
