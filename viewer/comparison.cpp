@@ -1,7 +1,6 @@
 #include "viewer/comparison.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "viewer/gpu/context.h"
@@ -10,10 +9,10 @@ namespace sdf::viewer {
 namespace {
 
 Result<double> millisecondsOf(Contender& way, const Target& target) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   if (const Status s = way.renderer.draw(way.frame, target); !s) return s.error();
   finish();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return millisecondsSince(start);
 }
 
 // Alpha says what rays ran out of steps, and is not shown.
@@ -29,6 +28,10 @@ double rmsOf(const Picture& a, const Picture& b) {
 }
 
 }  // namespace
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

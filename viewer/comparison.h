@@ -1,5 +1,6 @@
 // One picture drawn in two ways, by turns.
 #pragma once
+#include <chrono>
 #include <vector>
 
 #include "viewer/render/renderer.h"
@@ -18,6 +19,10 @@ struct Compared {
   double otherMilliseconds;  ///< of the other
   double rms;                ///< of the differences of red, green and blue, 0 to 1, as they are shown
 };
+
+using Clock = std::chrono::steady_clock;
+/// Returns how long ago that was.
+double millisecondsSince(Clock::time_point start);
 
 /// The value in the middle, of an even number the upper one; at least one.
 double median(std::vector<double> values);

@@ -1,7 +1,6 @@
 #include "viewer/headless.h"
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -20,18 +19,10 @@
 namespace sdf::viewer {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-SceneFile sceneFileOf(const Options& options) { return {options.scene, options.folders, options.cached}; }
-
 bool isClock(const ParameterInfo& parameter) { return parameter.name == "time"; }
 
 Result<Scene> loadAt(double time, const Options& options) {
-  return sceneFileOf(options).load({.values = options.parameters, .time = time});
+  return options.scene.load({.values = options.parameters, .time = time});
 }
 
 class Headless {
@@ -173,7 +164,7 @@ class Headless {
   Result<Renderer> rendererAt(double time, const ShaderOptions& shader) {
     auto renderer = Renderer::make(scene_, shader);
     if (!renderer || !showsMesh(shader.view)) return renderer;
-    auto fixed = sceneFileOf(options_).load({.values = options_.parameters, .time = time, .fixed = true});
+    auto fixed = options_.scene.load({.values = options_.parameters, .time = time, .fixed = true});
     if (!fixed) return fixed.error();
     Progress progress;
     const MeshRequest request{options_.mesh, options_.meshFile, shader.view == View::Error};
@@ -209,7 +200,7 @@ class Headless {
     options.shader.start = comparison.start.value_or(options.shader.start);
     auto scene = loadAt(options.time, options);
     if (!scene) return scene.error();
-    LookFunction look = lookOf(*scene, sceneFileOf(options), options.parameters);
+    LookFunction look = lookOf(*scene, options.scene, options.parameters);
     Headless other(options, std::move(*scene), std::move(look), fitTo_);
     auto renderer = other.rendererAt(options.time, options.shader);
     if (!renderer) return renderer.error();
@@ -232,13 +223,10 @@ class Headless {
     Values parameters = options_.parameters;
     parameters["time"] = time;
     const double aspect = static_cast<double>(options_.width) / options_.height;
-    Frame f = frameOf(look_, std::move(parameters), aspect);
-    if (options_.eye) f.look.eye = *options_.eye;
-    if (fitTo_) f.look.eye = fitted(f.look.eye, *fitTo_, aspect);
-    f.split = options_.split;
-    f.samples = options_.samples;
-    f.maxSteps = options_.maxSteps;
-    return f;
+    Look look = look_.at(parameters, aspect);
+    if (options_.eye) look.eye = *options_.eye;
+    if (fitTo_) look.eye = fitted(look.eye, *fitTo_, aspect);
+    return options_.frame(std::move(parameters), std::move(look));
   }
 
   // The median time that a frame of another moment takes on the CPU before anything is drawn.
@@ -307,10 +295,10 @@ Status runHeadless(const Options& options, std::ostream& out) {
   for (const std::string& note : scene->notes) std::cerr << "sdfview: warning: " << note << '\n';
   for (const std::string& why : scene->missing)
     std::cerr << "sdfview: warning: " << why << "; the rest is shown\n";
-  LookFunction look = lookOf(*scene, sceneFileOf(options), options.parameters);
+  LookFunction look = lookOf(*scene, options.scene, options.parameters);
   std::optional<Box> fitTo;
   if (options.fit)
-    if (auto s = keep(boxInView(*scene, sceneFileOf(options), options.parameters, options.time), fitTo); !s)
+    if (auto s = keep(boxInView(*scene, options.scene, options.parameters, options.time), fitTo); !s)
       return s;
   Headless headless(options, std::move(*scene), std::move(look), fitTo);
   if (options.glsl)

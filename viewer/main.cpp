@@ -14,20 +14,7 @@ int fail(const sdf::Error& error) {
 
 sdf::Status run(const sdf::viewer::Options& o) {
   if (o.picture || o.bench || o.glsl) return sdf::viewer::runHeadless(o, std::cout);
-  sdf::viewer::Controls controls;
-  controls.parameters = o.parameters;
-  controls.eye = o.eye;
-  controls.time = o.time;
-  controls.view = o.shader.view;
-  controls.method = o.shader.method;
-  controls.start = o.shader.start;
-  controls.culling = o.shader.culling;
-  controls.mesh = o.mesh;
-  controls.meshFile = o.meshFile;
-  controls.split = o.split;
-  controls.samples = o.samples;
-  controls.maxSteps = o.maxSteps;
-  return sdf::viewer::runWindow({{o.scene, o.folders, o.cached}, controls, o.width, o.height, o.fit});
+  return sdf::viewer::runWindow({o.scene, {o}, o.width, o.height, o.fit});
 }
 
 }  // namespace

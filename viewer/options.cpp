@@ -1,8 +1,9 @@
 #include "viewer/options.h"
 
 #include <CLI/CLI.hpp>
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "command_line/frames.h"
 #include "sdf/base/version.h"
@@ -15,25 +16,28 @@ using namespace command_line;  // NOLINT: this file is about nothing else
 
 namespace {
 
-constexpr std::array kViews{"picture",   "normals", "steps", "slice", "gradient", "material",
-                            "occlusion", "shadow",  "mesh",  "wire",  "split",    "error"};
-static_assert(kViews.size() == static_cast<std::size_t>(View::Count));
-constexpr std::array kMethods{"auto", "plain"};
-constexpr std::array kStarts{"raster", "cone", "plain"};
+constexpr auto kFirstOfMesh = static_cast<std::size_t>(View::Mesh);
+constexpr std::span kMarchedViews = std::span(kViews).first<kFirstOfMesh>();
+constexpr std::span kMeshViews = std::span(kViews).subspan<kFirstOfMesh>();
 
-/// The place of a word in a list of names.
-template <class Enum, std::size_t n>
-Status choose(const char* flag, const std::string& word, const std::array<const char*, n>& names,
-              Enum& value) {
+// "a, b or c", each with its note if these are wanted.
+std::string listOf(const auto& some, bool withNotes = false, const char* last = " or ") {
+  const std::span choices(some);
   std::string list;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (word == names[i]) {
-      value = static_cast<Enum>(i);
-      return okStatus();
-    }
-    list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + std::string(names[i]);
+  for (const auto& one : choices) {
+    list += (&one == &choices.front() ? "" : &one == &choices.back() ? last : ", ") + std::string(one.word);
+    if (withNotes && *one.note) list += " (" + std::string(one.note) + ")";
   }
-  return usage(std::string(flag) + " needs " + list + ", got '" + word + "'");
+  return list;
+}
+
+template <class Enum, std::size_t n>
+Status choose(const char* flag, const std::string& word, const Choice<Enum> (&choices)[n], Enum& value) {
+  const auto found = std::ranges::find(choices, word, &Choice<Enum>::word);
+  if (found == std::end(choices))
+    return usage(std::string(flag) + " needs " + listOf(choices) + ", got '" + word + "'");
+  value = found->value;
+  return okStatus();
 }
 
 Status size(const std::string& word, Options& options) {
@@ -101,14 +105,15 @@ Status split(const std::string& word, double& share) {
 // What says how meshes are shown needs a view that shows one.
 Status checkMesh(const Options& options, bool hasSplit) {
   const View view = options.shader.view;
+  const std::string named = std::string("--view ") + kViews[static_cast<int>(view)].word;
   const bool windowed = !options.picture && !options.bench && !options.glsl;
   const char* const flag = options.mesh.tolerance   ? "--tolerance"
                            : options.mesh.voxelSize ? "--voxel-size"
                            : options.meshFile       ? "--mesh"
                                                     : nullptr;
   if (flag && !windowed && !showsMesh(view))
-    return usage(std::string(flag) + " is about a mesh, which --view " + kViews[static_cast<int>(view)] +
-                 " does not show; add --view mesh, wire, split or error, or leave " + flag + " out");
+    return usage(std::string(flag) + " is about a mesh, which " + named + " does not show; add --view " +
+                 listOf(kMeshViews) + ", or leave " + flag + " out");
   if (hasSplit && view != View::Split && !windowed)
     return usage("--split says where --view split is divided; add that, or leave --split out");
   if (options.meshFile && options.mesh.voxelSize)
@@ -121,8 +126,8 @@ Status checkMesh(const Options& options, bool hasSplit) {
         "--tolerance beside --mesh says what --view error compares the file with; add that, or leave "
         "--tolerance out");
   if (options.glsl && showsMesh(view))
-    return usage("--glsl writes a shader that marches the scene, which --view " +
-                 std::string(kViews[static_cast<int>(view)]) + " does not; leave one of them out");
+    return usage("--glsl writes a shader that marches the scene, which " + named +
+                 " does not; leave one of them out");
   if (options.meshFile) return checkReadable(*options.meshFile);
   return okStatus();
 }
@@ -149,7 +154,8 @@ Result<Comparison> comparison(const std::string& word) {
   }
   auto value = parameters({word});
   if (!value)
-    return usage("--compare needs no-culling, raster, cone, plain or name=value, got '" + word + "'");
+    return usage("--compare needs no-culling, " + listOf(kStarts, false, ", ") + " or name=value, got '" +
+                 word + "'");
   result.parameters = std::move(*value);
   return result;
 }
@@ -172,7 +178,7 @@ struct Words {
 
 /// Declares what fills the options; `sound` tells the first word that is wrong.
 void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
-  const auto add = [&](const char* flag, const char* value, const char* what, auto read) {
+  const auto add = [&](const char* flag, const char* value, const std::string& what, auto read) {
     const auto readIfSound = [&sound, read](const std::string& word) {
       if (sound) sound = read(word);
     };
@@ -182,7 +188,18 @@ void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
     add(flag, "N", what,
         [flag, &place](const std::string& word) { return take<int>(flag, word, place, count); });
   };
-  app.add_option("SCENE", options.scene, "scene file (Lua)")->required()->type_name("");
+  const auto measure = [&](const char* flag, const char* value, auto& place, const char* what) {
+    add(flag, value, what,
+        [flag, &place](const std::string& word) { return take<double>(flag, word, place, positive); });
+  };
+  const auto repeated = [&](const char* flag, const char* value, auto& places, const char* what) {
+    app.add_option(flag, places, what)->type_name(value)->allow_extra_args(false);
+  };
+  const auto choice = [&](const char* flag, const auto& choices, auto& place, const std::string& what) {
+    add(flag, "NAME", what,
+        [flag, &choices, &place](const std::string& word) { return choose(flag, word, choices, place); });
+  };
+  app.add_option("SCENE", options.scene.path, "scene file (Lua)")->required()->type_name("");
   app.add_option("-o,--render", options.picture, "draw into this file, without a window")
       ->type_name("OUT.png");
   add("--size", "WxH", "of the picture in pixels [1280x720]",
@@ -191,40 +208,29 @@ void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
       [&](const std::string& word) { return take<double>("--time", word, options.time, seconds); });
   add("--samples", "N", "samples a pixel: 1, 4, 9, ... [1]",
       [&](const std::string& word) { return samples(word, options.samples); });
-  add("--seconds", "S", "refine for S seconds, or until more samples are not seen to help",
-      [&](const std::string& word) { return take<double>("--seconds", word, options.seconds, positive); });
+  measure("--seconds", "S", options.seconds,
+          "refine for S seconds, or until more samples are not seen to help");
   whole("--steps", options.maxSteps, "readings of the distance that a ray may take [1024]");
-  add("--view", "NAME",
-      "picture, normals, steps, slice, gradient, material, occlusion, shadow; or with a mesh, as sdf2gltf "
-      "exports it: mesh, wire (its edges), split (beside the picture) or error (distances to the surface)",
-      [&](const std::string& word) { return choose("--view", word, kViews, options.shader.view); });
+  choice("--view", kViews, options.shader.view,
+         listOf(kMarchedViews, false, ", ") +
+             "; or with a mesh, as sdf2gltf exports it: " + listOf(kMeshViews, true));
   add("--tolerance", "E",
       "distance from the surface that the mesh keeps, in scene units or, as E%, in hundredths of the "
-      "diagonal "
-      "[0.05%, where it can be kept]",
+      "diagonal [0.05%, where it can be kept]",
       [&](const std::string& word) { return tolerance(word, options.mesh); });
-  add("--voxel-size", "H",
-      "sampling distance of the mesh; without --tolerance, triangles are as large everywhere",
-      [&](const std::string& word) {
-        return take<double>("--voxel-size", word, options.mesh.voxelSize, positive);
-      });
+  measure("--voxel-size", "H", options.mesh.voxelSize,
+          "sampling distance of the mesh; without --tolerance, triangles are as large everywhere");
   app.add_option("--mesh", options.meshFile, "show this mesh (.glb .gltf .stl .ply .obj) against the scene")
       ->type_name("FILE");
   add("--split", "S", "share of the width at which --view split begins to show the mesh [0.5]",
       [&](const std::string& word) { return split(word, options.split); });
-  add("--method", "NAME", "how rays are marched: auto (auto-relaxed) or plain",
-      [&](const std::string& word) { return choose("--method", word, kMethods, options.shader.method); });
-  add("--start", "NAME",
-      "where rays of --method auto start: raster (where they enter a hull), cone or plain (at the eye)",
-      [&](const std::string& word) { return choose("--start", word, kStarts, options.shader.start); });
-  app.add_option("-D", words.parameters, "set a parameter of the scene; may be repeated")
-      ->type_name("name=value")
-      ->allow_extra_args(false);
-  app.add_option("--allow-dir", options.folders,
-                 "a folder, beside the scene's own, from which it may read meshes")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
-  app.add_flag("!--no-cache", options.cached,
+  choice("--method", kMethods, options.shader.method, "how rays are marched: " + listOf(kMethods, true));
+  choice("--start", kStarts, options.shader.start,
+         "where rays of --method auto start: " + listOf(kStarts, true));
+  repeated("-D", "name=value", words.parameters, "set a parameter of the scene; may be repeated");
+  repeated("--allow-dir", "DIR", options.scene.folders,
+           "a folder, beside the scene's own, from which it may read meshes");
+  app.add_flag("!--no-cache", options.scene.cached,
                "sample meshes anew, and keep nothing of it in the user's cache folder");
   add("--camera", "x,y,z,x,y,z[,fov]", "where the camera stands and looks, and its field of view",
       [&](const std::string& word) { return camera(word, options.eye); });
@@ -233,16 +239,11 @@ void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
   app.add_flag("!--no-culling", options.shader.culling,
                "read all parts of a scene everywhere, not those alone that are near: to compare with");
   whole("--frames", options.frames, "draw N pictures, OUT_0001.png and so on, or wherever OUT has %04d");
-  add("--fps", "F", "frames a second [24]", [&](const std::string& word) {
-    return take<double>("--fps", word, options.framesPerSecond, positive);
-  });
+  measure("--fps", "F", options.framesPerSecond, "frames a second [24]");
   whole("--bench", options.bench, "draw N frames and print as JSON what they cost");
-  app.add_option(
-         "--compare", words.comparisons,
-         "beside --bench, time another way to draw it by turns: no-culling, a --start, or name=value for "
-         "another parameter; may be repeated")
-      ->type_name("WAY")
-      ->allow_extra_args(false);
+  repeated("--compare", "WAY", words.comparisons,
+           "beside --bench, time another way to draw it by turns: no-culling, a --start, or name=value for "
+           "another parameter; may be repeated");
   app.add_option("--glsl", options.glsl, "write the shader that draws the scene")->type_name("OUT.glsl");
   app.footer(
       "Without --render, --bench and --glsl a window opens.\n"

@@ -9,7 +9,7 @@
 
 #include "support/folder.h"
 #include "tools/command.h"
-#include "viewer/gpu/picture.h"
+#include "viewer/gpu/read_png.h"
 
 namespace sdf {
 namespace cli_test {
@@ -51,11 +51,7 @@ class Sdfview : public testing::Test {
     EXPECT_EQ(outcome.out + outcome.err, "");
     return read(file);
   }
-  static Picture read(const std::string& file) {
-    auto picture = viewer::readPng(file);
-    if (!picture) throw std::runtime_error(picture.error().message);
-    return std::move(*picture);
-  }
+  static Picture read(const std::string& file) { return test::readPng(file); }
 
   void expectRefused(int status, const std::string& words, const std::vector<std::string>& arguments) {
     const Outcome outcome = run(arguments);

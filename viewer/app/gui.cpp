@@ -16,18 +16,14 @@ namespace {
 
 constexpr float kMargin = 8.0f, kPanelWidth = 320.0f;
 constexpr float kLabelWidth = 8.0f;  // of a slider, in heights of the font
-constexpr const char* kViews[] = {"Picture",  "Normals",        "Steps",          "Distance slice",
-                                  "Gradient", "Material",       "Occlusion",      "Shadow",
-                                  "Mesh",     "Mesh and edges", "Picture | mesh", "Mesh error"};
-static_assert(std::size(kViews) == static_cast<std::size_t>(View::Count));
-constexpr const char* kMethods[] = {"Auto-relaxed", "Plain"};
-constexpr const char* kStarts[] = {"Hull", "Cones", "Eye"};
 constexpr int kMostSamples = 6, kFewestSteps = 8, kMostSteps = 4096;
 
 template <class Enum, std::size_t N>
-void choice(const char* label, Enum& value, const char* const (&names)[N]) {
+void choice(const char* label, Enum& value, const Choice<Enum> (&choices)[N]) {
+  const char* labels[N];
+  std::ranges::transform(choices, labels, &Choice<Enum>::label);
   int index = static_cast<int>(value);
-  if (ImGui::Combo(label, &index, names, static_cast<int>(N))) value = static_cast<Enum>(index);
+  if (ImGui::Combo(label, &index, labels, static_cast<int>(N))) value = choices[index].value;
 }
 
 // What Dear ImGui's sliders and drags can be asked for.
@@ -178,9 +174,9 @@ void clock(Session& session) {
 }
 
 void marching(Controls& controls) {
-  choice("view", controls.view, kViews);
-  choice("method", controls.method, kMethods);
-  choice("start", controls.start, kStarts);
+  choice("view", controls.shader.view, kViews);
+  choice("method", controls.shader.method, kMethods);
+  choice("start", controls.shader.start, kStarts);
   ImGui::SliderInt("steps", &controls.maxSteps, kFewestSteps, kMostSteps, "at most %d", kLogarithmic);
   ImGui::SliderInt("samples", &controls.samples, 1, kMostSamples, "%d a side", kClamped);
 }
@@ -260,7 +256,7 @@ void Gui::panels(Session& session, const Canvas& canvas, Requests& requests) {
     if (section("Parameters", true)) parameterSliders(session);
     if (section("Time", true)) clock(session);
     if (section("View", true)) marching(session.controls);
-    if (section("Mesh", showsMesh(session.controls.view))) mesh.controls(session, requests);
+    if (section("Mesh", showsMesh(session.controls.shader.view))) mesh.controls(session, requests);
     if (section("Statistics", true)) statistics(session, canvas, requests);
     if (section("Light", false)) lightPanel(session);
     if (section("Materials", false)) materialPanel(session);

@@ -37,7 +37,7 @@ void Input::key(int key, int action, Session& session, Requests& requests) {
     controls.eye = seenFrom(session.eye(), static_cast<Side>(key - GLFW_KEY_1));
   if (key == GLFW_KEY_0) controls.eye.reset();
   if (key == GLFW_KEY_SPACE) session.playing = session.hasClock() && !session.playing;
-  if (key == GLFW_KEY_V) controls.view = after(controls.view);
+  if (key == GLFW_KEY_V) controls.shader.view = after(controls.shader.view);
   requests.fit |= key == GLFW_KEY_F;
   requests.savePicture |= key == GLFW_KEY_P;
   requests.copyCamera |= key == GLFW_KEY_C;
@@ -65,7 +65,7 @@ void Input::cursor(glm::dvec2 place, double windowHeight, Session& session) {
   const double width = session.aspect * windowHeight;
   double& split = session.controls.split;
   if (drag_ == Drag::Divide) split = std::clamp(place.x / width, kLeast, 1.0 - kLeast);
-  onDivider_ = session.controls.view == View::Split && std::abs(place.x - split * width) <= kReach;
+  onDivider_ = session.controls.shader.view == View::Split && std::abs(place.x - split * width) <= kReach;
   if (drag_ == Drag::Orbit) session.controls.eye = orbited(session.eye(), drag);
   if (drag_ == Drag::Pan) session.controls.eye = panned(session.eye(), drag);
   if (drag_ == Drag::Turn) session.controls.eye = turned(session.eye(), drag);

@@ -68,11 +68,11 @@ void progress(Session& session) {
 
 void MeshPanel::controls(Session& session, Requests& requests) {
   Controls& controls = session.controls;
-  if (!showsMesh(controls.view)) {
+  if (!showsMesh(controls.shader.view)) {
     ImGui::TextDisabled("of the last four views");
     return;
   }
-  if (controls.view == View::Split) {
+  if (controls.shader.view == View::Split) {
     constexpr double kLeast = 0.02, kMost = 0.98;
     ImGui::SliderScalar("split", ImGuiDataType_Double, &controls.split, &kLeast, &kMost, "%.2f",
                         ImGuiSliderFlags_AlwaysClamp);
@@ -101,7 +101,7 @@ void MeshPanel::controls(Session& session, Requests& requests) {
 
 void MeshPanel::overPicture(const Session& session) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  if (session.controls.view == View::Split && session.mesh()) {
+  if (session.controls.shader.view == View::Split && session.mesh()) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float x = static_cast<float>(session.controls.split) * window.x, y = 0.5f * window.y;
     constexpr float kKnob = 7.0f;

@@ -40,8 +40,8 @@ Result<Session> Session::open(const SceneFile& file, Controls controls) {
   auto scene = file.load({.values = controls.parameters, .time = controls.time});
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file, controls.parameters);
-  const View view = showsMesh(controls.view) ? View::Picture : controls.view;  // until there is a mesh
-  Built built{view, controls.method, controls.start, controls.culling, {}};
+  Built built{controls.shader, {}};
+  if (showsMesh(built.shader.view)) built.shader.view = View::Picture;  // until there is a mesh
   auto renderer = build(*scene, built);
   if (!renderer) return renderer.error();
   return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer),
@@ -62,13 +62,8 @@ Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look,
   tellMissing();
 }
 
-Result<Renderer> Session::build(const Scene& scene, const Built& wanted, bool countReadings) {
-  const ShaderOptions options{.view = wanted.view,
-                              .method = wanted.method,
-                              .start = wanted.start,
-                              .countReadings = countReadings,
-                              .culling = wanted.culling};
-  return Renderer::make(withSurfaceParameters(scene, wanted.materials), options);
+Result<Renderer> Session::build(const Scene& scene, const Built& wanted) {
+  return Renderer::make(withSurfaceParameters(scene, wanted.materials), wanted.shader);
 }
 
 Status Session::fit() {
@@ -87,10 +82,7 @@ void Session::settle() {
   if (made && !shown) made = shown.error();
   if (!made) {
     buildMessage_ = made.error().message;
-    controls.view = built_.view;
-    controls.method = built_.method;
-    controls.start = built_.start;
-    controls.culling = built_.culling;
+    controls.shader = built_.shader;
     controls.editedMaterials = built_.materials;
     return;
   }
@@ -162,8 +154,7 @@ void Session::resetParameters() {
 }
 
 bool Session::hasClock() const {
-  const auto& all = scene_.parameters;
-  return std::any_of(all.begin(), all.end(), [](const ParameterInfo& p) { return p.name == "time"; });
+  return std::ranges::any_of(scene_.parameters, [](const ParameterInfo& p) { return p.name == "time"; });
 }
 
 double Session::value(const ParameterInfo& parameter) const {
@@ -198,18 +189,10 @@ Look Session::look() const {
   return look;
 }
 
-Frame Session::frame() const {
-  Frame frame;
-  frame.parameters = values();
-  frame.look = look();
-  frame.split = controls.split;
-  frame.samples = controls.samples;
-  frame.maxSteps = controls.maxSteps;
-  return frame;
-}
-
 Result<Readings> Session::measure(int width, int height) const {
-  auto counting = build(scene_, built_, true);
+  Built counts = built_;
+  counts.shader.countReadings = true;
+  auto counting = build(scene_, counts);
   if (!counting) return counting.error();
   if (auto s = showMesh(*counting); !s) return s.error();
   const auto target = Target::create(width, height, {PixelFormat::Rgba8, PixelFormat::Rgba32f});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "viewer/app/mesh_job.h"
+#include "viewer/render/picture_options.h"
 #include "viewer/render/renderer.h"
 #include "viewer/render/scene_file.h"
 
@@ -41,22 +42,10 @@ struct LookEdits {
 };
 
 /// Controls are all that the user can change. Equal controls of the same scene give the same picture.
-struct Controls {
-  Values parameters;                      ///< those moved, by name; without "time"
-  Values materials;                       ///< surface parameters that were moved, by name
-  std::set<std::string> editedMaterials;  ///< parts whose surface parameters can be moved
-  LookEdits look;
-  std::optional<Eye> eye;  ///< none: the scene's camera
-  double time = 0.0;
-  MeshSettings mesh;
-  std::optional<std::filesystem::path> meshFile;  ///< shown in the place of the scene's own mesh
-  double split = Frame{}.split;
-  View view = View::Picture;
-  Method method = Method::AutoRelaxed;
-  Start start = Start::Cone;
-  bool culling = true;
-  int samples = 1;
-  int maxSteps = Frame{}.maxSteps;
+struct Controls : PictureOptions {
+  Values materials{};                       ///< surface parameters that were moved, by name
+  std::set<std::string> editedMaterials{};  ///< parts whose surface parameters can be moved
+  LookEdits look{};
   bool operator==(const Controls&) const = default;
 };
 
@@ -143,7 +132,7 @@ class Session {
   double value(const ParameterInfo& parameter) const;  ///< also of surface parameters
   Look look() const;
   Eye eye() const { return look().eye; }
-  Frame frame() const;
+  Frame frame() const { return controls.frame(values(), look()); }
 
   /// Measures the readings of the present picture at this size, for which it compiles shaders that count.
   /// Errors: Limits, Graphics.
@@ -152,15 +141,12 @@ class Session {
  private:
   /// What the renderer was made for.
   struct Built {
-    View view;
-    Method method;
-    Start start;
-    bool culling;
+    ShaderOptions shader;
     std::set<std::string> materials;
     bool operator==(const Built&) const = default;
   };
   Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer, Built built);
-  static Result<Renderer> build(const Scene& scene, const Built& wanted, bool countReadings = false);
+  static Result<Renderer> build(const Scene& scene, const Built& wanted);
   /// Replaces scene and renderer by what the file says for the controls' values. On an error both stay.
   Status load(const Built& wanted);
   /// Loads the scene with these materials to edit and keeps the message; whether it could.

@@ -7,9 +7,10 @@
 namespace sdf::viewer {
 
 Session::Built Session::wanted(const std::set<std::string>& materials) const {
-  const bool hasMesh = mesh_ && (controls.view != View::Error || mesh_->errors);
-  const View view = showsMesh(controls.view) && !hasMesh ? View::Picture : controls.view;
-  return {view, controls.method, controls.start, controls.culling, materials};
+  Built built{controls.shader, materials};
+  const bool hasMesh = mesh_ && (built.shader.view != View::Error || mesh_->errors);
+  if (showsMesh(built.shader.view) && !hasMesh) built.shader.view = View::Picture;
+  return built;
 }
 
 MeshOrder Session::meshOrder() const {
@@ -17,11 +18,11 @@ MeshOrder Session::meshOrder() const {
           .edition = edition_,
           .values = controls.parameters,
           .time = hasClock() ? controls.time : 0.0,
-          .request = {controls.mesh, controls.meshFile, controls.view == View::Error}};
+          .request = {controls.mesh, controls.meshFile, controls.shader.view == View::Error}};
 }
 
 void Session::followMesh() {
-  if (!showsMesh(controls.view)) {
+  if (!showsMesh(controls.shader.view)) {
     meshMessage_.clear();
     return;
   }
@@ -32,7 +33,7 @@ void Session::followMesh() {
   meshMessage_ = *made ? "" : made->error().message;
   if (!*made) return;
   const auto before = std::exchange(mesh_, **made);
-  if (!showsMesh(built_.view) || wanted() != built_) {
+  if (!showsMesh(built_.shader.view) || wanted() != built_) {
     ++meshes_;
     return;  // it is handed over to the renderer that is made now
   }
@@ -50,7 +51,7 @@ Status Session::showMesh(Renderer& renderer) const {
 }
 
 const ErrorFigures* Session::errors() const {
-  return built_.view == View::Error && mesh_->errors ? &mesh_->errors->figures : nullptr;
+  return built_.shader.view == View::Error && mesh_->errors ? &mesh_->errors->figures : nullptr;
 }
 
 void Session::cancelMesh() {
@@ -72,7 +73,7 @@ Status Session::exportMesh(const std::filesystem::path& target) const {
   if (Status s = checkExtension(target); !s) return s;
   if (mesh_ && !mesh_->own)
     return Error{ErrorKind::Limits, "what is shown is a file's mesh; show the scene's own to export it"};
-  if (!mesh_ || !showsMesh(built_.view))
+  if (!mesh_ || !showsMesh(built_.shader.view))
     return Error{ErrorKind::Limits, "there is no mesh yet to export; choose a view that shows one"};
   return writeMeshes(target, mesh_->own->scene, mesh_->own->parts);
 }

@@ -1,7 +1,6 @@
 #include "viewer/gpu/picture.h"
 
 #include <cassert>
-#include <memory>
 #include <ostream>
 #include <string>
 
@@ -11,11 +10,6 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
 #include <stb_image_write.h>
-
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#include <stb_image.h>
 
 namespace sdf::viewer {
 
@@ -37,19 +31,6 @@ Status writePng(const std::filesystem::path& target, const Picture& picture) {
       return Error{ErrorKind::Limits, "no memory is left to write '" + target.string() + "'"};
     return okStatus();
   });
-}
-
-Result<Picture> readPng(const std::filesystem::path& source, int channels) {
-  Picture picture;
-  int channelsInFile = 0;
-  const std::unique_ptr<stbi_uc, void (*)(void*)> bytes(
-      stbi_load(source.c_str(), &picture.width, &picture.height, &channelsInFile, channels), stbi_image_free);
-  if (!bytes)
-    return Error{ErrorKind::Files, "cannot read '" + source.string() + "': " + stbi_failure_reason()};
-  picture.channels = channels;
-  picture.bytes.assign(bytes.get(), bytes.get() + std::size_t(picture.width) * std::size_t(picture.height) *
-                                                      std::size_t(channels));
-  return picture;
 }
 
 }  // namespace sdf::viewer

@@ -22,7 +22,4 @@ Status checkPictureName(const std::filesystem::path& target);
 /// width * height * channels bytes, at least one. Errors: those of writeFile; Limits if memory runs out.
 Status writePng(const std::filesystem::path& target, const Picture& picture);
 
-/// Reads any PNG as `channels` (3 or 4) bytes a pixel. Errors: Files.
-Result<Picture> readPng(const std::filesystem::path& source, int channels = 4);
-
 }  // namespace sdf::viewer

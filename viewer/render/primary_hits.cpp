@@ -85,7 +85,7 @@ Status PrimaryHits::makeTargets(const Shot& shot) {
     if (auto s = starts(coarse_, columns_, (cells_ + columns_ - 1) / columns_, kTile); !s) return s;
   if (isFine())
     if (auto s = starts(fine_, 1, 1, fineSide()); !s) return s;
-  if (!hasHits()) return okStatus();
+  if (!grouped_) return okStatus();
   std::vector<PixelFormat> formats;
   for (const Layer& layer : kLayers) formats.push_back(layer.format);
   if (counted_) formats.push_back(PixelFormat::Rgba32f);
@@ -141,7 +141,7 @@ void PrimaryHits::giveStarts(const Program& program, int cell, const Shot& shot)
 }
 
 void PrimaryHits::giveTo(const Program& picture, const Shot& shot) const {
-  if (!hasHits()) return giveStarts(picture, 0, shot);
+  if (!grouped_) return giveStarts(picture, 0, shot);
   for (int i = 0; i < kCounts; ++i) {
     hits_->bindTexture(i, i);
     picture.set(kLayers[i].name, i);
@@ -196,7 +196,7 @@ Status PrimaryHits::begin(const Shot& shot, std::span<const glm::vec4> rows) {
 Status PrimaryHits::drawSample(const Shot& shot) {
   if (hull_)
     if (auto s = hull_->draw(shot, *fine_, kNoStart); !s) return s;
-  if (!hasHits()) return okStatus();
+  if (!grouped_) return okStatus();
   for (int i = 0; i < kCounts; ++i) hits_->clear(i, kLayers[i].nothing);
   hits_->clearDepth();
   {

@@ -64,7 +64,6 @@ class PrimaryHits {
   glm::ivec2 cornerOf(int cell, const Shot& shot) const;
   /// A cell that is alone has smaller tiles, too, or pixels.
   bool isFine() const { return cells_ == 1 && passes_.front().cones; }
-  bool hasHits() const { return grouped_; }
   int fineSide() const;
   int firstLook() const;
   /// Chooses what a pass is drawn with, the i-th time.

@@ -49,17 +49,14 @@ class Renderer {
   /// Draws into the target, whose first layer is the picture (dithered where it holds bytes; alpha 0 where a
   /// ray ran out of steps, 1/2 where only one of a shadow did) and, with countReadings, whose second (floats)
   /// holds what readings(target) then sums up. Errors: Limits, Graphics.
-  Status draw(const Frame& frame, const Target& target);
-  /// Draws these rows of the same picture, and leaves the others. The pieces of a picture follow one another
-  /// from row 0 on, and this renderer draws nothing else between. Errors: as draw.
-  Status draw(const Frame& frame, const Target& target, const Rows& rows);
+  /// Only these rows are drawn, if any are named: pieces of a picture follow one another from row 0 on, and
+  /// this renderer draws nothing else between.
+  Status draw(const Frame& frame, const Target& target, std::optional<Rows> rows = {});
 
   /// Draws one more of the frame's samples, of which `drawn` have been drawn, of the same frame and into a
   /// target of the same size; 0 begins anew. The target shows their mean, and after the last one what draw()
-  /// does but for the order of the sum. Errors: as draw.
-  Status refine(const Frame& frame, int drawn, const Target& target);
-  /// Draws these rows of the same sample, as draw does of a picture.
-  Status refine(const Frame& frame, int drawn, const Target& target, const Rows& rows);
+  /// does but for the order of the sum. Rows of a sample are as draw has them. Errors: as draw.
+  Status refine(const Frame& frame, int drawn, const Target& target, std::optional<Rows> rows = {});
 
   /// Returns the readings that the last picture, in this target, took. Errors: as Target::pixels.
   Result<Readings> readings(const Target& target) const;

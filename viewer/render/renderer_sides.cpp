@@ -17,24 +17,16 @@ Status Renderer::drawSides(const Frame& frame, const Target& target, const Draw&
   return left < width ? draw(*this, Columns{left, width - left}) : okStatus();
 }
 
-Status Renderer::draw(const Frame& frame, const Target& target, const Rows& rows) {
+Status Renderer::draw(const Frame& frame, const Target& target, std::optional<Rows> rows) {
   return drawSides(frame, target, [&](Renderer& side, const Columns& columns) {
-    return side.drawColumns(frame, target, rows, columns);
+    return side.drawColumns(frame, target, rows.value_or(Rows{0, target.height()}), columns);
   });
 }
 
-Status Renderer::refine(const Frame& frame, int drawn, const Target& target, const Rows& rows) {
+Status Renderer::refine(const Frame& frame, int drawn, const Target& target, std::optional<Rows> rows) {
   return drawSides(frame, target, [&](Renderer& side, const Columns& columns) {
-    return side.refineColumns(frame, drawn, target, rows, columns);
+    return side.refineColumns(frame, drawn, target, rows.value_or(Rows{0, target.height()}), columns);
   });
-}
-
-Status Renderer::draw(const Frame& frame, const Target& target) {
-  return draw(frame, target, {0, target.height()});
-}
-
-Status Renderer::refine(const Frame& frame, int drawn, const Target& target) {
-  return refine(frame, drawn, target, {0, target.height()});
 }
 
 // Those of either side add up.

@@ -151,7 +151,8 @@ std::string colorParts(const Plan& plan) {
   return parts::kNothing + view + (plan.options.view == View::Slice ? "" : parts::kHitColor);
 }
 
-std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& rows) {
+std::string pictureBody(const Scene& scene, const Plan& plan, const Obstacles& obstacles,
+                        const RowWriter& rows) {
   const bool meets = (!plan.grouped && plan.options.view != View::Slice) || plan.bounces > 0;
   const bool readsField = plan.occlusion == OcclusionKind::Taps || plan.shadow == ShadowKind::Improved ||
                           plan.shadow == ShadowKind::Signed || (plan.meshed && isLit(plan.options.view));
@@ -165,7 +166,7 @@ std::string pictureBody(const Scene& scene, const Plan& plan, const RowWriter& r
   if (plan.kinds && (meets || readsRest(plan) || readsField || plan.options.view == View::Slice))
     text += sharing(plan, rows);
   if (meets)
-    text += meeting(obstaclesOf(plan));
+    text += meeting(obstacles);
   else if (readsRest(plan))
     text += parts::kRest;
   if (readsField) text += parts::kField;
@@ -186,17 +187,14 @@ RowWriter rowsOf(const Plan& plan) {
   return rows;
 }
 
-Shader picture(const Scene& scene, const Plan& plan, const RowWriter& rows, GlslWriter writer) {
-  const Obstacles obstacles = obstaclesOf(plan);
-  std::vector<std::size_t> taken;
-  if (plan.kinds)
-    for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) taken.push_back(i);
+Shader picture(const Scene& scene, const Plan& plan, const Obstacles& obstacles, const RowWriter& rows,
+               GlslWriter writer) {
+  std::size_t taken = plan.kinds ? plan.kinds->many.size() : 0;
   std::string takeSurface;
   if (!plan.surfaceRows.parameters.empty()) {
-    taken.push_back(taken.size());
-    takeSurface = " sdfTake" + std::to_string(taken.back()) + "(" +
-                  std::to_string(rows.rangeOf(taken.back()).first) + " + " +
-                  std::to_string(rows.rangeOf(taken.back()).stride) + " * int(operand));";
+    const RowRange& range = rows.rangeOf(taken);
+    takeSurface = " sdfTake" + std::to_string(taken++) + "(" + std::to_string(range.first) + " + " +
+                  std::to_string(range.stride) + " * int(operand));";
   }
   Macros macros = pictureMacros(scene, plan, takeSurface);
   macros.merge(meetingMacros(obstacles, plan));
@@ -213,10 +211,10 @@ Shader picture(const Scene& scene, const Plan& plan, const RowWriter& rows, Glsl
     globals += kFootprintVariables;
     for (const std::string term : kFootprintTerms) writer.substitute(hidden(term), term);
   }
-  if (!taken.empty()) globals += rows.taking(taken, writer);
+  if (taken > 0) globals += rows.taking(taken, writer);
   Composer composer(plan.options.es, macros, functions, std::move(writer), globals);
-  std::string text = composer.compose(pictureBody(scene, plan, rows));
-  return {std::move(text), composer.uniforms(), !taken.empty(), composer.volumes()};
+  std::string text = composer.compose(pictureBody(scene, plan, obstacles, rows));
+  return {std::move(text), composer.uniforms(), taken > 0, composer.volumes()};
 }
 
 Shader background(const Scene& scene, const Plan& plan) {
@@ -256,8 +254,9 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
     boxes = boxCones(*plan);
   if (plan->meshed || !plan->drawn.empty()) triangles = triangleShader(*plan);
   if (plan->hull) hull = hullShader(*plan);
-  if (startsHere(*plan)) hits = {startShaders(*plan, rows)};
-  Shader shown = picture(scene, *plan, rows, labelled(scene));
+  const Obstacles obstacles = obstaclesOf(*plan);
+  if (startsHere(*plan)) hits = {startShaders(obstacles, *plan, rows)};
+  Shader shown = picture(scene, *plan, obstacles, rows, labelled(scene));
   std::optional<Shader> tiles;
   if (plan->tiled) tiles = background(scene, *plan);
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "sdf/expr/alike.h"
 #include "sdf/expr/gradient.h"
@@ -185,15 +184,13 @@ Functions meetingFunctions(const Obstacles& obstacles) {
           {"sdfOperand", [=] { return std::vector{*obstacles.operand}; }}};
 }
 
-HitShaders startShaders(const Plan& plan, const RowWriter& rows) {
+HitShaders startShaders(const Obstacles& obstacles, const Plan& plan, const RowWriter& rows) {
   Parts starts{.cones = true, .hits = false};
   if (plan.kinds) {
-    std::vector<std::size_t> all(plan.kinds->many.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    starts.rows = rows.taking(all, starts.writer);
+    starts.rows = rows.taking(plan.kinds->many.size(), starts.writer);
     starts.sharing = sharing(plan, rows);
   }
-  return passOf(obstaclesOf(plan), starts, plan);
+  return passOf(obstacles, starts, plan);
 }
 
 std::string boxCones(const Plan& plan) {

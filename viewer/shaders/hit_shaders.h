@@ -34,7 +34,7 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan);
 Functions meetingFunctions(const Obstacles& obstacles);
 
 /// Writes the pass that looks where the rays of the whole start.
-HitShaders startShaders(const Plan& plan, const RowWriter& rows);
+HitShaders startShaders(const Obstacles& obstacles, const Plan& plan, const RowWriter& rows);
 
 /// Writes the shader that looks where the rays that meet a box start.
 std::string boxCones(const Plan& plan);

@@ -17,38 +17,33 @@ struct Split {
   std::vector<HalfSpace> planes;
   std::vector<DrawnMesh> drawn;
   std::vector<Shape> others;
-  std::vector<NumberedOperand> operands;
+  std::vector<NumberedOperand> marched, all;
 };
 
 // The operand as triangles, if it is a mesh that is drawn.
 std::optional<DrawnMesh> drawnMeshOf(const Shape& shape, const NumberedOperand& operand) {
-  auto placed = placedMesh(shape);
+  auto placed = placedMesh(operand.distance);
   if (!placed) return {};
   const bool own = hasOwnMaterial(shape, *placed->field);
   return DrawnMesh{operand, std::move(*placed), own};
 }
 
-std::vector<Shape> operandShapesOf(const Shape& shape) {
-  return isHardUnion(shape) ? shape.outer->operands : std::vector{shape};
-}
-
 Split split(const Scene& scene, bool withPlanes, bool withDrawn) {
   Split result;
-  double number = 0.0;
-  for (const Part& part : scene.parts) {
-    const auto operands = operandsOf(part.shape, number);
-    if (auto plane = withPlanes ? halfSpaceOf(part, number) : std::nullopt) {
+  for (const auto& [name, shape] : scene.parts) {
+    const auto operands = operandsOf(shape, static_cast<double>(result.all.size()));
+    result.all.insert(result.all.end(), operands.begin(), operands.end());
+    if (auto plane = withPlanes ? halfSpaceOf(shape, operands.front()) : std::nullopt) {
       result.planes.push_back(std::move(*plane));
-    } else {
-      result.others.push_back(part.shape);
-      const std::vector<Shape> shapes = operandShapesOf(part.shape);
-      for (std::size_t i = 0; i < operands.size(); ++i)
-        if (auto mesh = withDrawn ? drawnMeshOf(shapes[i], operands[i]) : std::nullopt)
-          result.drawn.push_back(std::move(*mesh));
-        else
-          result.operands.push_back(operands[i]);
+      continue;
     }
-    number += static_cast<double>(operands.size());
+    result.others.push_back(shape);
+    const Shape* const shapes = isHardUnion(shape) ? shape.outer->operands.data() : &shape;
+    for (std::size_t i = 0; i < operands.size(); ++i)
+      if (auto mesh = withDrawn ? drawnMeshOf(shapes[i], operands[i]) : std::nullopt)
+        result.drawn.push_back(std::move(*mesh));
+      else
+        result.marched.push_back(operands[i]);
   }
   return result;
 }
@@ -77,10 +72,10 @@ Result<Marched> marched(const Shape& shape, const Scene& scene) {
   return withoutSlope(scene);
 }
 
-void planSurface(const Shape& whole, Plan& plan) {
+void planSurface(const Shape& whole, std::vector<NumberedOperand> operands, Plan& plan) {
   OperandSurfaces byNumber =
       surfaceOf(whole, Expr::parameter({hidden("operand"), 0.0, 0.0, kInfinity}), plan.options.sharing);
-  if (byNumber.attributes != whole.surface) plan.operands = operandsOf(whole);
+  if (byNumber.attributes != whole.surface) plan.operands = std::move(operands);
   std::vector<Expr> surface;
   for (const Expr& e : byNumber.attributes) surface.push_back(hoisted(e));
   plan.surfaceRows = std::move(byNumber.operands);
@@ -161,7 +156,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   Split parts = split(scene, !stepsCount, draws);
   plan.planes = std::move(parts.planes);
   plan.drawn = std::move(parts.drawn);
-  if (mayGroup) planKinds(parts.operands, plan);
+  if (mayGroup) planKinds(parts.marched, plan);
   plan.gradients = plan.kinds && sharesGradients(plan);
   if (auto s = planRest(std::move(parts.others), scene, plan); !s) return s.error();
   plan.cones = plan.rest && options.method == Method::AutoRelaxed && options.start != Start::Plain &&
@@ -176,7 +171,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
     plan.occlusion = scene.ambientOcclusion.kind;
   if (isPicture && mirrors) plan.bounces = scene.reflectionBounces;
   plan.glossy = plan.bounces > 0 && scene.glossyReflections;
-  if (isPicture || view == View::Material) planSurface(whole, plan);
+  if (isPicture || view == View::Material) planSurface(whole, std::move(parts.all), plan);
   plan.looks = (plan.meshed || !plan.drawn.empty()) && (isPicture || view == View::Material);
   plan.grouped =
       plan.meshed || (plan.kinds && showsHits && ((plan.cones && !plan.cells) || !plan.drawn.empty()));

@@ -8,39 +8,10 @@
 #include "sdf/model/groups.h"
 #include "sdf/scene/scene.h"
 #include "sdf/shape/solids/triangle_solid.h"
+#include "viewer/shaders/choices.h"
 #include "viewer/shaders/solved.h"
 
 namespace sdf::viewer {
-
-/// A View is what a pixel shows.
-enum class View {
-  Picture,    ///< the scene under its lights
-  Normals,    ///< (n + 1) / 2
-  Steps,      ///< readings of the primary ray as heat, from blue for none to red for the step budget; magenta
-              ///< where it ran out
-  Slice,      ///< the distance on a plane through what the camera looks at, with isolines
-  Gradient,   ///< length of the distance's gradient at the hit: green 1, blue below, red above
-  Material,   ///< diffuse colour, unlit
-  Occlusion,  ///< ambient occlusion alone
-  Shadow,     ///< share of the lights that arrives, the mean over those that cast shadows
-  Mesh,       ///< a mesh of the scene, under the scene's lights
-  Wire,       ///< the same with its triangles' edges
-  Split,      ///< the picture, and beside it the mesh: shaders of this view draw the mesh's side
-  Error,      ///< a mesh by its distance to the scene's surface
-  Count
-};
-
-/// Is a mesh shown, which a renderer is given (Renderer::showMesh), in the place of what rays meet?
-constexpr bool showsMesh(View view) { return view >= View::Mesh && view < View::Count; }
-/// Is light shown, and what it falls on?
-constexpr bool isLit(View view) { return view == View::Picture || (showsMesh(view) && view != View::Error); }
-
-/// A Method is how rays are marched: by steps as long as is safe to guess, or by plain ones.
-enum class Method { AutoRelaxed, Plain };
-
-/// A Start is where primary rays start: where a hull of what they march is entered, where cones of tiles say,
-/// or at the eye.
-enum class Start { Raster, Cone, Plain };
 
 /// ShaderOptions say which shaders of a scene are wanted.
 struct ShaderOptions {
@@ -52,6 +23,7 @@ struct ShaderOptions {
   bool sharing = true;         ///< like operands may share their code; else all of it is written out
   bool culling = true;  ///< many operands may be read by lists of those that are near; else all are looked at
   bool drawing = true;  ///< meshes from files may be drawn as triangles; else they are marched
+  bool operator==(const ShaderOptions&) const = default;
 };
 
 /// A Marched distance is one that rays can be marched through; see Marchable.

@@ -46,12 +46,12 @@ std::string RowWriter::variables(std::size_t place, GlslWriter& writer) const {
   return text + ";\n";
 }
 
-std::string RowWriter::taking(const std::vector<std::size_t>& places, GlslWriter& writer) const {
+std::string RowWriter::taking(std::size_t places, GlslWriter& writer) const {
   std::string text =
       es_ ? "uniform sampler2D sdfRows;\nvec4 sdfTexel(int i) { return texelFetch(sdfRows, ivec2(i & " +
                 std::to_string(kRowTexels - 1) + ", i >> " + std::to_string(kRowShift) + "), 0); }\n"
           : "uniform samplerBuffer sdfRows;\nvec4 sdfTexel(int i) { return texelFetch(sdfRows, i); }\n";
-  for (const std::size_t place : places)
+  for (std::size_t place = 0; place < places; ++place)
     text += variables(place, writer) +
             takingFirst(place, tables_[place].parameters.size(), std::to_string(place));
   return text;

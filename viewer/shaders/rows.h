@@ -20,10 +20,10 @@ class RowWriter {
   /// Returns whether every driver has room for all.
   bool fits() const;
 
-  /// Writes the variables of the rows at these places, and for each `void sdfTake<place>(int at)`, which
-  /// sets its variables from the row whose texels begin there. A writer then reads them in the parameters'
-  /// places.
-  std::string taking(const std::vector<std::size_t>& places, GlslWriter& writer) const;
+  /// Writes the variables of the rows at the first so many places, and for each `void sdfTake<place>(int
+  /// at)`, which sets its variables from the row whose texels begin there. A writer then reads them in the
+  /// parameters' places.
+  std::string taking(std::size_t places, GlslWriter& writer) const;
   /// Writes the variables of one row at this place, and `void sdfTake()`, which sets them from the uniform
   /// sdfRow: faster than the texture where all pixels take the same.
   std::string takingOne(std::size_t place, GlslWriter& writer) const;

@@ -49,13 +49,13 @@ std::optional<double> curvatureOf(const Vec3E& gradient) {
 
 }  // namespace
 
-std::optional<HalfSpace> halfSpaceOf(const Part& part, double number) {
-  if (part.shape.outer) return {};
-  const Expr& distance = part.shape.distance;
+std::optional<HalfSpace> halfSpaceOf(const Shape& shape, const NumberedOperand& operand) {
+  if (shape.outer) return {};
+  const Expr& distance = shape.distance;
   const Vec3E g = gradientOf(distance);
   if (dependsOnSpace(g.x) || dependsOnSpace(g.y) || dependsOnSpace(g.z)) return {};
   const Expr steep = length(g), once = steep.isConstant(1.0) ? Expr(1.0) : 1.0 / steep;
-  return HalfSpace{operandsOf(part.shape, number).front(), distance * once, dot(g, normal()) * once};
+  return HalfSpace{operand, distance * once, dot(g, normal()) * once};
 }
 
 std::optional<Ball> ballOf(const Shape& shape) {

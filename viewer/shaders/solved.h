@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "sdf/model/groups.h"
-#include "sdf/scene/scene.h"
 
 namespace sdf::viewer {
 
@@ -20,8 +19,8 @@ struct Ball {
   Expr squaredRadius;  ///< negative if there is no ball at these parameters' values
 };
 
-/// The part as a half space, if its distance is a linear function.
-std::optional<HalfSpace> halfSpaceOf(const Part& part, double number);
+/// The shape, which is this operand, as a half space, if its distance is a linear function.
+std::optional<HalfSpace> halfSpaceOf(const Shape& shape, const NumberedOperand& operand);
 
 /// The shape as a ball, if its distance is a root of |p - c|^2 + e, times and plus what does not depend on
 /// space: a ball moved, turned, scaled and offset, or a rounded point.

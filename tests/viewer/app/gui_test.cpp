@@ -106,7 +106,7 @@ TEST_F(GuiTest, MeshControlsMoveTheMesh) {
   for (const float x : {40.0f, 120.0f})
     for (float y = 0.0f; y < 400.0f; y += 5.0f) {
       session.controls = {};
-      session.controls.view = View::Mesh;
+      session.controls.shader.view = View::Mesh;
       const Requests requests = clickRequests(session, x, y);
       const MeshSettings& mesh = session.controls.mesh;
       uniform = uniform || (mesh.voxelSize && !mesh.tolerance);

@@ -162,7 +162,7 @@ class MeshSessionTest : public MeshJobTest {
   }
   Session open(const std::string& text, View view) {
     Controls controls;
-    controls.view = view;
+    controls.shader.view = view;
     controls.mesh.voxelSize = 0.2;
     auto session = Session::open(write("scene.lua", text), controls);
     if (!session) throw std::runtime_error(session.error().message);
@@ -194,7 +194,7 @@ TEST_F(MeshSessionTest, ShowsThePictureUntilThereIsAMesh) {
   settle(session);
   EXPECT_EQ(session.meshes(), 0) << "no view asks for one";
   const Picture marched = picture(session);
-  session.controls.view = View::Mesh;
+  session.controls.shader.view = View::Mesh;
   session.settle();
   EXPECT_TRUE(session.meshing() || session.mesh());
   settle(session);
@@ -204,7 +204,7 @@ TEST_F(MeshSessionTest, ShowsThePictureUntilThereIsAMesh) {
   const Picture mesh = picture(session);
   EXPECT_NE(mesh.bytes, marched.bytes);
   for (const View view : {View::Wire, View::Split, View::Error}) {
-    session.controls.view = view;
+    session.controls.shader.view = view;
     settle(session);
     EXPECT_EQ(session.message(), "");
     EXPECT_NE(picture(session).bytes, mesh.bytes) << static_cast<int>(view);
@@ -250,11 +250,11 @@ TEST_F(MeshSessionTest, FollowsTheFile) {
 
 TEST_F(MeshSessionTest, SaysWhatCannotBeMeshedAndGoesOn) {
   Session session = open("return plane()", View::Picture);
-  session.controls.view = View::Mesh;
+  session.controls.shader.view = View::Mesh;
   settle(session);
   EXPECT_NE(session.message().find("unbounded"), std::string::npos) << session.message();
   EXPECT_FALSE(session.mesh());
-  session.controls.view = View::Picture;
+  session.controls.shader.view = View::Picture;
   session.settle();
   EXPECT_EQ(session.message(), "");
   EXPECT_FALSE(session.exportMesh(folder / "a.glb").ok());
@@ -291,7 +291,7 @@ TEST_F(MeshSessionTest, ExportsWhatIsSeen) {
   // And is held against the scene again.
   session.controls.mesh = {};
   session.controls.meshFile = folder / "a.glb";
-  session.controls.view = View::Error;
+  session.controls.shader.view = View::Error;
   settle(session);
   ASSERT_EQ(session.message(), "");
   ASSERT_TRUE(session.errors());

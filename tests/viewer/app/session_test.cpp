@@ -124,25 +124,25 @@ TEST_F(SessionTest, ASliderTheClockTheLightAndTheCameraCompileNothing) {
 
 TEST_F(SessionTest, AnotherViewOrMethodCompilesOnce) {
   Session session = open();
-  session.controls.view = View::Normals;
+  session.controls.shader.view = View::Normals;
   session.settle();
   EXPECT_EQ(session.compilations(), 2);
   EXPECT_EQ(middle(session), glm::ivec3(128, 128, 255));  // towards the eye: (n + 1) / 2
-  session.controls.method = Method::Plain;
+  session.controls.shader.method = Method::Plain;
   session.settle();
   session.settle();
   EXPECT_EQ(session.compilations(), 3);
 }
 
 TEST_F(SessionTest, RaysStartWhereItIsTold) {
-  start.start = Start::Plain;
+  start.shader.start = Start::Plain;
   Session session = open();
   EXPECT_FALSE(session.renderer().shaders().plan.cones);
-  session.controls.start = Start::Raster;
+  session.controls.shader.start = Start::Raster;
   session.settle();
   EXPECT_EQ(session.compilations(), 2);
   EXPECT_TRUE(session.renderer().shaders().plan.hull);
-  session.controls.culling = false;
+  session.controls.shader.culling = false;
   session.settle();
   EXPECT_FALSE(session.renderer().shaders().plan.options.culling);
 }
@@ -314,7 +314,7 @@ TEST_F(SessionTest, ABrokenFileLeavesTheSceneAndNamesTheLine) {
   EXPECT_NE(session.message().find("ball.lua:2"), std::string::npos) << session.message();
   EXPECT_EQ(picture(session).bytes, before.bytes);
 
-  session.controls.view = View::Normals;  // works, but the file is still broken
+  session.controls.shader.view = View::Normals;  // works, but the file is still broken
   session.settle();
   EXPECT_NE(session.message(), "");
   write(kBall);
@@ -516,7 +516,7 @@ TEST_F(CanvasTest, AStillPictureIsRefinedToTheOneOfAllItsSamples) {
 TEST_F(CanvasTest, HowFarItIsRefinedFollowsFromTheScene) {
   const auto atRest = [&](const std::string& settings, View view = View::Picture) {
     write(settings + "return sphere(1):paint{reflectivity = 0.5}");
-    start.view = view;
+    start.shader.view = view;
     Session session = open();
     Canvas canvas(stopped);
     EXPECT_TRUE(*canvas.update(session, 4, 4, 0.0));

@@ -16,7 +16,7 @@
 #include "viewer/app/orbit.h"
 #include "viewer/app/window.h"
 #include "viewer/gpu/context.h"
-#include "viewer/gpu/picture.h"
+#include "viewer/gpu/read_png.h"
 
 namespace sdf::viewer {
 namespace window_test {
@@ -196,7 +196,7 @@ TEST_F(BareWindowTest, DragsAndTheWheelMoveTheCamera) {
 TEST_F(BareWindowTest, DragsTheDividerOfASplitView) {
   Session& session = window->session();
   session.controls.mesh.voxelSize = 0.2;
-  session.controls.view = View::Split;
+  session.controls.shader.view = View::Split;
   session.controls.split = 300.0 / kWidth;  // where drags begin
   ASSERT_TRUE(until([&] { return session.mesh() && !session.meshing(); }));
   settle();
@@ -213,7 +213,7 @@ TEST_F(BareWindowTest, DragsTheDividerOfASplitView) {
 
 TEST_F(BareWindowTest, ShowsErrorsWithTheirLegendAndGoesOnWhileItMeshes) {
   Session& session = window->session();
-  session.controls.view = View::Error;
+  session.controls.shader.view = View::Error;
   session.controls.mesh.tolerance = 1e-5;  // takes a while
   settle();                                // turns go on
   EXPECT_TRUE(session.meshing());
@@ -248,7 +248,7 @@ TEST_F(BareWindowTest, KeysLookFlyPlayAndShowViews) {
   ASSERT_TRUE(until([&] { return window->session().eye().fittedRadius.has_value(); }));
 
   keys("v");
-  ASSERT_TRUE(until([&] { return window->session().controls.view == View::Normals; }));
+  ASSERT_TRUE(until([&] { return window->session().controls.shader.view == View::Normals; }));
   settle();
   EXPECT_NE(screenshot().at(0.5, 0.5), kRed);
 }
@@ -259,9 +259,7 @@ TEST_F(BareWindowTest, SavesThePictureAndCopiesTheCamera) {
   keys("p");
   ASSERT_TRUE(until([&] { return std::filesystem::exists(folder / "ball.png"); }));
   std::filesystem::current_path(before);
-  const auto saved = readPng(folder / "ball.png", 3);
-  ASSERT_TRUE(saved) << saved.error().message;
-  EXPECT_EQ(saved->bytes, screenshot().picture.bytes);
+  EXPECT_EQ(test::readPng(folder / "ball.png", 3).bytes, screenshot().picture.bytes);
 
   keys("3 c");
   ASSERT_TRUE(until([&] { return glfwGetClipboardString(window->handle()) != nullptr; }));
@@ -418,7 +416,7 @@ TEST_F(BareWindowTest, EscapeAndTheWindowsOwnButtonEndIt) {
 TEST_F(BareWindowTest, AnotherWindowTakesThePlaceOfOneWhoseContextIsLost) {
   Session& session = window->session();
   session.controls.parameters["x"] = 1.0;
-  session.controls.view = View::Normals;
+  session.controls.shader.view = View::Normals;
   session.controls.time = 3.0;
   session.playing = true;
   keys("space");  // no more

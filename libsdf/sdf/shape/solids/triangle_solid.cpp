@@ -70,8 +70,7 @@ Material meanMaterial(const TriangleMesh& mesh) {
           .emission = constant(emission / sum)};
 }
 
-std::optional<PlacedMesh> placedMesh(const Shape& shape) {
-  Expr f = withoutClaims({&shape.distance, 1}).front();
+std::optional<PlacedMesh> placedMesh(Expr f) {
   if (f.op() == Op::Mul && isUniform(f.arg(0))) f = f.arg(1);
   if (f.op() == Op::Mul && isUniform(f.arg(1))) f = f.arg(0);
   const PayloadPart* part = f.payloadPart();

@@ -20,8 +20,8 @@ struct PlacedMesh {
   std::array<Expr, 3> at;  ///< its own coordinates of the scene's position, linear functions of that
 };
 
-/// The shape as a mesh that was only moved, turned and scaled, if it is one.
-std::optional<PlacedMesh> placedMesh(const Shape& shape);
+/// The distance f, which has no claims, as that of a mesh that was only moved, turned and scaled, if it is.
+std::optional<PlacedMesh> placedMesh(Expr f);
 /// Has the shape the material that triangleSolid gave it?
 bool hasOwnMaterial(const Shape& shape, const MeshField& field);
 
