@@ -3,6 +3,7 @@
 
 #include "accuracy/operators/operator_cases.h"
 #include "sdf/shape/catalog.h"
+#include "support/thorough.h"
 
 namespace sdf::accuracy {
 
@@ -26,9 +27,10 @@ TEST_P(Operator, BuildsEveryCase) {
 }
 
 TEST_P(Operator, KeepsItsClaimAgainstTheSameOperationOnMeshes) {
-  const Row row = operatorRow(GetParam());
+  const std::uint64_t fraction = test::isThorough() ? 1 : 4;  // of what docs/accuracy.md is written from
+  const Row row = operatorRow(GetParam(), fraction);
   EXPECT_EQ(row.found.refuted, 0u) << row.found.worst;
-  EXPECT_GE(row.found.points, 100'000u);
+  EXPECT_GE(row.found.points, 100'000 / fraction);
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, Operator, testing::ValuesIn(operatorCases()),

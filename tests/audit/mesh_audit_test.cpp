@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -12,6 +11,7 @@
 #include "sdf/script/script.h"
 #include "sdf/shape/operators/place.h"
 #include "support/mesh_audit.h"
+#include "support/thorough.h"
 
 namespace sdf::test {
 namespace mesh_audit_test {
@@ -49,11 +49,7 @@ Shape variant(const Shape& shape, int number, double voxel) {
   return translate(turned, three(share) * voxel);
 }
 
-// Ten where all are asked for.
-int variants() {
-  const char* asked = std::getenv("SDF_AUDIT");
-  return asked && std::string(asked) == "all" ? 10 : 2;
-}
+int variants() { return isThorough() ? 10 : 2; }
 
 class MeshAuditTest : public testing::TestWithParam<Subject> {};
 

@@ -12,19 +12,21 @@
 namespace sdf {
 namespace {
 
-Error wrong(const std::string& what) { return {ErrorKind::Usage, "ambient occlusion: " + what}; }
+Error wrongOcclusion(const std::string& what) { return {ErrorKind::Usage, "ambient occlusion: " + what}; }
 
 Status checkRows(const Vectors& points, const Vectors& normals) {
-  if (points.size() != normals.size()) return wrong("the rows of points and of normals differ in length");
+  if (points.size() != normals.size())
+    return wrongOcclusion("the rows of points and of normals differ in length");
   for (std::size_t i = 0; i < normals.size(); ++i)
-    if (!isUnit(normals[i])) return wrong("normal " + std::to_string(i) + " must have length 1");
+    if (!isUnit(normals[i])) return wrongOcclusion("normal " + std::to_string(i) + " must have length 1");
   return okStatus();
 }
 
 Status check(const OcclusionRayOptions& o) {
-  if (o.count < 1) return wrong("count must be at least 1");
-  if (!isNotNegative(o.start)) return wrong("start must be finite and at least 0");
-  if (!(isPositive(o.cutoff) && o.cutoff > o.start)) return wrong("cutoff must be finite and above start");
+  if (o.count < 1) return wrongOcclusion("count must be at least 1");
+  if (!isNotNegative(o.start)) return wrongOcclusion("start must be finite and at least 0");
+  if (!(isPositive(o.cutoff) && o.cutoff > o.start))
+    return wrongOcclusion("cutoff must be finite and above start");
   return okStatus();
 }
 
@@ -61,7 +63,7 @@ void addUp(const Hits& hits, double& light, RayStatus& status) {
 }  // namespace
 
 Result<std::vector<double>> occlusionBySteps(std::span<const int> steps, double strength) {
-  if (!isNotNegative(strength)) return wrong("strength must be finite and at least 0");
+  if (!isNotNegative(strength)) return wrongOcclusion("strength must be finite and at least 0");
   std::vector<double> seen;
   for (const int n : steps) seen.push_back(std::max(0.0, 1.0 - strength * n));
   return seen;
@@ -69,9 +71,9 @@ Result<std::vector<double>> occlusionBySteps(std::span<const int> steps, double 
 
 Result<std::vector<double>> occlusionByTaps(const MarchField& field, const Vectors& points,
                                             const Vectors& normals, const TapOptions& options) {
-  if (options.count < 1) return wrong("count must be at least 1");
-  if (!isPositive(options.spacing)) return wrong("spacing must be positive and finite");
-  if (!isNotNegative(options.strength)) return wrong("strength must be finite and at least 0");
+  if (options.count < 1) return wrongOcclusion("count must be at least 1");
+  if (!isPositive(options.spacing)) return wrongOcclusion("spacing must be positive and finite");
+  if (!isNotNegative(options.strength)) return wrongOcclusion("strength must be finite and at least 0");
   if (const Status s = checkRows(points, normals); !s) return s.error();
   if (const Status s = checkSlope(field, "ambient occlusion"); !s) return s.error();
   Sampler sampler(field);
@@ -103,7 +105,7 @@ Result<Shade> occlusionByRays(const MarchField& field, const Vectors& points, co
   Shade shade{std::vector<double>(points.size()), std::vector<RayStatus>(points.size())};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Result<Hits> hits = marcher->trace(raysAround(points[i], normals[i], options, options.seed + i));
-    if (!hits) return wrong("point " + std::to_string(i) + ": " + hits.error().message);
+    if (!hits) return wrongOcclusion("point " + std::to_string(i) + ": " + hits.error().message);
     addUp(*hits, shade.light[i], shade.status[i]);
   }
   return shade;

@@ -10,20 +10,22 @@
 namespace sdf {
 namespace {
 
-constexpr const char* kUser = "shadows";
+constexpr const char* kShadowUser = "shadows";
 constexpr double kPenumbraStep = 0.6;
 constexpr double kDips = 0.998;  // less than that is rounding: away from a plane f / t stays
 
-Error wrong(const std::string& what) { return {ErrorKind::Usage, std::string(kUser) + ": " + what}; }
+Error wrongShadow(const std::string& what) {
+  return {ErrorKind::Usage, std::string(kShadowUser) + ": " + what};
+}
 
 Status check(const Rays& rays, const ShadowOptions& o) {
-  if (!isPositive(o.sharpness)) return wrong("sharpness must be positive and finite");
-  if (!isPositive(o.epsilon)) return wrong("epsilon must be positive and finite");
-  if (o.maxSteps < 1) return wrong("maxSteps must be at least 1");
-  if (const Status s = checkRays(rays, kUser); !s) return s.error();
+  if (!isPositive(o.sharpness)) return wrongShadow("sharpness must be positive and finite");
+  if (!isPositive(o.epsilon)) return wrongShadow("epsilon must be positive and finite");
+  if (o.maxSteps < 1) return wrongShadow("maxSteps must be at least 1");
+  if (const Status s = checkRays(rays, kShadowUser); !s) return s.error();
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (o.method != ShadowMethod::Hard && rays.tMin[i] == 0.0)
-      return wrong("ray " + std::to_string(i) + ": soft shadows divide by t; start above 0");
+      return wrongShadow("ray " + std::to_string(i) + ": soft shadows divide by t; start above 0");
   return okStatus();
 }
 
@@ -135,7 +137,7 @@ Rays raysToPoint(const Vectors& points, const glm::dvec3& position, double start
 
 Result<Shade> shadows(const MarchField& field, const Rays& rays, const ShadowOptions& options) {
   if (const Status s = check(rays, options); !s) return s.error();
-  if (const Status s = checkSlope(field, kUser); !s) return s.error();
+  if (const Status s = checkSlope(field, kShadowUser); !s) return s.error();
   Shade shade{std::vector<double>(rays.size()), std::vector<RayStatus>(rays.size())};
   Sampler sampler(field);
   ShadowWalker walker(options, rays, shade);

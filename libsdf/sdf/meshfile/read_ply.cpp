@@ -35,7 +35,7 @@ std::size_t sizeOf(PlyType type) { return kSizes[static_cast<int>(type)]; }
 
 /// What the values of a property are for, by its place here.
 constexpr std::array<std::string_view, 9> kRoles{"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"};
-constexpr std::size_t kNormal = 3, kColor = 6;
+constexpr std::size_t kNormalColumn = 3, kColorColumn = 6;
 
 struct PlyProperty {
   std::string name;
@@ -231,7 +231,7 @@ class PlyReader {
     if (element.count > std::numeric_limits<std::uint32_t>::max()) return tooManyTriangles(file_.path);
     TriangleMesh& mesh = read_.mesh;
     mesh.positions.reserve(element.count);
-    if (has(kColor)) mesh.materials[0].color = glm::vec3(1.0f);
+    if (has(kColorColumn)) mesh.materials[0].color = glm::vec3(1.0f);
     for (std::size_t v = 0; v < element.count; ++v) {
       std::array<float, kRoles.size()> of{};
       for (std::size_t i = 0; i < roles.size(); ++i) {
@@ -245,11 +245,12 @@ class PlyReader {
       }
       if (!values.ok()) return broken(element, v, values);
       mesh.positions.emplace_back(of[0], of[1], of[2]);
-      if (has(kNormal)) mesh.normals.emplace_back(of[3], of[4], of[5]);
-      if (has(kColor)) {
+      if (has(kNormalColumn)) mesh.normals.emplace_back(of[3], of[4], of[5]);
+      if (has(kColorColumn)) {
         glm::vec3 color;
         for (int k = 0; k < 3; ++k)
-          color[k] = linearOf(of[kColor + k] / white(element.properties[propertyOf[kColor + k]].type));
+          color[k] =
+              linearOf(of[kColorColumn + k] / white(element.properties[propertyOf[kColorColumn + k]].type));
         mesh.colors.push_back(color);
       }
     }

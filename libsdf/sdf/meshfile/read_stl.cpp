@@ -10,7 +10,7 @@
 namespace sdf {
 namespace {
 
-constexpr std::size_t kHeader = 84, kTriangle = 50, kNormal = 12;
+constexpr std::size_t kHeader = 84, kTriangle = 50, kNormalBytes = 12;
 
 bool isWord(std::string_view word, std::string_view lower) {
   return std::ranges::equal(word, lower,
@@ -59,7 +59,7 @@ class StlReader {
     read_.mesh.triangles.reserve(promised());
     for (std::size_t i = 0; i < promised(); ++i) {
       glm::vec3 corners[3];
-      std::memcpy(corners, file_.bytes.data() + kHeader + i * kTriangle + kNormal, sizeof corners);
+      std::memcpy(corners, file_.bytes.data() + kHeader + i * kTriangle + kNormalBytes, sizeof corners);
       read_.mesh.triangles.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2])});
     }
     return okStatus();

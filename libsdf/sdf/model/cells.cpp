@@ -123,7 +123,7 @@ CellLists::List ListWriter::add(std::span<const int> list) {
 }
 
 /// One group of a kind at some values.
-struct Group {
+struct GroupAtValues {
   TapePtr tape;  // of the distance, and the step
   double slope;
   std::size_t kind;
@@ -132,7 +132,7 @@ struct Group {
 
 // Reads every candidate at its block's middle, group by group.
 std::vector<Reading> readingsOf(const Candidates& open, std::span<const glm::dvec3> middles,
-                                std::span<const Group> groups) {
+                                std::span<const GroupAtValues> groups) {
   std::vector<std::size_t> ends(groups.size() + 1, 0);
   for (const int group : open.groups) ++ends[static_cast<std::size_t>(group) + 1];
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
@@ -162,7 +162,7 @@ std::vector<Reading> readingsOf(const Candidates& open, std::span<const glm::dve
 
 // Those whose distance or step may be the least somewhere within the radius. What is not a number stays.
 std::vector<int> nearest(std::span<const int> among, std::span<const Reading> readings,
-                         std::span<const Group> groups, double radius, double slack) {
+                         std::span<const GroupAtValues> groups, double radius, double slack) {
   double distance = kInfinity, step = kInfinity;
   const auto slope = [&](std::size_t i) { return groups[static_cast<std::size_t>(among[i])].slope; };
   for (std::size_t i = 0; i < among.size(); ++i) {
@@ -190,7 +190,7 @@ void halve(const Block& block, std::span<const int> among, Candidates& next) {
 /// Halves blocks of a grid's cells until they are cells, or one group alone is the nearest.
 class Sorting {
  public:
-  Sorting(const CellGrid& grid, std::span<const Group> groups, std::size_t kinds);
+  Sorting(const CellGrid& grid, std::span<const GroupAtValues> groups, std::size_t kinds);
   CellLists lists();
 
  private:
@@ -202,13 +202,13 @@ class Sorting {
   void list(const Block& block, std::span<const int> groups);
 
   CellGrid grid_;
-  std::span<const Group> groups_;
+  std::span<const GroupAtValues> groups_;
   std::vector<ListWriter> writers_;  // by kind
   CellLists lists_;
   Candidates open_, next_;
 };
 
-Sorting::Sorting(const CellGrid& grid, std::span<const Group> groups, std::size_t kinds)
+Sorting::Sorting(const CellGrid& grid, std::span<const GroupAtValues> groups, std::size_t kinds)
     : grid_(grid), groups_(groups), writers_(kinds) {
   std::vector<int> all(groups.size());
   std::iota(all.begin(), all.end(), 0);
@@ -259,7 +259,7 @@ void Sorting::sort(const Block& block, std::span<const int> among, std::span<con
 std::vector<CellLists::List> Sorting::listsOf(std::span<const int> groups) {
   std::vector<std::vector<int>> byKind(writers_.size());
   for (const int group : groups) {
-    const Group& g = groups_[static_cast<std::size_t>(group)];
+    const GroupAtValues& g = groups_[static_cast<std::size_t>(group)];
     byKind[g.kind].push_back(g.number);
   }
   std::vector<CellLists::List> result;
@@ -330,7 +330,7 @@ std::vector<std::string> CellSorter::inputs() const {
 CellLists CellSorter::lists(const Values& values) const {
   const std::vector<double> numbers = numbers_.uniform(values);
   auto number = numbers.begin();
-  std::vector<Group> groups;
+  std::vector<GroupAtValues> groups;
   for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
     const auto& [read, names, count, slope] = kinds_[kind];
     Values own = values;

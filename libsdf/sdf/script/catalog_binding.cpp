@@ -280,18 +280,18 @@ void pushEntryFunction(lua_State* L, const CatalogEntry& entry) {
     lua_pushcclosure(L, entry.name == "displace" ? guarded<callDisplace> : guarded<callEntry>, 1);
 }
 
-struct Sign {
+struct ShapeSign {
   const char* event;
   const char* sign;
   const char* entry;
 };
-constexpr Sign kSigns[] = {{"__bor", "|", "union"},
-                           {"__band", "&", "intersection"},
-                           {"__sub", "-", "difference"},
-                           {"__bxor", "~", "xor"}};
+constexpr ShapeSign kShapeSigns[] = {{"__bor", "|", "union"},
+                                     {"__band", "&", "intersection"},
+                                     {"__sub", "-", "difference"},
+                                     {"__bxor", "~", "xor"}};
 
 int applySign(lua_State* L) {
-  const auto& s = *static_cast<const Sign*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const auto& s = *static_cast<const ShapeSign*>(lua_touserdata(L, lua_upvalueindex(1)));
   for (int i = 1; i <= 2; ++i)
     if (!testShape(L, i))
       raise(L, std::string("'") + s.sign + "' needs a shape on both sides, got " + describe(L, i));
@@ -356,8 +356,8 @@ void openCatalog(lua_State* L) {
   lua_getglobal(L, "paint");
   lua_setfield(L, -2, "paint");
   lua_pop(L, 1);
-  for (const Sign& s : kSigns) {
-    lua_pushlightuserdata(L, const_cast<Sign*>(&s));
+  for (const ShapeSign& s : kShapeSigns) {
+    lua_pushlightuserdata(L, const_cast<ShapeSign*>(&s));
     lua_pushcclosure(L, guarded<applySign>, 1);
     setShapeOperator(L, s.event);
   }

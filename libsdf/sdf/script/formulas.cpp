@@ -215,17 +215,17 @@ Expr minus(const Expr& a, const Expr& b) { return a - b; }
 Expr times(const Expr& a, const Expr& b) { return a * b; }
 Expr over(const Expr& a, const Expr& b) { return a / b; }
 
-struct Sign {
+struct FormulaSign {
   const char* event;
   const char* sign;
   Expr (*apply)(const Expr&, const Expr&);
 };
-constexpr Sign kSigns[] = {{"__add", "+", plus},         {"__sub", "-", minus}, {"__mul", "*", times},
-                           {"__div", "/", over},         {"__mod", "%", mod},   {"__pow", "^", power},
-                           {"__idiv", "//", floorDivide}};
+constexpr FormulaSign kFormulaSigns[] = {
+    {"__add", "+", plus}, {"__sub", "-", minus}, {"__mul", "*", times},        {"__div", "/", over},
+    {"__mod", "%", mod},  {"__pow", "^", power}, {"__idiv", "//", floorDivide}};
 
 int arithmetic(lua_State* L) {
-  const auto& s = *static_cast<const Sign*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const auto& s = *static_cast<const FormulaSign*>(lua_touserdata(L, lua_upvalueindex(1)));
   pushFormula(L, s.apply(operand(L, 1, s.sign), operand(L, 2, s.sign)));
   return 1;
 }
@@ -243,8 +243,8 @@ int formulaText(lua_State* L) { return lua_pushliteral(L, "formula"), 1; }
 }  // namespace
 
 void openFormulaOperators(lua_State* L) {
-  for (const Sign& s : kSigns) {
-    lua_pushlightuserdata(L, const_cast<Sign*>(&s));
+  for (const FormulaSign& s : kFormulaSigns) {
+    lua_pushlightuserdata(L, const_cast<FormulaSign*>(&s));
     lua_pushcclosure(L, guarded<arithmetic>, 1);
     setFormulaOperator(L, s.event);
   }

@@ -9,7 +9,7 @@
 namespace sdf::accuracy {
 namespace {
 
-constexpr double kTwist = 3.0, kHalf = 0.53;  // of a box about y: radians a unit, and half its width
+constexpr double kColumnTwist = 3.0, kHalf = 0.53;  // of a box about y: radians a unit, and half its width
 
 // Into the cell of 2 about 0.
 double inCell(double x) { return x - 2.0 * std::round(x / 2.0); }
@@ -33,16 +33,16 @@ std::vector<FailureCase> warpFailures() {
        }},
       {"slope of a twisted box",
        "steepest difference quotient over the constant that is believed, less 1",
-       {"f of the turned position", 0.9 * (std::hypot(1.0, kTwist * kHalf) - 1.0)},
+       {"f of the turned position", 0.9 * (std::hypot(1.0, kColumnTwist * kHalf) - 1.0)},
        {"calibrated, with a proven constant", 1e-9},
        "at a face's edge, half = 0.53 off its middle, the face also moves by rate half along y: slope sqrt(1 "
        "+ (3 * 0.53)^2), of which the lattice finds nine tenths; quotients over 1e-4 round by 1e-12",
        [] {
          const Shape column = box(Vec3E(kHalf, 1.0, kHalf));
-         const Shape twisted = twist(column, kTwist);
+         const Shape twisted = twist(column, kColumnTwist);
          const Distance straight(column), ours(twisted);
          const auto naive = [&](const glm::dvec3& p) {
-           const double c = std::cos(kTwist * p.y), s = std::sin(kTwist * p.y);
+           const double c = std::cos(kColumnTwist * p.y), s = std::sin(kColumnTwist * p.y);
            return straight(c * p.x - s * p.z, p.y, s * p.x + c * p.z);
          };
          return Figures{steepest(naive, 0.75, 41) - 1.0, steepest(ours, 0.75, 41) / slopeOf(twisted) - 1.0};

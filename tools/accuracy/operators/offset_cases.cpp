@@ -16,7 +16,7 @@ namespace sdf::accuracy {
 namespace {
 
 constexpr double kLittle = 0.05, kMuch = 0.25;  // of the smallest half size
-constexpr int kLines = 120, kPairs = 150, kPlacesInBounds = 200, kSteps = 24;
+constexpr int kLines = 120, kPairs = 150, kPlacesInBounds = 200, kStepsAlong = 24;
 constexpr unsigned kSeed = 5;
 // Lines that meet the expected surface at a glancing angle, and those that meet next to nothing but the other
 // solid's, measure something else.
@@ -178,7 +178,7 @@ class Measurement {
     const Reading library = [&](double t) { return value(from + t * along); };
     // Next to nothing moves there, as far from a junction.
     if (std::abs(truth(0.0)) < kLeastMove * case_.amount) return false;
-    const std::optional<double> expected = crossing(truth, clear, kSteps);
+    const std::optional<double> expected = crossing(truth, clear, kStepsAlong);
     if (!expected || !dependsOnDistance(from + *expected * along, way * *expected)) return false;
     const double around = kAround * case_.amount, sign = truth(0.0) < 0.0 ? 1.0 : -1.0;
     if (sign * truth(*expected + around) < kLeastSlope * around ||
@@ -187,7 +187,7 @@ class Measurement {
     const double scale = std::max(case_.amount, *expected), most = *expected + 3.0 * scale;
     const bool rightAtFirst = (library(0.0) < 0.0) == (truth(0.0) < 0.0);
     const std::optional<double> found =
-        rightAtFirst ? crossing(library, most, 2 * kSteps) : std::optional(0.0);
+        rightAtFirst ? crossing(library, most, 2 * kStepsAlong) : std::optional(0.0);
     const double error = std::abs(found.value_or(most) - *expected) / scale;
     if (found_.errors.empty() || error > *std::ranges::max_element(found_.errors))
       found_.worst = joined("from ", shown(from), " along ", shown(along), " the surface is at ", *expected,

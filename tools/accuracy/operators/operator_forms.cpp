@@ -9,8 +9,8 @@
 namespace sdf::accuracy {
 namespace {
 
-constexpr int kTimes = 6;    // of a sphere's refinement
-constexpr int kSteps = 128;  // of a turn about an axis
+constexpr int kSphereTimes = 6;    // of a sphere's refinement
+constexpr int kStepsOfTurn = 128;  // of a turn about an axis
 
 Shape ballAt(double y, double radius) { return translate(sphere(radius), Vec3E(0.0, y, 0.0)); }
 
@@ -23,7 +23,7 @@ ReferenceCase morphedBalls(double t) {
   };
   constexpr double kClear = 0.3;  // of the surface from the centres
   return caseOf("of two balls, " + std::to_string(t), morph(ballAt(-0.4, 1.0), ballAt(0.4, 0.7), t),
-                tessellatedAboutY({g, 0.3, 2.0, 1.0 / kClear}, kSteps));
+                tessellatedAboutY({g, 0.3, 2.0, 1.0 / kClear}, kStepsOfTurn));
 }
 
 std::vector<ReferenceCase> morphs() {
@@ -35,7 +35,7 @@ std::vector<ReferenceCase> morphs() {
 }
 
 // All within `radius` of the box: the sphere pulled apart.
-Solid grownBox(const glm::dvec3& half, double radius, int times = kTimes) {
+Solid grownBox(const glm::dvec3& half, double radius, int times = kSphereTimes) {
   const Tessellation ball = sphereSurface(radius, times);
   return {round(box(Vec3E(half)), radius), pulledApart(ball.mesh, half), ball.chord};
 }
@@ -72,7 +72,7 @@ std::vector<ReferenceCase> shells() {
           caseOf("of a box, turned", placed(boxShell, {3, 1, 2}, 2.0, {0.3, 0.0, 0.1})),
           caseOf("so thick that nothing is hollow",
                  {shell(box(Vec3E(0.5, 0.1, 0.4)), 0.3), grownBox({0.5, 0.1, 0.4}, 0.15).mesh,
-                  sphereSurface(0.15, kTimes).chord}),
+                  sphereSurface(0.15, kSphereTimes).chord}),
           caseOf("of a ball", {shell(sphere(1.0), 0.2), skins, std::max(outer.chord, inner.chord)}),
           caseOf("of crossed boxes", {shell(crossed(), 0.2), crossedSkins, sphereSurface(0.1, 5).chord})};
 }
@@ -104,7 +104,7 @@ ReferenceCase waves(double amplitude, double w) {
                bending = 1.0 / nearest + std::numbers::sqrt2 * std::abs(amplitude) * w * w;
   return caseOf("of a ball by waves " + std::to_string(amplitude) + ", " + std::to_string(w),
                 displace(sphere(1.0), amplitude, w),
-                tessellated({g, nearest, 1.02 + std::abs(amplitude), bending}, kTimes + 1));
+                tessellated({g, nearest, 1.02 + std::abs(amplitude), bending}, kSphereTimes + 1));
 }
 
 std::vector<ReferenceCase> displacements() {
@@ -113,7 +113,7 @@ std::vector<ReferenceCase> displacements() {
   const Expr y = Expr::variable(Variable::Y);
   return {waves(0.1, 5.0), waves(-0.05, 12.0), waves(0.3, 2.0),
           caseOf("of a ball by a slope", displace(sphere(1.0), 0.5 * y),
-                 tessellatedAboutY({g, 0.6, 2.1, 1.0 / 0.6}, kSteps)),
+                 tessellatedAboutY({g, 0.6, 2.1, 1.0 / 0.6}, kStepsOfTurn)),
           caseOf("of an L by nothing", {displace(solidL().shape, 0.0, 3.0), solidL().mesh})};
 }
 

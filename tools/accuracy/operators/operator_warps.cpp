@@ -11,8 +11,8 @@ namespace {
 
 using Corners = std::vector<glm::dvec2>;
 
-constexpr int kSteps = 256;  // of a turn about an axis
-constexpr int kTimes = 6;    // of a warped face's refinement
+constexpr int kSteps = 256;    // of a turn about an axis
+constexpr int kFaceTimes = 6;  // of a warped face's refinement
 
 Corners regularOutline(int corners, double radius, const glm::dvec2& centre) {
   Corners outline;
@@ -83,7 +83,7 @@ double bendingOf(double along, double mixed) { return 0.5 * (along + std::hypot(
 
 ReferenceCase warpedCase(const std::string& name, const Shape& shape, const TriangleMesh& flat,
                          const PointMap& map, double bending) {
-  const int times = flat.triangles.size() > 100 ? kTimes - 2 : kTimes;
+  const int times = flat.triangles.size() > 100 ? kFaceTimes - 2 : kFaceTimes;
   ReferenceCase c = caseOf(name, shape, warped(flat, times, map, bending));
   for (const glm::dvec3& p : flat.points) c.special.push_back(map(p));
   return c;

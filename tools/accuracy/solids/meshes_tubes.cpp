@@ -7,7 +7,7 @@
 namespace sdf::accuracy {
 namespace {
 
-using Row = std::vector<glm::dvec3>;
+using Ring = std::vector<glm::dvec3>;
 
 // A tube's cut through a half-plane that ends at an axis: a circle, or what lies outside the axis of one that
 // crosses it; coordinates are distance from the axis and height. `pole`: height at which all of a tube's cuts
@@ -53,20 +53,20 @@ double sphereChord(std::span<const Triangle> triangles, const glm::dvec3& centre
   return chord;
 }
 
-Row turned(const std::vector<glm::dvec2>& section, double sine, double cosine) {
-  Row row;
+Ring turned(const std::vector<glm::dvec2>& section, double sine, double cosine) {
+  Ring row;
   for (const glm::dvec2& q : section) row.emplace_back(q.x * sine, q.y, q.x * cosine);
   return row;
 }
 
 // The tube's end: cuts of the ball about its last centre by the half-planes beyond `angle`, up to where they
 // leave the ball or to the plane of symmetry opposite.
-std::vector<Row> ballRows(double angle, double major, double minor, int steps, int along) {
+std::vector<Ring> ballRows(double angle, double major, double minor, int steps, int along) {
   const double pole = poleOf(major, minor), rest = kPi - angle;
   // A half-plane turned by `by` beyond the end passes the centre at major sin(by) = minor sin(latitude).
   const bool reaches = pole > 0.0 || (angle > 0.5 * kPi && major * std::sin(rest) < minor);
   const double last = pole > 0.0 ? rest : reaches ? std::asin(major / minor * std::sin(rest)) : 0.5 * kPi;
-  std::vector<Row> rows;
+  std::vector<Ring> rows;
   for (int k = 0; k <= along; ++k) {
     const double share = last * k / along;
     const double by = pole > 0.0 ? share : std::asin(minor / major * std::sin(share));
@@ -91,7 +91,7 @@ std::vector<Row> ballRows(double angle, double major, double minor, int steps, i
 Tessellation bentTube(double angle, double major, double minor, int steps, int along) {
   const double pole = poleOf(major, minor);
   const int turns = std::max(2, static_cast<int>(std::ceil(along * angle / kPi)));
-  std::vector<Row> rows;
+  std::vector<Ring> rows;
   for (int k = 0; k <= turns; ++k) {
     const double theta = angle * k / turns;
     const bool opposite = angle == kPi && k == turns;
@@ -122,9 +122,9 @@ Tessellation chainLink(double halfLength, double major, double minor, int steps,
   const double pole = poleOf(major, minor);
   const std::vector<glm::dvec2> circle = section(major, minor, pole, steps);
   const int turns = along / 2;
-  std::vector<Row> rows;
+  std::vector<Ring> rows;
   const auto add = [&](double sine, double cosine, double y) {
-    Row& row = rows.emplace_back();
+    Ring& row = rows.emplace_back();
     for (const glm::dvec2& q : circle) row.emplace_back(q.x * cosine, y + q.x * sine, q.y);
   };
   for (int k = 0; k < turns && halfLength > 0.0; ++k) add(0.0, 1.0, halfLength * k / turns);
@@ -161,9 +161,9 @@ Tessellation roundedBox(const glm::dvec3& half, double radius, int steps) {
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-half[axis], half[axis]}) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      std::vector<Row> rows;
+      std::vector<Ring> rows;
       for (const double a : lines[u]) {
-        Row& row = rows.emplace_back();
+        Ring& row = rows.emplace_back();
         for (const double b : lines[v])
           row.emplace_back(0.0), row.back()[axis] = side, row.back()[u] = a, row.back()[v] = b;
       }

@@ -24,7 +24,7 @@ namespace {
 constexpr double kMostSeconds = 20.0;  // of one mesh
 
 // What all measurements of one scene share, made when the first of them runs.
-struct Shared {
+struct SharedShape {
   Subject subject;
   Extent extent;
   Tape distance{Expr(0.0)};
@@ -42,7 +42,7 @@ struct Made {
   JudgedMesh judged;
   std::optional<MeshedShape> ours{};
 };
-using Mesher = std::function<Made(Shared&)>;
+using Mesher = std::function<Made(SharedShape&)>;
 
 // As it would be written without the mesher's normals.
 Mesh plainMesh(const JudgedMesh& judged) {
@@ -68,13 +68,13 @@ double fileBytes(const Mesh& mesh) {
   return bytes;
 }
 
-void judge(const Made& made, Shared& shared, Row& row) {
+void judge(const Made& made, SharedShape& shared, Row& row) {
   judgeMesh(made.judged, shared.truthNow(), shared.points(), row);
   row.bytes = fileBytes(made.ours ? made.ours->mesh : plainMesh(made.judged));
   if (made.ours && made.ours->stats.provenDistance > 0.0) row.proven = made.ours->stats.provenDistance;
 }
 
-Measurement measurement(const std::shared_ptr<Shared>& shared, Row row, Mesher mesher) {
+Measurement measurement(const std::shared_ptr<SharedShape>& shared, Row row, Mesher mesher) {
   row.kind = "meshing";
   row.scene = shared->subject.name;
   row.items = 1.0;
@@ -106,7 +106,7 @@ Made judgedAsOurs(MeshedShape meshed) {
 }
 
 Mesher ours(MeshOptions options) {
-  return [options](Shared& shared) {
+  return [options](SharedShape& shared) {
     Deadline deadline(kMostSeconds);
     Result<MeshedShape> meshed = meshShape(shared.subject.shape, shared.subject.name, options, deadline);
     deadline.check();
@@ -126,7 +126,7 @@ enum class Stage { Extraction, Projection, Creases };
 
 // The library's own stages up to one of them, at voxels of h.
 Mesher stagesTo(Stage last, double h) {
-  return [last, h](Shared& shared) {
+  return [last, h](SharedShape& shared) {
     Deadline progress(kMostSeconds);
     const ModelTapes model = Model(shared.subject.shape).at();
     const LocalTapes whole{model.whole(), model.whole()->firstOutputOnly()};
@@ -148,13 +148,14 @@ Mesher stagesTo(Stage last, double h) {
   };
 }
 
-void addVoxels(const std::shared_ptr<Shared>& shared, int resolution, std::vector<Measurement>& all) {
+void addVoxels(const std::shared_ptr<SharedShape>& shared, int resolution, std::vector<Measurement>& all) {
   const double h = shared->subject.bounds.longestSide() / resolution;
   const std::string setting = std::to_string(resolution) + " voxels";
   const auto add = [&](const char* method, Mesher mesher) {
     all.push_back(measurement(shared, {.method = method, .setting = setting, .size = h}, std::move(mesher)));
   };
-  add("OpenVDB, dense", [h](Shared& s) { return Made{{meshDenselyByOpenVdb(s.subject, s.distance, h)}}; });
+  add("OpenVDB, dense",
+      [h](SharedShape& s) { return Made{{meshDenselyByOpenVdb(s.subject, s.distance, h)}}; });
   add("extraction alone", stagesTo(Stage::Extraction, h));
   add("+ projection", stagesTo(Stage::Projection, h));
   add("+ creases", stagesTo(Stage::Creases, h));
@@ -164,7 +165,7 @@ void addVoxels(const std::shared_ptr<Shared>& shared, int resolution, std::vecto
     add("uniform, proven", ours({.voxelSize = h, .certify = true}));
 }
 
-void addTolerance(const std::shared_ptr<Shared>& shared, double share, std::vector<Measurement>& all) {
+void addTolerance(const std::shared_ptr<SharedShape>& shared, double share, std::vector<Measurement>& all) {
   const double tolerance = share * glm::length(shared->subject.bounds.size());
   const MeshOptions options{.tolerance = tolerance, .strict = false};
   Row row{.setting = formatted("%g %% of the diagonal", 100.0 * share), .size = tolerance};
@@ -181,7 +182,7 @@ void addTolerance(const std::shared_ptr<Shared>& shared, double share, std::vect
   constexpr double kProvable = 9e-4;  // finer, proofs take minutes
   coarse.certify = true;
   if (share >= kProvable && shared->subject.easy) add("tolerance, voxels of 1/64, proven", ours(coarse));
-  add("CGAL make_surface_mesh", [tolerance](Shared& s) {
+  add("CGAL make_surface_mesh", [tolerance](SharedShape& s) {
     return Made{{meshImplicitlyByCgal(s.subject, s.distance, tolerance, kMostSeconds)}};
   });
 }
@@ -196,7 +197,7 @@ std::vector<Batch> meshingBatches(const std::vector<Subject>& subjects, Extent e
                                             {2e-3, kDefaultTolerance}, {kDefaultTolerance});
   std::vector<Batch> batches;
   for (const Subject& subject : subjects) {
-    const auto shared = std::make_shared<Shared>(subject, extent, Tape(subject.shape.distance));
+    const auto shared = std::make_shared<SharedShape>(subject, extent, Tape(subject.shape.distance));
     const auto add = [&](const std::string& what, double weight, auto fill) {
       batches.push_back({.subject = "meshing " + subject.name + ", " + what,
                          .weight = weight,

@@ -10,7 +10,7 @@ namespace {
 using accuracy::FailureCase;
 
 // One run of a case gives both figures.
-struct Shared {
+struct SharedCase {
   FailureCase failure;
   std::optional<accuracy::Figures> figures{};
   double seconds = 0.0;
@@ -28,7 +28,7 @@ const char* verdict(const FailureCase& c, double figure) {
   return figure < c.naive.limit ? "degrades" : "fails";
 }
 
-Measurement measurement(const std::shared_ptr<Shared>& shared, bool ours) {
+Measurement measurement(const std::shared_ptr<SharedCase>& shared, bool ours) {
   const FailureCase& c = shared->failure;
   const accuracy::Method& method = ours ? c.ours : c.naive;
   Row row{.kind = "stability",
@@ -67,7 +67,7 @@ std::vector<Batch> stabilityBatches(Extent extent) {
   for (const FailureCase& c : cases)
     batches.push_back(
         {.subject = "stability, " + c.name, .weight = 0.5, .runs = 1, .make = [c] {
-           const auto shared = std::make_shared<Shared>(c);
+           const auto shared = std::make_shared<SharedCase>(c);
            return std::vector<Measurement>{measurement(shared, false), measurement(shared, true)};
          }});
   return batches;

@@ -14,11 +14,11 @@
 namespace sdf {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoCrossing = ~0u;
 
 // How far inside its corners and sides a triangle looks for its paint, as a share of the way to the centroid.
 constexpr float kInto = 0.025f;
-constexpr int kHalvings = 7;
+constexpr int kBorderHalvings = 7;
 // Rounds in which triangles that a border does not cross straight are divided, and how far beside a straight
 // cut's middle they are looked at, as a share of the way to the triangle's corner.
 constexpr int kRefinements = 4;
@@ -109,7 +109,7 @@ class BorderCutter {
   // Leaves those that end at a border: what has become alike only changes fast.
   void halve(std::vector<Search>& searches) const {
     std::vector<glm::vec3> points(searches.size());
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < kBorderHalvings; ++i) {
       std::ranges::transform(searches, points.begin(),
                              [](const Search& s) { return glm::mix(s.from, s.to, s.middle()); });
       const std::vector<Paint> paint = readPaintBeside(points, field_, progress_);
@@ -234,7 +234,7 @@ class BorderCutter {
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const glm::uvec3 t = mesh_.triangles[i];
       const std::array<std::uint32_t, 3> x{crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
-      if (x[0] != kNone || x[1] != kNone || x[2] != kNone) {
+      if (x[0] != kNoCrossing || x[1] != kNoCrossing || x[2] != kNoCrossing) {
         divide(t, x, pieces);
         continue;
       }
@@ -284,13 +284,13 @@ class BorderCutter {
 
   std::uint32_t crossingAt(std::uint32_t a, std::uint32_t b) const {
     const auto it = crossings_.find(edgeKey(a, b));
-    return it == crossings_.end() ? kNone : it->second;
+    return it == crossings_.end() ? kNoCrossing : it->second;
   }
 
   void splitCreases() {
     std::vector<Edge> pieces;
     for (const auto& [a, b] : mesh_.creases)
-      if (const std::uint32_t m = crossingAt(a, b); m != kNone)
+      if (const std::uint32_t m = crossingAt(a, b); m != kNoCrossing)
         pieces.push_back({a, m}), pieces.push_back({b, m});
       else
         pieces.push_back({a, b});
@@ -309,7 +309,7 @@ class BorderCutter {
     std::uint32_t corners[6];
     std::size_t n = 0, apex = 0;
     for (int i = 0; i < 6; ++i) {
-      if (around[i] == kNone) continue;
+      if (around[i] == kNoCrossing) continue;
       if (i % 2 == 1) apex = n;
       corners[n++] = around[i];
     }
@@ -321,7 +321,7 @@ class BorderCutter {
     const Paint* paint = &corners_[3 * number];
     const std::array<std::uint32_t, 3> x{crossingAt(t.x, t.y), crossingAt(t.y, t.z), crossingAt(t.z, t.x)};
     std::array<bool, 3> sides = cutSides_[number];
-    for (int k = 0; k < 3; ++k) sides[k] = sides[k] && x[k] != kNone;
+    for (int k = 0; k < 3; ++k) sides[k] = sides[k] && x[k] != kNoCrossing;
     const int cuts = sides[0] + sides[1] + sides[2];
     if (cuts < 2) return addPolygon({t.x, x[0], t.y, x[1], t.z, x[2]}, paint[0]);
     if (cuts == 3) {
@@ -340,7 +340,7 @@ class BorderCutter {
     while (!sides[k] || !sides[(k + 2) % 3]) ++k;
     const std::uint32_t after = x[k], across = x[(k + 1) % 3], before = x[(k + 2) % 3];
     add({t[k], after, before}, paint[k]);
-    addPolygon({before, after, t[(k + 1) % 3], across, t[(k + 2) % 3], kNone}, paint[(k + 1) % 3]);
+    addPolygon({before, after, t[(k + 1) % 3], across, t[(k + 2) % 3], kNoCrossing}, paint[(k + 1) % 3]);
     mesh_.creases.push_back({after, before});
   }
 

@@ -16,16 +16,16 @@ const float kSmooth = std::cos(kCreaseAngle);
 
 // Halvings of an edge: a bend turns by its share of an edge between the last two points, and a crease by all
 // of its angle.
-constexpr int kHalvings = 5;
+constexpr int kCreaseHalvings = 5;
 
 // Voxels that a point may be moved by: the edge of a wedge that is thinner than a voxel is that far from its
 // samples.
-constexpr double kReach = 2.0;
+constexpr double kCreaseReach = 2.0;
 // The same on the first step from an edge, which goes by the planes at its ends: the tip of a wedge of 15
 // degrees is this far from where it is a voxel thick.
 constexpr double kTip = 4.0;
 // Voxels from a crease at which its sides are looked at, one reading after the other.
-constexpr double kProbes[] = {0.1, 0.01};
+constexpr double kCreaseProbes[] = {0.1, 0.01};
 // The same where that met another side. Beyond the tip of a thin wedge, whose place is uncertain by the bend
 // of its sides divided by its angle, both sides read as one.
 constexpr double kPatientProbes[] = {1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01};
@@ -66,12 +66,12 @@ glm::dvec3 toCommonLine(const Plane& a, const Plane& b, const glm::dvec3& p) {
 }
 
 // Planes whose normals span less than this volume do not meet in a certain point.
-constexpr double kFlat = 0.02;
+constexpr double kFlatCrease = 0.02;
 
 /// The step from p to where three planes meet, or to the common line of the two that differ most.
 glm::dvec3 toCommonPoint(const std::array<Plane, 3>& s, const glm::dvec3& p) {
   const glm::dmat3 normals(s[0].normal, s[1].normal, s[2].normal);
-  if (std::abs(glm::determinant(normals)) > kFlat)
+  if (std::abs(glm::determinant(normals)) > kFlatCrease)
     return -(glm::dvec3(s[0].at(p), s[1].at(p), s[2].at(p)) * glm::inverse(normals));
   int sharpest = 0;  // the pair without it
   const auto cosine = [&](int k) { return glm::dot(s[(k + 1) % 3].normal, s[(k + 2) % 3].normal); };
@@ -114,9 +114,9 @@ void placeCornersOf(const PointRun& run, CornerPoint* corners) {
     for (int k = 0; k < 3; ++k)
       sides[k] = {glm::dvec3(c.normal[k]), -glm::dot(glm::dvec3(c.normal[k]), glm::dvec3(c.on[k]))};
     at += toCommonPoint(sides, at);
-    c.placed = glm::distance(at, start) <= kReach * run.voxel;
+    c.placed = glm::distance(at, start) <= kCreaseReach * run.voxel;
     Reading r;
-    for (const double reach : kProbes) {
+    for (const double reach : kCreaseProbes) {
       if (!c.placed) break;
       const auto middles = waysInto(sides, c, at);
       for (int k = 0; k < 3; ++k) {
@@ -135,7 +135,7 @@ void placeCornersOf(const PointRun& run, CornerPoint* corners) {
       }
       if (!c.placed) break;
       at += toCommonPoint(sides, at);
-      c.placed = glm::distance(at, start) <= kReach * run.voxel;
+      c.placed = glm::distance(at, start) <= kCreaseReach * run.voxel;
     }
     if (c.placed) c.at = glm::vec3(at);
   }
@@ -190,7 +190,7 @@ class CreasePlacer {
   }
 
   bool move(CreasePoint& p, const glm::dvec3& step) const {
-    if (!(glm::length(step) <= kReach * run_.voxel)) return false;
+    if (!(glm::length(step) <= kCreaseReach * run_.voxel)) return false;
     p.at = glm::vec3(glm::dvec3(p.at) + step);
     return true;
   }
@@ -223,7 +223,7 @@ void placeRun(const PointRun& run, CreasePoint* points) {
   for (std::size_t first = 0; first < run.count; first += kBatchPoints / 2) {
     const std::span<CreasePoint> some(points + first, std::min(run.count - first, kBatchPoints / 2));
     std::vector<CreasePoint> again(some.begin(), some.end());
-    CreasePlacer(run, some).place(kProbes);
+    CreasePlacer(run, some).place(kCreaseProbes);
     std::vector<std::size_t> missed;
     for (std::size_t i = 0; i < some.size(); ++i)
       if (!some[i].placed) again[missed.size()] = again[i], missed.push_back(i);
@@ -259,7 +259,7 @@ struct Bend {
 /// Halves the edges where the gradient jumps; candidates[i].placed tells where one does.
 void halveRun(const PointRun& run, std::vector<Bend>& bends, Crossing* found) {
   Reading r;
-  for (int step = 0; step < kHalvings && !bends.empty(); ++step) {
+  for (int step = 0; step < kCreaseHalvings && !bends.empty(); ++step) {
     for (std::size_t i = 0; i < bends.size(); ++i) r.points.set(i, bends[i].middle());
     r.read(run, bends.size());
     std::size_t kept = 0;

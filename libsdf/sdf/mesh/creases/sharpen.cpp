@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint32_t kNone = ~0u;
 
 // Rounds in which edges that one crossing does not explain are halved.
-constexpr int kHalvings = 3;
+constexpr int kSharpenHalvings = 3;
 // The side of a crossing is the piece of its edge's end if their normals are no more than 25 degrees apart.
 constexpr float kSamePiece = 0.9f;
 
@@ -46,7 +46,7 @@ class Sharpener {
     if (hasSharpEdges(normals_, triangles_)) islands = findIslands(cuts_.extracted, triangles_);
     crossings_ = findCrossings(mesh_.positions, normals_, triangles_, field_, progress_);
     nameCrossings();
-    for (int round = 0; round < kHalvings; ++round)
+    for (int round = 0; round < kSharpenHalvings; ++round)
       if (!halveDoubtful()) break;
     std::erase_if(crossings_, [](const Crossing& c) { return !c.point.placed; });
     if (crossings_.empty()) {

@@ -28,13 +28,13 @@ namespace {
 // Cosine of what normals turn by along an edge near a tip: 25 degrees.
 constexpr float kTurned = 0.9f;
 // Voxels that a vertex may be moved by.
-constexpr double kReach = 4.0;
+constexpr double kTipReach = 4.0;
 // Of that: what triangles around a tip are exchanged within.
 constexpr double kWidest = 2.0;
 // Planes whose normals' least mean square along a direction is below this have no point in common for sure.
-constexpr double kFlat = 1e-3;
+constexpr double kFlatTip = 1e-3;
 // Voxels from the tip at which the surface is looked at, one reading after the other, in so many directions.
-constexpr double kProbes[] = {0.4, 0.1, 0.02};
+constexpr double kTipProbes[] = {0.4, 0.1, 0.02};
 constexpr int kAround = 8;
 // Of the probes' distance: how far their planes may pass the tip.
 constexpr double kMissed = 0.05;
@@ -56,7 +56,7 @@ struct Planes {
   bool meet() const {
     // The least eigenvalue is the determinant by the product of the others, which are at most `count`
     // together.
-    return glm::determinant(squares) > kFlat * 0.25 * count * count * count;
+    return glm::determinant(squares) > kFlatTip * 0.25 * count * count * count;
   }
 };
 
@@ -147,7 +147,7 @@ class Finder {
     const glm::dmat3 inverse = glm::inverse(planes.squares);
     const glm::dvec3 way = inverse * planes.toPoint;
     const double far = glm::length(way);
-    if (!(far <= kReach * locals_->at(mesh_.positions[v]).voxel)) return std::nullopt;
+    if (!(far <= kTipReach * locals_->at(mesh_.positions[v]).voxel)) return std::nullopt;
     return Tip{v, origin + way, inverse * planes.sum, far};
   }
 
@@ -163,9 +163,9 @@ class Approach {
   Approach(const PointRun& run, Tip& tip) : run_(run), tip_(tip) {}
 
   bool run() {
-    for (const double reach : kProbes)
+    for (const double reach : kTipProbes)
       if (!step(reach * run_.voxel)) return false;
-    return turnsEvenly() && glm::distance(tip_.at, start_) < kReach * run_.voxel;
+    return turnsEvenly() && glm::distance(tip_.at, start_) < kTipReach * run_.voxel;
   }
 
  private:
@@ -240,7 +240,7 @@ class Crowner {
     const double least = std::max(1.01 * tip.far, kNarrowest * voxel);
     for (double reach = least; reach <= kFarForRound * voxel; reach *= kWider)
       if (find(tip, reach) && widest_ < kRound && !crosses(tip)) return close(tip);
-    for (double reach = least; reach <= kWidest * kReach * voxel; reach *= kWider)
+    for (double reach = least; reach <= kWidest * kTipReach * voxel; reach *= kWider)
       if (find(tip, reach) && !crosses(tip)) return close(tip);
   }
 

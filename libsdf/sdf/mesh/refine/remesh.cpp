@@ -27,7 +27,7 @@ constexpr int kHalvings = 16;
 // between their samples, and the close ones between theirs.
 constexpr double kHeld = 0.98, kMeasured = 0.998;
 // Where halving makes more triangles exceed it, so many times the fewest and some, it is given up.
-constexpr std::size_t kRunaway = 2, kFew = 20;
+constexpr std::size_t kRunaway = 2, kFewRounds = 20;
 
 // Passes on the wish to stop, and reports nothing: each batch would begin at 0 again.
 class Quiet : public Progress {
@@ -105,7 +105,7 @@ class Remesher {
       changes_.collapseShortest();
       measure();
       if (measured_.exceeding.empty() || measured_.exceeding.size() > kRunaway * fewest) return;
-      fewest = std::min(fewest, measured_.exceeding.size() + kFew);
+      fewest = std::min(fewest, measured_.exceeding.size() + kFewRounds);
       changes_.project(measured_.vertices);
       changes_.splitTriangles(measured_.exceeding, options_.force);
     }

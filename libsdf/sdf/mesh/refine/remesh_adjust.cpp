@@ -20,7 +20,7 @@ constexpr float kShape = 1e-5f;
 // What each square of a vertex's distance from having six neighbours counts for in loose sweeps.
 constexpr float kEven = 0.3f;
 // A fan whose distances are below this share of the tolerance is flat.
-constexpr float kFlat = 0.02f;
+constexpr float kFlatToAdjust = 0.02f;
 // How far vertices are moved at once: of the way to the balance, and of the spokes' length.
 constexpr float kBalance = 0.7f, kDescend = 0.04f;
 
@@ -41,7 +41,7 @@ void dropFlat(Fans& fans, std::vector<FanError>& errors, std::vector<std::uint32
               float tolerance) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (errors[i].sound && errors[i].largest < kFlat * tolerance) continue;
+    if (errors[i].sound && errors[i].largest < kFlatToAdjust * tolerance) continue;
     chosen[kept] = chosen[i], fans.all[kept] = fans.all[i], errors[kept] = errors[i];
     ++kept;
   }

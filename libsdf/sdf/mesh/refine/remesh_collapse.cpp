@@ -13,19 +13,19 @@ namespace {
 // Share of the cheapest edges that a round takes, so that later ones find what these have made; and the
 // number below which all are taken.
 constexpr double kShare = 0.35;
-constexpr std::size_t kFew = 500;
+constexpr std::size_t kFewToCollapse = 500;
 // A round of all candidates that removes less than this share of the triangles is the last.
 constexpr double kStale = 2e-3;
 // What a collapse costs is about eight times the chord's error; above this many tolerances none can succeed.
 // An edge as long as the tolerance allows in the best mesh has 12.
-constexpr float kHopeless = 14.0f;
+constexpr float kHopelessCollapse = 14.0f;
 // Along a crease relocation evens out more than on a surface, and so collapses may go beyond the tolerance by
 // so much.
 constexpr float kCrease = 1.2f;
 // Vertices nearer to each other than this share of the tolerance are one.
-constexpr float kShortest = 0.01f;
+constexpr float kShortestLeft = 0.01f;
 // Where the surface is flat the shortest edges go first: of the tolerance, for one that spans the mesh.
-constexpr float kFlat = 1e-3f;
+constexpr float kFlatLeft = 1e-3f;
 
 }  // namespace
 
@@ -57,7 +57,7 @@ float RemeshChanges::collapseCost(std::uint32_t h) const {
   const std::uint32_t u = mesh_.from(h), v = mesh_.to(h);
   const glm::vec3 along = mesh_.positions[v] - mesh_.positions[u];
   const float length = glm::length(along);
-  const float flat = kFlat * length / size_ * tolerance_;
+  const float flat = kFlatLeft * length / size_ * tolerance_;
   if (mesh_.isCrease(h)) return creaseCost(h) + flat;
   glm::vec3 turn(0.0f);
   if (mesh_.creasesAt(u) == 0 && mesh_.creasesAt(v) == 0) {
@@ -90,12 +90,12 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates(bool& mo
     if (tried_[h] > std::max(changed_[mesh_.from(h)], changed_[mesh_.to(h)])) return;
     const std::uint32_t side = collapsible(h);
     if (side == HalfEdgeMesh::kNone) return;
-    if (const float cost = collapseCost(side); mesh_.isCrease(h) || cost < kHopeless * tolerance_)
+    if (const float cost = collapseCost(side); mesh_.isCrease(h) || cost < kHopelessCollapse * tolerance_)
       all[h] = {cost, side};
   });
   std::erase_if(all, [](const Candidate& c) { return !(c.cost < HUGE_VALF); });
   const auto share = static_cast<std::size_t>(kShare * static_cast<double>(all.size()));
-  more = share > kFew;
+  more = share > kFewToCollapse;
   if (more) {
     std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(share), all.end());
     all.resize(share);
@@ -167,7 +167,8 @@ std::size_t RemeshChanges::collapseShortest() {
     const std::uint32_t side = collapsible(h);
     if (side == HalfEdgeMesh::kNone) continue;
     const std::uint32_t v = mesh_.to(side);
-    if (!(glm::distance(mesh_.positions[mesh_.from(side)], mesh_.positions[v]) < kShortest * tolerance_) ||
+    if (!(glm::distance(mesh_.positions[mesh_.from(side)], mesh_.positions[v]) <
+          kShortestLeft * tolerance_) ||
         !mesh_.canCollapse(side))
       continue;
     mesh_.collapse(side);
@@ -183,7 +184,7 @@ void RemeshChanges::collapse(Care care) {
     bool more = false;
     if (!collapseRound((before + 1) / 2, care, more)) return;
     const auto gone = static_cast<double>(before - mesh_.liveTriangles());
-    const bool enough = care == Care::Rough || (!more && before > kFew);
+    const bool enough = care == Care::Rough || (!more && before > kFewToCollapse);
     if (enough && gone < kStale * static_cast<double>(before)) return;
   }
 }

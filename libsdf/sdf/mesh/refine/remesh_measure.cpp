@@ -12,7 +12,7 @@ namespace sdf {
 namespace {
 
 // Points evaluated at a time, to bound the memory.
-constexpr std::size_t kPoints = std::size_t{1} << 20;
+constexpr std::size_t kMeasuredPoints = std::size_t{1} << 20;
 
 // Steps along each side at least. What lies between two of them is at most 1 / (4 * 81) of a quadratic
 // error's span larger.
@@ -59,7 +59,7 @@ class Reader {
     const double voxel = finder_->at((corners[0] + corners[1] + corners[2]) / 3.0f).voxel;
     addPoints(corners, static_cast<float>(voxel) / 3.0f, points_);
     triangles_.push_back(h), ends_.push_back(points_.size());
-    if (points_.size() >= kPoints) flush();
+    if (points_.size() >= kMeasuredPoints) flush();
   }
 
   void flush() {

@@ -13,9 +13,9 @@ namespace {
 // Corners are looked at so far inside at least, as a share of the way to the centroid.
 constexpr float kInto = 0.05f;
 // Fans that are so many tolerances off are of no use whatever their paint.
-constexpr float kHopeless = 1.5f;
+constexpr float kHopelessPaint = 1.5f;
 // Points read at a time, to bound the memory.
-constexpr std::size_t kPoints = std::size_t{1} << 19;
+constexpr std::size_t kPaintedPoints = std::size_t{1} << 19;
 
 float longestSide(const std::array<glm::vec3, 3>& corners) {
   return std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
@@ -79,7 +79,9 @@ void addGrid(float longest, float cell, std::vector<glm::vec3>& weights) {
 
 void addPaintErrors(const Fans& fans, float tolerance, const LocalField& field, Progress& progress,
                     std::vector<FanError>& errors) {
-  const auto isHopeless = [&](const FanError& e) { return !e.sound || e.largest > kHopeless * tolerance; };
+  const auto isHopeless = [&](const FanError& e) {
+    return !e.sound || e.largest > kHopelessPaint * tolerance;
+  };
   std::vector<glm::vec3> points;
   for (std::size_t i = 0; i < fans.all.size(); ++i) {
     if (isHopeless(errors[i])) continue;
@@ -135,7 +137,7 @@ ColorErrors measureColors(const HalfEdgeMesh& mesh, float tolerance, const Local
     const auto inner = shrunken(corners, kBorderTolerances * tolerance);
     for (std::size_t i = points.size(); i < weights.size(); ++i) points.push_back(at(inner, weights[i]));
     triangles.push_back(h), ends.push_back(points.size());
-    if (points.size() >= kPoints) read();
+    if (points.size() >= kPaintedPoints) read();
   }
   read();
   ColorErrors result;

@@ -13,21 +13,21 @@ namespace {
 constexpr int kRounds = 16;
 
 // And no more where as many triangles exceed the tolerance as before, and are less than this share of all.
-constexpr double kFew = 0.01;
+constexpr double kFewSplits = 0.01;
 
 // A triangle whose distances are beyond the tolerance is split where they come from: at a side that has this
 // share of the tolerance in its middle, else at the longest.
 constexpr float kOnSide = 0.7f;
 
 // Voxels: what exceeds the tolerance on shorter edges is not resolved by the field.
-constexpr double kShortest = 1.0 / 16;
+constexpr double kShortestSplit = 1.0 / 16;
 
 }  // namespace
 
 bool RemeshChanges::maySplit(std::uint32_t edge) const {
   const glm::vec3 &a = mesh_.positions[mesh_.from(edge)], &b = mesh_.positions[mesh_.to(edge)];
   if (mesh_.isExempt(mesh_.from(edge)) && mesh_.isExempt(mesh_.to(edge))) return false;
-  return glm::distance(a, b) > kShortest * field_.finder()->at(a).voxel;
+  return glm::distance(a, b) > kShortestSplit * field_.finder()->at(a).voxel;
 }
 
 // The triangle's longest side.
@@ -105,7 +105,7 @@ void RemeshChanges::split() {
   for (int i = 0; i < kRounds && !progress_.stopped(); ++i) {
     const std::vector<Candidate> candidates = splitCandidates();
     const bool few =
-        static_cast<double>(candidates.size()) < kFew * static_cast<double>(mesh_.liveTriangles());
+        static_cast<double>(candidates.size()) < kFewSplits * static_cast<double>(mesh_.liveTriangles());
     if (candidates.empty() || (few && candidates.size() >= before)) return;
     before = candidates.size();
     splitRound(candidates, false, false);

@@ -106,7 +106,6 @@ double capOf(const Shape& shape, const std::array<Axis, 3>& axes) {
 
 // --- about the y axis ---
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMostCopiedOut = 64;
 constexpr int kMostCandidates = 4;  // of a shape that spans 3 sectors
 
@@ -117,7 +116,7 @@ Interval anglesOf(const Box& b) {
   Interval seen(0.0);
   for (const double x : {b.min.x, b.max.x})
     for (const double z : {b.min.z, b.max.z})
-      seen = hull(seen, Interval(std::remainder(std::atan2(z, x) - middle, 2.0 * kPi)));
+      seen = hull(seen, Interval(std::remainder(std::atan2(z, x) - middle, 2.0 * std::numbers::pi)));
   return {middle + seen.lo, middle + seen.hi};
 }
 
@@ -133,7 +132,8 @@ double nearestToAxis(const Box& b) {
 
 Shape copiedOut(const Shape& shape, int count) {
   std::vector<Shape> copies;
-  for (int i = 0; i < count; ++i) copies.push_back(rotate(shape, Vec3E(0.0, 2.0 * kPi * i / count, 0.0)));
+  for (int i = 0; i < count; ++i)
+    copies.push_back(rotate(shape, Vec3E(0.0, 2.0 * std::numbers::pi * i / count, 0.0)));
   return unite(copies);
 }
 
@@ -212,10 +212,10 @@ Shape polarRepeat(const Shape& shape, int count) {
   Check check("polar_repeat", shape);
   if (!wantsSolid(check, shape).integerAtLeast("count", count, 1).ok()) return check.failure();
   if (count == 1) return shape;
-  const double sector = 2.0 * kPi / count;
+  const double sector = 2.0 * std::numbers::pi / count;
   const Box& b = shape.bounds;
   const bool clear = clearOfAxis(b);
-  const Interval seen = clear ? anglesOf(b) : Interval(-kPi, kPi);
+  const Interval seen = clear ? anglesOf(b) : Interval(-std::numbers::pi, std::numbers::pi);
   const bool even = clear && std::max(-seen.lo, seen.hi) <= sector / 2.0 && isEven(shape.distance, 2);
   const int candidates = static_cast<int>(std::ceil(seen.width() / sector)) + 1;
   const ClaimKind kind = shape.claim.kind;
@@ -243,7 +243,7 @@ Shape polarRepeat(const Shape& shape, int count) {
       const Vec3E p = position();
       const Expr radius = length(p.x, p.z).claimLipschitz(1.0);
       const double share =
-          std::sin(std::min(sector, kPi) / 2.0) / std::max(1.0, std::numbers::sqrt2 * growth);
+          std::sin(std::min(sector, std::numbers::pi) / 2.0) / std::max(1.0, std::numbers::sqrt2 * growth);
       result.distance = max(min(result.distance, radius * share), outsideSlab(radius, inner, outer));
       if (std::isfinite(b.min.y) || std::isfinite(b.max.y))
         result.distance = max(result.distance, outsideSlab(p.y, b.min.y, b.max.y));

@@ -23,7 +23,6 @@ namespace sdf {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // How far beyond the bounds the projection begins, as a share of their size.
 constexpr double kMargin = 0.5;
 
@@ -98,7 +97,7 @@ Box bentBox(const Box& b, double k) {
   };
   for (const double end : {from, to}) take(std::sin(end), std::cos(end), std::sin(0.5 * end));
   for (int quarter = -1; quarter <= 1; ++quarter)  // the extremes of sine and cosine within a turn
-    if (from < quarter * kPi / 2 && quarter * kPi / 2 < to)
+    if (from < quarter * std::numbers::pi / 2 && quarter * std::numbers::pi / 2 < to)
       take(quarter, quarter == 0 ? 1.0 : 0.0, quarter / std::numbers::sqrt2);
   return box;
 }
@@ -125,7 +124,8 @@ double leastOver(const Expr& e, const Box& box) {
 // turn away or as close to the centre as `fold`. Far on the other side the map shrinks to nothing, so that
 // side is taken apart.
 double leastWhereTorn(const Expr& straight, const Box& b, double k, double fold) {
-  const double end = kPi / std::abs(k), away = k > 0.0 ? b.min.y - sizeOf(b) : b.max.y + sizeOf(b);
+  const double end = std::numbers::pi / std::abs(k),
+               away = k > 0.0 ? b.min.y - sizeOf(b) : b.max.y + sizeOf(b);
   Box centre = Box::everything(), outer = centre;
   (k > 0.0 ? centre.min : centre.max).y = fold / k;
   (k > 0.0 ? outer.max : outer.min).y = away;
@@ -147,9 +147,10 @@ Check& checkBend(Check& check, const Box& b, double most, double folding) {
              "the shape is unbounded in y, where it would fold; intersect it with a box first");
   check.that(folding < 1.0, "the shape would fold: it reaches the circle's centre, " + shown(1.0 / most) +
                                 " from the x axis; use a rate nearer to 0 or make it thinner");
-  return check.that(most * half < kPi, "the ends would pass each other: the shape reaches " + shown(half) +
-                                           " along x, and half a turn ends at " + shown(kPi / most) +
-                                           "; use a rate nearer to 0");
+  return check.that(most * half < std::numbers::pi, "the ends would pass each other: the shape reaches " +
+                                                        shown(half) + " along x, and half a turn ends at " +
+                                                        shown(std::numbers::pi / most) +
+                                                        "; use a rate nearer to 0");
 }
 
 }  // namespace
@@ -249,7 +250,7 @@ Shape bend(const Shape& shape, const Expr& curvature) {
 
   const double growth = growthOf(shape.claim);
   if (!std::isfinite(growth * slopeOf(shape))) return asField(std::move(warped));
-  const double gap = std::min(kPi / most - farthestAlong(b, 0), 0.5 * (1.0 - folding) / most);
+  const double gap = std::min(std::numbers::pi / most - farthestAlong(b, 0), 0.5 * (1.0 - folding) / most);
   Expr fold = abs(k) * gap;
   for (const double end : {b.min.y, b.max.y})
     if (std::isfinite(end)) fold = max(fold, abs(k) * gap + k * end);
