@@ -158,7 +158,7 @@ std::string pictureBody(const Scene& scene, const Plan& plan, const Obstacles& o
                           plan.shadow == ShadowKind::Signed || (plan.meshed && isLit(plan.options.view));
   std::string text = std::string(parts::kCamera) + parts::kHit;
   if (plan.options.countReadings) text += parts::kPictureCounts;
-  if (startsHere(plan)) text += parts::kStarts;
+  if (startsHere(plan)) text += parts::kRayStarts;
   if (plan.grouped) text += parts::kHitFromLayers;
   if (plan.looks) text += parts::kTakeLook;
   if (plan.looks && plan.meshed) text += parts::kTakeMeshLook;

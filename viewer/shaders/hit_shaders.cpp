@@ -107,8 +107,9 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
     pass.cones = composer.compose(camera + wanted.sharing + parts::kRest + farEnd(obstacles.rest->bounds) +
                                   parts::kCones);
   if (wanted.hits)
-    pass.hits = composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kStarts : "") +
-                                 (counted ? parts::kHitCounts : "") + parts::kFavoured + parts::kHits);
+    pass.hits =
+        composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kRayStarts : "") +
+                         (counted ? parts::kHitCounts : "") + parts::kFavoured + parts::kHits);
   pass.uniforms = composer.uniforms();
   pass.volumes = composer.volumes();
   pass.takesRows = !wanted.sharing.empty();

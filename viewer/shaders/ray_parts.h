@@ -239,7 +239,7 @@ Hit meet(Ray ray) {
 
 /// Defines startRay(ray), which lets a primary ray start and end where the cone pass says, or a hull: t where
 /// it enters, readings that this took, -t where it ends, and t where it leaves, if a ray begins within.
-inline constexpr const char* kStarts = R"(
+inline constexpr const char* kRayStarts = R"(
 uniform sampler2D starts;
 uniform vec2 corner;  // of this pass's starts, in their texture
 uniform float tile;   // that has one start, pixels

@@ -87,7 +87,7 @@ std::vector<std::string> deadMacros(const Macros& macros) {
   // clang-format off
   static constexpr const char* kParts[] = {
       kCamera, kHit, kField, kRest, kRestByBox, kPlanes, kNoPlanes, kBalls, kMarch, kNoMarch, kGradient, kGradientByTaps, kNormal, kMeet,
-      kStarts, kHitCounts, kPictureCounts, kCones, kFavoured, kHits, kMarks, kTriangles, kTakeLook, kHitFromLayers, kFootprint, kShadowSpan,
+      kRayStarts, kHitCounts, kPictureCounts, kCones, kFavoured, kHits, kMarks, kTriangles, kTakeLook, kHitFromLayers, kFootprint, kShadowSpan,
       kNoShadowSpan, kPlanesLight, kNoPlanesLight, kBallsLight, kNoBallsLight, kShadowSettings, kVisible, kHardShadow, kSoftShadow,
       kImprovedShadow, kSignedShadow, kArriving, kArrivingSized, kBayer, kChosen, kOcclusionTaps,
       kOcclusionSteps, kLightAround, kLightSettings, kLights, kGlossy, kLens, kRadiance,

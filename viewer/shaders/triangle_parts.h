@@ -89,7 +89,7 @@ void main() {
 )";
 
 /// Defines main() of the pass that draws where rays enter and leave a hull (march/hull.h), in the terms of
-/// kStarts' texels, of which the least are kept.
+/// kRayStarts' texels, of which the least are kept.
 inline constexpr const char* kHullStarts = R"(
 layout(location = 0) out vec4 start;
 in vec3 seen, facing, tint;
