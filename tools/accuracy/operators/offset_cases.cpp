@@ -67,7 +67,7 @@ Other blockAt(glm::dvec3 at, glm::dvec3 half) {
           }};
 }
 
-double quadratic(double a, double b, double k) { return kSmooths[0].lower(a, b, k); }
+double quadraticBound(double a, double b, double k) { return kSmooths[0].lower(a, b, k); }
 double chamfered(double a, double b, double k) { return kSmooths[3].lower(a, b, k); }
 
 void addRound(const DeformedSolid& s, double r, std::vector<OffsetCase>& cases) {
@@ -93,16 +93,16 @@ void addJoins(const DeformedSolid& s, double k, std::vector<OffsetCase>& cases) 
               ring = ringAt(at, tidy(0.5 * s.half()), tidy(0.25 * s.half()));
   cases.push_back({"smooth union", joined("union({", s.text(), ", ", ball.text, "}, ", k, ")"),
                    unite(s.shape(), ball.shape, Blend::quadratic(k)), k,
-                   [=](double d, const glm::dvec3& p) { return quadratic(d, ball.distance(p), k); }});
+                   [=](double d, const glm::dvec3& p) { return quadraticBound(d, ball.distance(p), k); }});
   cases.push_back({"smooth union, torus", joined("union({", s.text(), ", ", ring.text, "}, ", k, ")"),
                    unite(s.shape(), ring.shape, Blend::quadratic(k)), k,
-                   [=](double d, const glm::dvec3& p) { return quadratic(d, ring.distance(p), k); }});
+                   [=](double d, const glm::dvec3& p) { return quadraticBound(d, ring.distance(p), k); }});
   cases.push_back({"chamfer union", joined("union({", s.text(), ", ", ball.text, "}, ", k, ", \"chamfer\")"),
                    unite(s.shape(), ball.shape, Blend::chamfer(k)), k,
                    [=](double d, const glm::dvec3& p) { return chamfered(d, ball.distance(p), k); }});
   cases.push_back({"smooth difference", joined("difference({", s.text(), ", ", ball.text, "}, ", k, ")"),
                    subtract(s.shape(), ball.shape, Blend::quadratic(k)), k,
-                   [=](double d, const glm::dvec3& p) { return -quadratic(-d, ball.distance(p), k); }});
+                   [=](double d, const glm::dvec3& p) { return -quadraticBound(-d, ball.distance(p), k); }});
 }
 
 void addCavity(const DeformedSolid& s, double r, std::vector<OffsetCase>& cases) {

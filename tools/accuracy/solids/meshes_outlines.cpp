@@ -7,7 +7,7 @@
 namespace sdf::accuracy {
 namespace {
 
-constexpr int kQuarter = 512;  // steps to a right angle: a chord of 1.2e-6 radii
+constexpr int kOutlineQuarter = 512;  // steps to a right angle: a chord of 1.2e-6 radii
 
 glm::dvec2 fromUp(double distance, double angle) {
   return {distance * std::sin(angle), distance * std::cos(angle)};
@@ -18,15 +18,15 @@ glm::dvec2 fromUp(double distance, double angle) {
 // point of the arc. Half of it, from +y to -y; the other half mirrors it, since what one end covers of the
 // other's side that has covered already.
 void addHalf(Outline& outline, double angle, double radius, double half, double side) {
-  for (int k = 0; k <= 2 * kQuarter; ++k)
-    outline.points.push_back(fromUp(radius + side * half, angle * k / (2 * kQuarter)));
-  outline.chord = (radius + half) * (1.0 - std::cos(0.25 * angle / kQuarter));
+  for (int k = 0; k <= 2 * kOutlineQuarter; ++k)
+    outline.points.push_back(fromUp(radius + side * half, angle * k / (2 * kOutlineQuarter)));
+  outline.chord = (radius + half) * (1.0 - std::cos(0.25 * angle / kOutlineQuarter));
   const glm::dvec2 end = fromUp(radius, angle);
-  for (int k = 1; k <= 2 * kQuarter; ++k) {
-    const double by = (kPi - angle) * k / (2 * kQuarter), off = radius * std::sin(by);
+  for (int k = 1; k <= 2 * kOutlineQuarter; ++k) {
+    const double by = (kPi - angle) * k / (2 * kOutlineQuarter), off = radius * std::sin(by);
     const double reach = radius * std::cos(by) + side * std::sqrt(half * half - off * off);
     glm::dvec2 p = fromUp(reach, angle + by);
-    if (k == 2 * kQuarter) p.x = 0.0;
+    if (k == 2 * kOutlineQuarter) p.x = 0.0;
     // Both points on the circle: their chord's middle is where it leaves the circle farthest.
     outline.chord = std::max(outline.chord, half - glm::length(0.5 * (p + outline.points.back()) - end));
     outline.points.push_back(p);
@@ -38,8 +38,11 @@ Outline seenFromCentre(double angle, double radius, double half, double side) {
   addHalf(outline, angle, radius, half, side);
   for (std::size_t i = outline.points.size() - 2; i > 0; --i)
     outline.points.emplace_back(-outline.points[i].x, outline.points[i].y);
-  outline.special = {
-      {0, 0}, {0, radius}, fromUp(radius, angle), fromUp(radius, -angle), outline.points[4 * kQuarter]};
+  outline.special = {{0, 0},
+                     {0, radius},
+                     fromUp(radius, angle),
+                     fromUp(radius, -angle),
+                     outline.points[4 * kOutlineQuarter]};
   return outline;
 }
 
@@ -47,7 +50,7 @@ Outline seenFromCentre(double angle, double radius, double half, double side) {
 
 Outline circleOutline(double radius) {
   Outline outline;
-  return outline.arc({0, 0}, radius, 0.0, 2.0 * kPi, 4 * kQuarter);
+  return outline.arc({0, 0}, radius, 0.0, 2.0 * kPi, 4 * kOutlineQuarter);
 }
 
 // The image of a circle's chords: distances grow by the larger radius at most.
@@ -68,23 +71,24 @@ Outline ellipseOutline(double radiusX, double radiusY) {
 
 Outline halfEllipseOutline(double radiusX, double radiusY) {
   Outline half;
-  return stretched(half.arc({0, 0}, 1.0, -0.5 * kPi, 0.5 * kPi, 2 * kQuarter), radiusX, radiusY);
+  return stretched(half.arc({0, 0}, 1.0, -0.5 * kPi, 0.5 * kPi, 2 * kOutlineQuarter), radiusX, radiusY);
 }
 
 Outline rectangleOutline(double halfWidth, double halfHeight, double radius) {
   const double x = halfWidth - radius, y = halfHeight - radius;
   Outline outline;
   if (radius == 0.0) return outline.to({-x, -y}).to({x, -y}).to({x, y}).to({-x, y});
-  outline.arc({x, -y}, radius, -0.5 * kPi, 0.0, kQuarter).arc({x, y}, radius, 0.0, 0.5 * kPi, kQuarter);
-  return outline.arc({-x, y}, radius, 0.5 * kPi, kPi, kQuarter)
-      .arc({-x, -y}, radius, kPi, 1.5 * kPi, kQuarter);
+  outline.arc({x, -y}, radius, -0.5 * kPi, 0.0, kOutlineQuarter)
+      .arc({x, y}, radius, 0.0, 0.5 * kPi, kOutlineQuarter);
+  return outline.arc({-x, y}, radius, 0.5 * kPi, kPi, kOutlineQuarter)
+      .arc({-x, -y}, radius, kPi, 1.5 * kPi, kOutlineQuarter);
 }
 
 Outline segmentOutline(const glm::dvec2& from, const glm::dvec2& to, double radius) {
   const double way = std::atan2(to.y - from.y, to.x - from.x);
   Outline outline;
-  outline.arc(to, radius, way - 0.5 * kPi, way + 0.5 * kPi, 2 * kQuarter);
-  return outline.arc(from, radius, way + 0.5 * kPi, way + 1.5 * kPi, 2 * kQuarter);
+  outline.arc(to, radius, way - 0.5 * kPi, way + 0.5 * kPi, 2 * kOutlineQuarter);
+  return outline.arc(from, radius, way + 0.5 * kPi, way + 1.5 * kPi, 2 * kOutlineQuarter);
 }
 
 Outline starOutline(int points, double outer, double inner) {
@@ -111,11 +115,11 @@ Tessellation bentBand(double angle, double radius, double half) {
     return extrudedBand(seenFromCentre(angle, radius, half, 1.0), seenFromCentre(angle, radius, half, -1.0));
   const double from = 0.5 * kPi - angle, to = 0.5 * kPi + angle;
   const auto end = [&](double at) { return radius * glm::dvec2(std::cos(at), std::sin(at)); };
-  const int along = std::max(2, static_cast<int>(std::ceil(4 * kQuarter * angle / kPi)));
+  const int along = std::max(2, static_cast<int>(std::ceil(4 * kOutlineQuarter * angle / kPi)));
   Outline outline;
-  outline.arc({0, 0}, radius + half, from, to, along).arc(end(to), half, to, to + kPi, 2 * kQuarter);
+  outline.arc({0, 0}, radius + half, from, to, along).arc(end(to), half, to, to + kPi, 2 * kOutlineQuarter);
   outline.arc({0, 0}, radius - half, to, from, along)
-      .arc(end(from), half, from + kPi, from + 2.0 * kPi, 2 * kQuarter);
+      .arc(end(from), half, from + kPi, from + 2.0 * kPi, 2 * kOutlineQuarter);
   return extruded(outline);
 }
 

@@ -119,7 +119,7 @@ Tessellation column(int sides, double radius, double half) {
 }
 
 // Of triangles.
-Tessellation polyhedron(const TriangleMesh& mesh) {
+Tessellation polyhedronOf(const TriangleMesh& mesh) {
   std::vector<std::vector<int>> faces;
   for (const glm::ivec3& t : mesh.triangles) faces.push_back({t.x, t.y, t.z});
   return polyhedron(mesh.points, faces);
@@ -201,9 +201,9 @@ void addStraight(Table& table) {
                       return halfSpace({a[0], a[1], a[2]}, a[3]);
                     },
                     {{0, 1, 0, 0}, {1, 2, -3, 0.5}, {-4, 0, 0, -1}, {1e-3, 1, 0, 7}}};
-  table["octahedron"] = {[](const Numbers& a) { return polyhedron(octahedronMesh(a[0])); },
+  table["octahedron"] = {[](const Numbers& a) { return polyhedronOf(octahedronMesh(a[0])); },
                          {{1}, {0.1}, {7}}};
-  table["tetrahedron"] = {[](const Numbers& a) { return polyhedron(tetrahedronMesh(a[0])); },
+  table["tetrahedron"] = {[](const Numbers& a) { return polyhedronOf(tetrahedronMesh(a[0])); },
                           {{1}, {0.1}, {7}}};
   table["pyramid"] = {[](const Numbers& a) { return pyramidMesh(a[0], a[1]); },
                       {{1, 1}, {2, 0.1}, {0.1, 2}, {1, 0.001}, {0.01, 3}}};
