@@ -78,7 +78,7 @@ struct OpInfo {
   int constants = 0;   ///< trailing arguments that are always constants (fused operations)
   bool fused = false;  ///< made by the tape compiler, never found in a graph
   Smoothness smoothness = Smoothness::MayKink;
-  std::string_view glsl{};  ///< of what graphs are made of, with $0, $1 and $2 for the arguments
+  std::string_view glsl{};  ///< $0, $1 and $2 stand for the arguments; empty where graphs have no such node
   Choice choice = Choice::NoChoice;
   Linearity linearity = Linearity::Nonlinear;
   Increasing increasing = Increasing::Unstated;
