@@ -27,7 +27,7 @@ TEST_P(Validator, AcceptsTheSample) {
   if (!kQuick.contains(name))
     words.insert(
         words.end(),
-        {"--voxel-size", name == "composite" || name == "v_parts" ? "0.05" : "0.02"});  // they are large
+        {"--voxel-size", name == "composite" || name == "v_parts" ? "0.1" : "0.04"});  // they are large
   const Outcome made = run(words);
   ASSERT_EQ(made.status, 0) << made.err;
   Command validate;
