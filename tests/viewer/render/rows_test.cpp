@@ -62,8 +62,8 @@ TEST_P(Rows, LeaveTheOthersAsTheyAre) {
   Renderer renderer = this->renderer();
   const Target made = target();
   made.clear(0, glm::vec4(1.0f, 0.0f, 1.0f, 0.25f));
-  ASSERT_TRUE(renderer.draw(frame(1), made, {0, 20}));
-  ASSERT_TRUE(renderer.draw(frame(1), made, {20, 10}));
+  ASSERT_TRUE(renderer.draw(frame(1), made, viewer::Rows{0, 20}));
+  ASSERT_TRUE(renderer.draw(frame(1), made, viewer::Rows{20, 10}));
   const Picture picture = made.picture().value();
   for (int i = 0; i < kWidth * kHeight; ++i)
     ASSERT_EQ(picture.bytes[4 * i + 3] != 64, i / kWidth >= kHeight - 30) << i % kWidth << ", " << i / kWidth;

@@ -16,10 +16,10 @@ namespace {
 
 constexpr unsigned kSeed = 1;
 
-struct Points {
+struct PointsToRead {
   std::vector<float> x, y, z;
 
-  Points(std::size_t count, const Box& box) {
+  PointsToRead(std::size_t count, const Box& box) {
     std::mt19937 random(kSeed);
     for (std::size_t i = 0; i < count; ++i)
       for (auto [row, axis] : {std::pair{&x, 0}, {&y, 1}, {&z, 2}})
@@ -34,22 +34,22 @@ struct Points {
 Expr ballsOf(int count) { return bench::balls(count, 0.06).distance; }
 
 // A union of balls, its tape, and points to read it at.
-struct Scene {
+struct SceneToRead {
   Tape tape;
-  Points points;
+  PointsToRead points;
 
   double operations() const { return static_cast<double>(tape.instructions().size()); }
 };
 
 // So many points that a reading takes some milliseconds; at least a batch.
-Points pointsFor(const Tape& tape, const Box& box) {
+PointsToRead pointsFor(const Tape& tape, const Box& box) {
   constexpr double kWork = 4e6;
   const double operations = static_cast<double>(tape.instructions().size());
   return {static_cast<std::size_t>(std::clamp(kWork / operations, double{kBatchPoints}, 4096.0)), box};
 }
 
 // In units of the last place of the largest number in play, a coordinate or the value.
-void judge(const Tape& tape, const Points& points, const std::vector<float>& values, Row& row) {
+void judge(const Tape& tape, const PointsToRead& points, const std::vector<float>& values, Row& row) {
   ErrorSum errors;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::dvec3 p = points[i];
@@ -60,7 +60,7 @@ void judge(const Tape& tape, const Points& points, const std::vector<float>& val
   errors.giveTo(row);
 }
 
-Measurement inDouble(const std::shared_ptr<const Scene>& scene, Row row) {
+Measurement inDouble(const std::shared_ptr<const SceneToRead>& scene, Row row) {
   row.method = "double";
   constexpr std::size_t kFewer = 8;
   const std::size_t count = std::max<std::size_t>(scene->points.size() / kFewer, 32);
@@ -79,7 +79,7 @@ Measurement inDouble(const std::shared_ptr<const Scene>& scene, Row row) {
 }
 
 // The batch reading with one instruction set; 0: the machine's best.
-Measurement inBatches(const std::shared_ptr<const Scene>& scene, Row row, const std::string& method,
+Measurement inBatches(const std::shared_ptr<const SceneToRead>& scene, Row row, const std::string& method,
                       std::int64_t set) {
   row.method = method;
   row.items = static_cast<double>(scene->points.size());
@@ -112,13 +112,13 @@ std::vector<std::pair<std::string, std::int64_t>> instructionSets() {
 }
 
 // So many times each point that a reading by OpenGL takes some milliseconds.
-int timesFor(const Scene& scene) {
+int timesFor(const SceneToRead& scene) {
   constexpr double kWork = 1e8;
   const double once = scene.operations() * static_cast<double>(scene.points.size());
   return static_cast<int>(std::clamp(kWork / once, 1.0, 64.0));
 }
 
-std::vector<glm::vec4> texels(const Points& points) {
+std::vector<glm::vec4> texels(const PointsToRead& points) {
   std::vector<glm::vec4> all;
   for (std::size_t i = 0; i < points.size(); ++i)
     all.emplace_back(points.x[i], points.y[i], points.z[i], 0.0f);
@@ -127,7 +127,7 @@ std::vector<glm::vec4> texels(const Points& points) {
 
 // The shader of so many balls. Compiling takes Mesa about the 3/2 power of the operations, and cannot be
 // stopped: a quarter of the balls goes first, and says whether the whole would take too long.
-std::unique_ptr<ShaderReading> compiledShader(int count, const Scene& scene, double mostSeconds) {
+std::unique_ptr<ShaderReading> compiledShader(int count, const SceneToRead& scene, double mostSeconds) {
   constexpr int kSoonCompiled = 100;
   constexpr double kGrowth = 8.0;
   if (const int fewer = count / 4; fewer >= kSoonCompiled) {
@@ -140,7 +140,8 @@ std::unique_ptr<ShaderReading> compiledShader(int count, const Scene& scene, dou
   return std::make_unique<ShaderReading>(ballsOf(count), texels(scene.points), timesFor(scene));
 }
 
-Measurement inShader(const std::shared_ptr<const Scene>& scene, Row row, int count, double compileSeconds) {
+Measurement inShader(const std::shared_ptr<const SceneToRead>& scene, Row row, int count,
+                     double compileSeconds) {
   row.method = "GLSL";
   row.items = static_cast<double>(scene->points.size()) * timesFor(*scene);
   return {row, [scene, count, compileSeconds,
@@ -156,7 +157,7 @@ Measurement inShader(const std::shared_ptr<const Scene>& scene, Row row, int cou
 }
 
 // The tape that holds in a box around a point of the surface, a sixteenth of the region long.
-std::shared_ptr<const Scene> specialised(const Tape& tape) {
+std::shared_ptr<const SceneToRead> specialised(const Tape& tape) {
   const glm::dvec3 middle(0.06, 1.7 * std::sin(0.0), 0.0);  // on the first ball
   const Box box = Box{middle, middle}.grown(bench::kRegion / 16.0);
   ScalarReading<Interval> workspace;
@@ -164,13 +165,13 @@ std::shared_ptr<const Scene> specialised(const Tape& tape) {
   evaluate(tape, box, workspace, decisions);
   const TapePtr shorter = tape.specialised(decisions.data(), 1);
   const Tape& found = shorter ? *shorter : tape;
-  return std::make_shared<const Scene>(Scene{found, pointsFor(found, box)});
+  return std::make_shared<const SceneToRead>(SceneToRead{found, pointsFor(found, box)});
 }
 
 std::vector<Measurement> ofBalls(int count, double compileSeconds) {
   const Tape tape(ballsOf(count));
   const Box region = Box::centred(glm::dvec3(bench::kRegion));
-  const auto scene = std::make_shared<const Scene>(Scene{tape, pointsFor(tape, region)});
+  const auto scene = std::make_shared<const SceneToRead>(SceneToRead{tape, pointsFor(tape, region)});
   const Row row{.kind = "evaluation",
                 .scene = "unions of balls",
                 .setting = std::to_string(count) + " balls",
