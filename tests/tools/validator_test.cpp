@@ -25,9 +25,8 @@ TEST_P(Validator, AcceptsTheSample) {
   std::vector<std::string> words{GetParam().string(), "-o", out("a.glb"), "--bake"};
   const std::string name = GetParam().stem();
   if (!kQuick.contains(name))
-    words.insert(
-        words.end(),
-        {"--voxel-size", name == "composite" || name == "v_parts" ? "0.1" : "0.04"});  // they are large
+    words.insert(words.end(), {"--voxel-size",
+                               name == "composite" || name == "v_parts" ? "0.1" : "0.04"});  // they are large
   const Outcome made = run(words);
   ASSERT_EQ(made.status, 0) << made.err;
   Command validate;
