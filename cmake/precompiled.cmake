@@ -30,6 +30,9 @@ endfunction()
 # sdf_unity(<targets…>): compiles the files of each folder as one where SDF_UNITY says so, which takes half the time. Names in
 # unnamed namespaces must then differ within a folder.
 function(sdf_unity)
+  if(NOT SDF_UNITY)
+    return()
+  endif()
   foreach(target ${ARGN})
     get_target_property(sources ${target} SOURCES)
     foreach(source ${sources})
@@ -39,7 +42,7 @@ function(sdf_unity)
       string(MAKE_C_IDENTIFIER ${folder} group)
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
     endforeach()
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${SDF_UNITY} UNITY_BUILD_MODE GROUP)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     # To GCC, a file that is included is a header, whose classes must not use names of unnamed namespaces.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endforeach()

@@ -27,7 +27,7 @@ TEST_P(Operator, BuildsEveryCase) {
 }
 
 TEST_P(Operator, KeepsItsClaimAgainstTheSameOperationOnMeshes) {
-  const std::uint64_t fraction = test::isThorough() ? 1 : 4;  // of what docs/accuracy.md is written from
+  const std::uint64_t fraction = test::accuracyFraction();
   const Row row = operatorRow(GetParam(), fraction);
   EXPECT_EQ(row.found.refuted, 0u) << row.found.worst;
   EXPECT_GE(row.found.points, 100'000 / fraction);

@@ -29,7 +29,7 @@ std::set<std::string> primitiveEntries() {
 class Primitive : public testing::TestWithParam<PrimitiveCases> {};
 
 TEST_P(Primitive, KeepsItsClaimAgainstItsGeometry) {
-  const std::uint64_t fraction = test::isThorough() ? 1 : 4;  // of what docs/accuracy.md is written from
+  const std::uint64_t fraction = test::accuracyFraction();
   const Row row = rowOf(GetParam().entry, GetParam().makers, fraction);
   EXPECT_EQ(row.found.refuted, 0u) << row.found.worst;
   EXPECT_GE(row.found.points, 100'000 / fraction);

@@ -13,12 +13,11 @@
 namespace sdf::viewer {
 namespace {
 
-constexpr ImGuiSliderFlags kLogarithmicLength = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
-
 /// A length, from one share of the scene's extent to another; true where it was moved.
 bool lengthSlider(const char* name, double& value, double extent, double least, double most) {
   const double from = least * extent, to = most * extent;
-  return ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &from, &to, "%.3g", kLogarithmicLength);
+  return ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &from, &to, "%.3g",
+                             ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
 }
 
 /// Either triangles as large everywhere, or a tolerance.

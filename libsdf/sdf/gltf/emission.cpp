@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "sdf/base/srgb.h"
+#include "sdf/gltf/pbr.h"
 
 namespace sdf {
 namespace {
-
-float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 struct Segment {
   glm::vec3 from, to;

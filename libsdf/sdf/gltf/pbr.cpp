@@ -18,7 +18,6 @@ glm::vec3 clamped(const glm::vec3& v, float low, float high) {
   return {clamped(v.x, low, high), clamped(v.y, low, high), clamped(v.z, low, high)};
 }
 
-float peakOf(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 float smallest(const glm::vec3& v) { return std::min({v.x, v.y, v.z}); }
 
 // The mirror weight where (1 - cos)^power is this.
@@ -37,7 +36,7 @@ glm::vec3 PbrMaterial::baseColor(const glm::vec3& diffuse) const {
 PbrMaterial toMetallicRoughness(const MeshMaterial& material) {
   const float most = std::numeric_limits<float>::max();
   const glm::vec3 specular = clamped(material.specular, 0.0f, most);
-  const float peak = peakOf(specular);
+  const float peak = largest(specular);
   const float headOn = mirrorWeight(material, material.fresnelPower > 0.0f ? 0.0f : 1.0f);
   const float grazing = mirrorWeight(material, 1.0f);
   const float shininess = clamped(material.shininess, 0.0f, most);
@@ -55,7 +54,7 @@ PbrMaterial toMetallicRoughness(const MeshMaterial& material) {
   pbr.roughness = glm::mix(1.0f, lobe, std::min(1.0f, std::max(peak, grazing) / kDielectricReflectance));
 
   const glm::vec3 emission = clamped(material.emission, 0.0f, most);
-  pbr.emissiveStrength = std::max(1.0f, peakOf(emission));
+  pbr.emissiveStrength = std::max(1.0f, largest(emission));
   pbr.emissiveFactor = emission / pbr.emissiveStrength;
   return pbr;
 }

@@ -1,10 +1,14 @@
 // Phong numbers as glTF's metallic-roughness material.
 #pragma once
+#include <algorithm>
 #include <glm/vec3.hpp>
 
 #include "sdf/mesh/mesh.h"
 
 namespace sdf {
+
+/// The largest component.
+inline float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 /// One material in glTF's metallic-roughness model, without the diffuse colour, which may vary over it.
 struct PbrMaterial {

@@ -32,8 +32,7 @@ struct Ball {
   double distance(const glm::dvec3& p) const { return glm::length(p - glm::dvec3(0, y, 0)) - radius; }
 };
 
-constexpr int kTurnSteps = 128;  // of a turn about an axis
-constexpr double kWidth = 0.3;   // of the blends
+constexpr double kWidth = 0.3;  // of the blends
 
 // Where a chamfer's bevel begins and ends.
 int pieceOf(double apart, double k) { return apart < -k ? 0 : apart > k ? 2 : 1; }
@@ -57,7 +56,7 @@ void addBlended(std::vector<ReferenceCase>& cases, const char* name, const Pair&
       star.piece = [=](const glm::dvec3& p) { return pieceOf(a(p) - b(p), kWidth); };
     cases.push_back(caseOf(std::string(s.name) + " " + name,
                            combine(pair.a.shape(), pair.b.shape(), {s.kind, kWidth}),
-                           tessellatedAboutY(star, kTurnSteps)));
+                           tessellatedAboutY(star)));
   }
 }
 
@@ -82,7 +81,7 @@ std::vector<ReferenceCase> unions() {
                   0.3, 1.8, 1.0 / top.radius + 1.0 / kWidth};
   cases.push_back(caseOf("exponential of three balls",
                          unite({low.shape(), high.shape(), top.shape()}, Blend::exponential(kWidth)),
-                         tessellatedAboutY(star, kTurnSteps)));
+                         tessellatedAboutY(star)));
   return cases;
 }
 
@@ -134,9 +133,9 @@ std::vector<ReferenceCase> exclusions() {
     };
     // Both blends bend: each by at most the operands' slopes, 2 apart.
     const double bending = 1.0 / 0.3 + 8.0 * s.curvature / k;
-    const Tessellation out = tessellatedAboutY({f, kMiddle, 1.3, bending}, kTurnSteps),
+    const Tessellation out = tessellatedAboutY({f, kMiddle, 1.3, bending}),
                        in = tessellatedAboutY(
-                           {[=](const glm::dvec3&p) { return -f(p); }, 0.4, kMiddle, bending}, kTurnSteps);
+                           {[=](const glm::dvec3&p) { return -f(p); }, 0.4, kMiddle, bending});
     cases.push_back(caseOf(std::string(s.name) + " a ball within a ball",
                            {exclude(outer.shape(), core.shape(), {s.kind, k}),
                             together({out.mesh, flipped(in.mesh)}), std::max(out.chord, in.chord)}));

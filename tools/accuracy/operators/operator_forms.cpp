@@ -9,8 +9,7 @@
 namespace sdf::accuracy {
 namespace {
 
-constexpr int kSphereTimes = 6;    // of a sphere's refinement
-constexpr int kStepsOfTurn = 128;  // of a turn about an axis
+constexpr int kSphereTimes = 6;  // of a sphere's refinement
 
 Shape ballAt(double y, double radius) { return translate(sphere(radius), Vec3E(0.0, y, 0.0)); }
 
@@ -23,7 +22,7 @@ ReferenceCase morphedBalls(double t) {
   };
   constexpr double kClear = 0.3;  // of the surface from the centres
   return caseOf("of two balls, " + std::to_string(t), morph(ballAt(-0.4, 1.0), ballAt(0.4, 0.7), t),
-                tessellatedAboutY({g, 0.3, 2.0, 1.0 / kClear}, kStepsOfTurn));
+                tessellatedAboutY({g, 0.3, 2.0, 1.0 / kClear}));
 }
 
 std::vector<ReferenceCase> morphs() {
@@ -113,7 +112,7 @@ std::vector<ReferenceCase> displacements() {
   const Expr y = Expr::variable(Variable::Y);
   return {waves(0.1, 5.0), waves(-0.05, 12.0), waves(0.3, 2.0),
           caseOf("of a ball by a slope", displace(sphere(1.0), 0.5 * y),
-                 tessellatedAboutY({g, 0.6, 2.1, 1.0 / 0.6}, kStepsOfTurn)),
+                 tessellatedAboutY({g, 0.6, 2.1, 1.0 / 0.6})),
           caseOf("of an L by nothing", {displace(solidL().shape, 0.0, 3.0), solidL().mesh})};
 }
 

@@ -69,7 +69,7 @@ struct Star {
 };
 /// A smooth star.
 Tessellation tessellated(const Star& star, int times);
-/// A star that is its own image under turns about the y axis: its outline in 3 * steps, turned in `steps`.
-Tessellation tessellatedAboutY(const Star& star, int steps);
+/// A star that is its own image under turns about the y axis: its outline in 384 steps, turned in 128.
+Tessellation tessellatedAboutY(const Star& star);
 
 }  // namespace sdf::accuracy

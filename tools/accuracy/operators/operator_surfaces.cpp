@@ -118,7 +118,8 @@ Tessellation tessellated(const Star& star, int times) {
 }
 
 // The same for the outline's edges, with half the second derivative times the square of half an edge.
-Tessellation tessellatedAboutY(const Star& star, int steps) {
+Tessellation tessellatedAboutY(const Star& star) {
+  constexpr int steps = 128;
   const std::vector<glm::dvec2> outline = outlineOf(star, 3 * steps);
   double edge = 0.0, slope = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < outline.size(); ++i) {

@@ -11,6 +11,8 @@
 
 namespace sdf {
 
+inline constexpr int kLeaf = openvdb::FloatTree::LeafNodeType::DIM;  // voxels along a leaf
+
 struct CoordHash {
   std::size_t operator()(const openvdb::Coord& c) const { return c.hash<20>(); }
 };

@@ -20,7 +20,6 @@ namespace {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
-constexpr int kLeaf = 8;    // voxels along a leaf
 constexpr int kBranch = 4;  // a cell has kBranch³ children: one pass of the batch reading
 constexpr int kChildren = kBranch * kBranch * kBranch;
 constexpr int kLeafVoxels = kLeaf * kLeaf * kLeaf;

@@ -20,7 +20,6 @@ const NarrowBand::NotNumbers& NarrowBand::notNumbers() const { return grid_->not
 
 namespace {
 
-constexpr int kLeafSide = openvdb::FloatTree::LeafNodeType::DIM;  // voxels along a leaf
 using TapesOfLeaves = std::unordered_map<openvdb::Coord, LocalTapes, CoordHash>;
 
 // Remembers the last leaf, so that neighbours are found at once.
@@ -45,13 +44,13 @@ class LeafFinder : public LocalField::Finder {
     const glm::ivec3 toZero(q);
     const glm::ivec3 voxel(toZero.x - (q.x < toZero.x), toZero.y - (q.y < toZero.y),
                            toZero.z - (q.z < toZero.z));
-    const glm::ivec3 leaf = voxel & ~(kLeafSide - 1);
+    const glm::ivec3 leaf = voxel & ~(kLeaf - 1);
     // A cell on a leaf's far side belongs to the next leaf, which may not be there; any leaf within a voxel
     // will do.
     for (int i = 0; i < 27; ++i) {
       constexpr int kOffset[3] = {0, 1, -1};
       const glm::ivec3 offset(kOffset[i / 9], kOffset[i / 3 % 3], kOffset[i % 3]);
-      const glm::ivec3 near = (voxel + offset) & ~(kLeafSide - 1);
+      const glm::ivec3 near = (voxel + offset) & ~(kLeaf - 1);
       const auto it = tapes_.find(openvdb::Coord(near.x, near.y, near.z));
       if (it == tapes_.end()) continue;
       if (i == 0) remember(leaf, it->second);
@@ -64,7 +63,7 @@ class LeafFinder : public LocalField::Finder {
     last_ = &tapes;
     for (int i = 0; i < 3; ++i) {
       inside_[0][i] = std::nextafter(static_cast<float>(leaf[i] * h_), HUGE_VALF);
-      inside_[1][i] = std::nextafter(static_cast<float>((leaf[i] + kLeafSide) * h_), -HUGE_VALF);
+      inside_[1][i] = std::nextafter(static_cast<float>((leaf[i] + kLeaf) * h_), -HUGE_VALF);
     }
   }
 
