@@ -235,6 +235,16 @@ TEST(LipschitzOver, IsTightOnSmallBoxesAndUnboundedAcrossJumps) {
   EXPECT_EQ(lipschitzOver(steps, Box{{0.5, 0, 0}, {1.5, 1, 1}}), HUGE_VAL);
 }
 
+// Found by fuzzing: a power of a negative base has values at whole exponents alone, and those may be steps.
+TEST(LipschitzOver, IsUnboundedWhereTheExponentOfANegativeBaseSteps) {
+  const Expr x = position().x;
+  const Tape powers(pow(Expr(-0.75), floor(x)));
+  EXPECT_EQ(lipschitzOver(powers, Box{{0.5, 0, 0}, {1.5, 1, 1}}), HUGE_VAL);
+  EXPECT_EQ(lipschitzOver(powers, Box{{1.25, 0, 0}, {1.5, 1, 1}}), std::nextafter(0.0, 1.0));
+  const Tape steady(pow(x, 3.0));
+  EXPECT_LE(lipschitzOver(steady, Box{{-1.0, 0, 0}, {-0.5, 1, 1}}), 3.0 * 1.01);
+}
+
 TEST(Batch, AnyCountOfPointsIsCutIntoPasses) {
   const Tape tape(sphere({0.25, 0.5, 0.75}, 1.0));
   for (const std::size_t n : {0u, 1u, 31u, 32u, 33u, 511u, 512u, 513u, 2000u}) {
