@@ -13,11 +13,12 @@
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/solids/solids.h"
+#include "support/thorough.h"
 
 namespace sdf::accuracy {
 namespace blends_test {
 
-constexpr int kPoints = 100'000;
+const int kPoints = static_cast<int>(100'000 / test::accuracyFraction());
 constexpr unsigned kSeed = 1;
 constexpr double kWidths[] = {0.01, 0.3, 2.0};
 // Distances are tried up to this many widths from each other, the numbers themselves up to 10.

@@ -14,6 +14,6 @@ inline bool isThorough() {
 }
 
 /// Of the points that docs/accuracy.md is written from, tests try a part in so many.
-inline std::uint64_t accuracyFraction() { return isThorough() ? 1 : 4; }
+inline std::uint64_t accuracyFraction() { return isThorough() ? 1 : 16; }
 
 }  // namespace sdf::test

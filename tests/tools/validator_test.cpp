@@ -16,8 +16,7 @@ std::vector<std::filesystem::path> samples() {
 }
 
 // Those whose tolerance takes little time; the others are meshed with voxels alone.
-const std::set<std::string> kQuick{"dice",   "gear",          "lighting_stack", "machined_part",
-                                   "metals", "phong_spheres", "s1_sphere",      "s2_csg"};
+const std::set<std::string> kQuick{"dice", "metals", "s1_sphere"};
 
 std::string voxelSizeOf(const std::string& sample) {
   if (sample == "composite" || sample == "v_parts") return "0.1";  // they are large

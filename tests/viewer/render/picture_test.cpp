@@ -8,6 +8,7 @@
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/march/field.h"
 #include "sdf/script/script.h"
+#include "support/samples.h"
 #include "viewer/reference/cpu_camera.h"
 #include "viewer/render/gpu_render.h"
 #include "viewer/render/psnr.h"
@@ -18,24 +19,16 @@ namespace picture_test {
 
 constexpr int kPictureWidth = 160, kPictureHeight = 90;
 
-std::vector<std::string> samples() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples"))
-    if (entry.path().extension() == ".lua") names.push_back(entry.path().stem());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 bool countsSteps(const Scene& scene) { return scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps; }
 
 // Where the eye and a checkerboard are in line, whole rows of rays meet the squares' sides, and rounding
 // chooses the colour: this puts them out of line.
 const Vec3E kAside(glm::dvec3(1.4e-3, 1.7e-3, 0.6e-3));
 
-class PictureOf : public testing::TestWithParam<std::string> {
+class PictureOf : public testing::TestWithParam<std::filesystem::path> {
  protected:
   void SetUp() override {
-    auto loaded = loadScene(SDF_SOURCE_DIR "/samples/" + GetParam() + ".lua");
+    auto loaded = loadScene(GetParam());
     ASSERT_TRUE(loaded) << loaded.error().message;
     scene = std::move(*loaded);
     scene.camera.from = scene.camera.eye() + kAside;
@@ -160,12 +153,12 @@ TEST_P(PictureOf, IsTheSameForEveryWayOfMarching) {
 TEST_P(PictureOf, IsInTheGallery) {
   std::ifstream file(SDF_SOURCE_DIR "/docs/gallery.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_NE(page.find("gallery/" + GetParam() + ".png"), std::string::npos) << "run ./bootstrap gallery";
-  EXPECT_TRUE(std::filesystem::exists(SDF_SOURCE_DIR "/docs/gallery/" + GetParam() + ".png"));
+  const std::string picture = "gallery/" + GetParam().stem().string() + ".png";
+  EXPECT_NE(page.find(picture), std::string::npos) << "run ./bootstrap gallery";
+  EXPECT_TRUE(std::filesystem::exists(SDF_SOURCE_DIR "/docs/" + picture));
 }
 
-INSTANTIATE_TEST_SUITE_P(Samples, PictureOf, testing::ValuesIn(samples()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Samples, PictureOf, testing::ValuesIn(samples()), stemOf);
 
 }  // namespace picture_test
 }  // namespace sdf::test

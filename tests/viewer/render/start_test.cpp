@@ -5,6 +5,7 @@
 
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/place.h"
+#include "support/samples.h"
 #include "viewer/render/gpu_render.h"
 #include "viewer/render/psnr.h"
 #include "viewer/render/scene_file.h"
@@ -39,10 +40,10 @@ void expectTheSame(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec
   EXPECT_GE(psnr(rest, b), 70.0);
 }
 
-class Starts : public testing::TestWithParam<std::string> {};
+class Starts : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(Starts, ShowOneSample) {
-  const auto scene = viewer::SceneFile(SDF_SOURCE_DIR "/samples/" + GetParam() + ".lua").load({});
+  const auto scene = viewer::SceneFile(GetParam()).load({});
   ASSERT_TRUE(scene.ok()) << scene.error().message;
   const auto byCones = drawn(*scene, Start::Cone), byHull = drawn(*scene, Start::Raster);
   if (viewer::planOf(*scene, {.view = View::Normals})
@@ -55,13 +56,7 @@ TEST_P(Starts, ShowOneSample) {
   expectTheSame(plain, byCones);
 }
 
-std::vector<std::string> samples() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples"))
-    if (entry.path().extension() == ".lua") names.push_back(entry.path().stem());
-  return names;
-}
-INSTANTIATE_TEST_SUITE_P(Viewer, Starts, testing::ValuesIn(samples()), [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(Viewer, Starts, testing::ValuesIn(samples()), stemOf);
 
 GpuRenderOptions byHull() {
   GpuRenderOptions options;

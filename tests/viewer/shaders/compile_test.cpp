@@ -10,6 +10,7 @@
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/operators.h"
 #include "sdf/shape/solids/solids.h"
+#include "support/samples.h"
 #include "viewer/gpu/context.h"
 #include "viewer/render/renderer.h"
 #include "viewer/shaders/compile_count.h"
@@ -91,9 +92,8 @@ TEST(Compiling, IsOverWhenAFrameOfAnotherMomentIsDrawn) {
 TEST(Compiling, LeavesAFramesNumbersToBeComputedInAFifthOfAMillisecond) {
   constexpr int kFrames = 200;
   constexpr double kPatience = 0.2e-3;
-  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples")) {
-    if (entry.path().extension() != ".lua") continue;
-    const Scene scene = loaded(entry.path().filename());
+  for (const std::filesystem::path& file : test::samples()) {
+    const Scene scene = loaded(file.filename());
     const auto shaders = assemble(scene, {});
     ASSERT_TRUE(shaders) << shaders.error().message;
     const LookFunction look(scene);
@@ -107,7 +107,7 @@ TEST(Compiling, LeavesAFramesNumbersToBeComputedInAFifthOfAMillisecond) {
       for (UniformValues& uniforms : all) uniforms.move(values);
     }
     EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / kFrames, kPatience)
-        << entry.path();
+        << file;
   }
 }
 

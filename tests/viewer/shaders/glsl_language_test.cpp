@@ -14,6 +14,7 @@
 #include "support/folder.h"
 #include "support/operations.h"
 #include "support/payloads.h"
+#include "support/samples.h"
 #include "tools/command.h"
 #include "viewer/shaders/assemble.h"
 
@@ -22,14 +23,6 @@ namespace glsl_language_test {
 
 using viewer::Method;
 using viewer::View;
-
-std::vector<std::filesystem::path> samples() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples"))
-    if (entry.path().extension() == ".lua") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// The shaders of a scene in all views and by all methods, each text once.
 std::set<std::string> shadersOf(const Scene& scene) {
@@ -114,8 +107,7 @@ TEST_F(GlslLanguage, HasEveryKindOfShadowAndOcclusion) {
   expectSound(all);
 }
 
-INSTANTIATE_TEST_SUITE_P(Samples, GlslLanguageOf, testing::ValuesIn(samples()),
-                         [](const auto& i) { return i.param.stem().string(); });
+INSTANTIATE_TEST_SUITE_P(Samples, GlslLanguageOf, testing::ValuesIn(test::samples()), test::stemOf);
 
 }  // namespace glsl_language_test
 }  // namespace sdf

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "sdf/script/script.h"
+#include "support/samples.h"
 #include "viewer/gpu/program.h"
 #include "viewer/gpu/target.h"
 #include "viewer/headless_test.h"
@@ -111,9 +112,8 @@ TEST(Composer, WritesTheMacrosAndFunctionsThatAreUsed) {
 }
 
 TEST(Macros, AreSoundInAllShadersOfAllSamples) {
-  for (const auto& entry : std::filesystem::directory_iterator(SDF_SOURCE_DIR "/samples")) {
-    if (entry.path().extension() != ".lua") continue;
-    const auto scene = loadScene(entry.path());
+  for (const std::filesystem::path& file : test::samples()) {
+    const auto scene = loadScene(file);
     ASSERT_TRUE(scene) << scene.error().message;
     for (int view = 0; view < static_cast<int>(View::Count); ++view)
       for (const bool counts : {false, true}) {
@@ -123,7 +123,7 @@ TEST(Macros, AreSoundInAllShadersOfAllSamples) {
         if (made->background) shaders.push_back(made->background->text);
         for (const HitShaders& pass : made->hits) shaders.insert(shaders.end(), {pass.cones, pass.hits});
         std::erase(shaders, "");
-        for (const std::string& shader : shaders) EXPECT_EQ(macroFaults(shader), Lines{}) << entry.path();
+        for (const std::string& shader : shaders) EXPECT_EQ(macroFaults(shader), Lines{}) << file;
       }
   }
 }
