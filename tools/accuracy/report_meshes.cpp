@@ -9,7 +9,7 @@ constexpr const char* kMeshes = R"(
 These are meshes by `sdf2gltf` of the measuring shapes (`samples/bench`), 2 to 4 in size. Uniform ones have voxels of 1/64
 and 1/128 of a region of 4. Those that keep a tolerance with few triangles begin with 1/64. Distances are in scene units.
 
-- *reported*: the mesher's own measure, from the mesh to the surface, as the export prints it.
+- *reported*: the mesher's own measure, the maximum both ways, as the export prints it.
 - *to the surface*: from points all over the mesh, and for the maximum its vertices, to the true surface: the same
   solid written by hand as smooth pieces, the nearest point being looked for on them, on their edges and at their
   corners. Nothing of it comes from the library.

@@ -66,6 +66,7 @@ Json json(const ReportLine& line) {
           {"triangles", stats.triangles},
           {"rms_distance", stats.rmsDistance},
           {"max_distance", stats.maxDistance},
+          {"surface_points", stats.surfacePoints},
           {"proven_distance", stats.provenDistance > 0.0 ? Json(stats.provenDistance) : Json(nullptr)},
           {"farthest", placeJson(stats.farthest)},
           {"watertight", stats.watertight},

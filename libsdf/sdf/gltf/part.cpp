@@ -16,6 +16,7 @@ MeshStats combined(const std::vector<MeshStats>& meshes) {
     all.voxelSize = std::max(all.voxelSize, one.voxelSize);
     all.tolerance = std::max(all.tolerance, one.tolerance);
     if (one.maxDistance > all.maxDistance) all.maxDistance = one.maxDistance, all.farthest = one.farthest;
+    all.surfacePoints += one.surfacePoints;
     all.provenDistance = std::max(all.provenDistance, one.provenDistance);
     all.watertight = all.watertight && one.watertight;
     all.manifold = all.manifold && one.manifold;

@@ -46,10 +46,11 @@ struct MeshStats {
   std::uint64_t vertices = 0;  ///< distinct points
   std::uint64_t triangles = 0;
   double voxelSize = 0.0;
-  double tolerance = 0.0;    ///< that maxDistance was to keep; 0: none
-  double rmsDistance = 0.0;  ///< of samples on the mesh to the scene's surface, scene units
-  double maxDistance = 0.0;
-  glm::vec3 farthest{0.0f};  ///< the sample of maxDistance
+  double tolerance = 0.0;           ///< that maxDistance was to keep; 0: none
+  double rmsDistance = 0.0;         ///< of samples on the mesh to the scene's surface, scene units
+  double maxDistance = 0.0;         ///< of these, and of points of the surface to the mesh
+  glm::vec3 farthest{0.0f};         ///< the sample of maxDistance, or the point
+  std::uint64_t surfacePoints = 0;  ///< of the surface, that were found from the function alone
   double provenDistance =
       0.0;                  ///< bound on the two-sided distance to the surface; 0 where none was asked for
   bool watertight = false;  ///< every edge has as many triangles one way as the other

@@ -17,6 +17,7 @@
 #include "sdf/mesh/edit/feature_mesh.h"
 #include "sdf/mesh/edit/uncross.h"
 #include "sdf/mesh/measure/distance.h"
+#include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/refine/balance.h"
@@ -122,6 +123,8 @@ class Mesher {
         if (Status s = checkLattice(mesh, *bounds, h, field); !s) return s.error();
         const bool finer = !last && (options_.strict || cheap);
         const double limit = std::max(options_.tolerance, kResolved * h);
+        if (finer && distanceToMesh(mesh.positions, mesh.triangles, model, *bounds, progress_).max > limit)
+          continue;
         const bool broken =
             result_.stats.maxDistance > limit && !placesBeyond(limit, mesh, field, h, progress_).empty();
         if (broken && finer) continue;
@@ -190,6 +193,7 @@ class Mesher {
     measureCrossings(features);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
+    measureToMesh(features, model, bounds);
     if (Status s = checkTolerance(); !s) return s.error();
     if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
     begin("normals");
@@ -206,6 +210,14 @@ class Mesher {
     result_.stats.notNumbers = band.notNumbers().count;
     result_.stats.firstNotNumber = band.notNumbers().first;
     return std::move(result_);
+  }
+
+  // What the mesh lacks is seen from the surface only.
+  void measureToMesh(const FeatureMesh& mesh, const ModelTapes& model, const Box& bounds) {
+    const SurfaceDistance missed = distanceToMesh(mesh.positions, mesh.triangles, model, bounds, progress_);
+    MeshStats& stats = result_.stats;
+    stats.surfacePoints = missed.points;
+    if (missed.max > stats.maxDistance) stats.maxDistance = missed.max, stats.farthest = missed.farthest;
   }
 
   void measureCrossings(const FeatureMesh& mesh) {

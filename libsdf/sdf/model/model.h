@@ -35,6 +35,10 @@ class ModelTapes {
   /// Bound of the distance's slope over all of space; infinite where none is known.
   double slope() const { return slope_; }
 
+  /// What an operand of a union is claimed to lie in; everything where the inputs lie out of their ranges, or
+  /// there is no union.
+  Box boundsOf(std::uint32_t operand) const { return tapes_ ? bounds_[operand].bounds : Box::everything(); }
+
   /// The operands among these that can matter at points of the box where the model's distance is at most
   /// `most` (>= 0): there the distance is that of these operands alone. An operand is left out if the box is
   /// so far from its bounds that its distance is proven to be larger. In a blend it must be larger by as many

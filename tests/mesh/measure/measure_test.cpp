@@ -259,5 +259,34 @@ TEST(MeasureDistance, KeepsTheFirstOrderFigureBeyondTheFarthestOfARightMesh) {
   }
 }
 
+// By first order u^3 is u / 3 from its zero, and however steep the bound says that it is, the zero stays
+// where it is.
+TEST(MeasureDistance, OfAFieldThatIsFlatOnItsSurfaceIsNotItsFirstOrder) {
+  const double h = 1.0 / 16, off = 0.02;
+  const Expr u = length(position()) - 1.0;
+  for (const double bound : {1.0, 1e2, 1e6})
+    for (const double side : {1.0 - off, 1.0 + off}) {
+      const float x = static_cast<float>(side);
+      const MeshStats s = distanceTo(field(u * u * u, region(1.5), bound), h,
+                                     {{x, 0, 0}, {x, 0x1p-20f, 0}, {x, 0, 0x1p-20f}}, {{0, 1, 2}});
+      EXPECT_NEAR(s.maxDistance, off, 1e-3 * off) << bound << ", " << side;
+    }
+}
+
+// Beyond a rim the nearest point is on the rim; either face's plane is much nearer where they meet at an
+// acute angle.
+TEST(MeasureDistance, BeyondAThinRimIsThatToTheRim) {
+  const double h = 1.0 / 100, r = 0.6, apart = 0.2, rim = std::sqrt(r * r - apart * apart / 4.0);
+  const Shape crescent = subtract(sphere(r), translate(sphere(r), {apart, 0.0, 0.0}));
+  for (const double off : {0.1 * h, 0.5 * h, h})
+    for (const double turn : {0.3, 1.0, 2.0}) {
+      const glm::vec3 p(0.5 * apart + off, rim * std::cos(turn), rim * std::sin(turn));
+      const MeshStats s = distanceTo(
+          crescent, h, {p, p + glm::vec3(0x1p-20f, 0, 0), p + glm::vec3(0, 0x1p-20f, 0)}, {{0, 1, 2}});
+      EXPECT_GE(s.maxDistance, 0.999 * off);
+      EXPECT_LE(s.maxDistance, 1.1 * off);  // planes for balls
+    }
+}
+
 }  // namespace measure_test
 }  // namespace sdf::test

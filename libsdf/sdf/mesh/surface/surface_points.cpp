@@ -16,10 +16,6 @@
 namespace sdf {
 namespace {
 
-// A gradient this much below the slope bound says nothing about the distance (a medial axis, a flat spot of a
-// field).
-constexpr float kVanishing = 1e-3f;
-
 // Has this sum of squares neither overflown nor lost what matters?
 bool isOrdinary(float squared) { return squared > 0x1p-80f && squared < 0x1p80f; }
 
@@ -133,7 +129,7 @@ float RunGradients::distance(std::size_t i) const {
   const glm::vec3 g = gradient(i);
   const float squared = glm::dot(g, g),
               length = isOrdinary(squared) ? std::sqrt(squared) : std::hypot(g.x, g.y, g.z);
-  return length > kVanishing * slope ? value[i] / length : value[i] / slope;
+  return length > 0.0f ? value[i] / length : value[i] / slope;
 }
 
 glm::vec3 RunGradients::normal(std::size_t i, const glm::vec3& otherwise) const {
@@ -149,7 +145,7 @@ glm::vec3 RunGradients::normal(std::size_t i, const glm::vec3& otherwise) const 
 glm::vec3 RunGradients::step(std::size_t i) const {
   const glm::vec3 g = gradient(i);
   const float squared = glm::dot(g, g);
-  if (!(squared > kVanishing * kVanishing * slope * slope)) return glm::vec3(0.0f);
+  if (!(squared > 0.0f)) return glm::vec3(0.0f);
   return g * (-value[i] / squared);
 }
 

@@ -1,0 +1,179 @@
+#include "sdf/mesh/measure/to_mesh.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "sdf/eval/batch.h"
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/triangles/tree.h"
+
+namespace sdf {
+namespace {
+
+// Cells of the whole; and of one operand of many, between these.
+constexpr std::size_t kCells = 2048, kFewestCells = 64;
+// A box is halved so often at most: what is left of it is a point then, up to the rounding of floats.
+constexpr int kMostHalvings = 60;
+// Tapes are specialised to cells at every third halving, when these have half the side.
+constexpr int kSpecialised = 3;
+// Of the bounds' sides: what lies on a face of them is inside of the cells.
+constexpr double kMargin = 1e-3;
+// Readings along a line, and the halvings of the piece in which the sign changes.
+constexpr std::size_t kAlong = 9;
+constexpr int kBisections = 24;
+
+struct Cell {
+  Box box;
+  TapePtr tape;  // of the distance, as it is in the box
+};
+
+// Halves a box into cells that may hold a part of the surface.
+class Divider {
+ public:
+  explicit Divider(const ModelTapes& model) : model_(model) {}
+
+  /// As many cells as that or more, where there is a surface to be divided.
+  std::vector<Cell> divide(const Box& box, std::size_t count, Progress& progress) {
+    std::vector<Cell> cells{{box, tapeIn(box)}};
+    for (int k = 1; k <= kMostHalvings && !cells.empty() && cells.size() < count && !progress.stopped();
+         ++k) {
+      std::vector<std::vector<Cell>> halves(cells.size());
+      tbb::parallel_for(std::size_t{0}, cells.size(),
+                        [&](std::size_t i) { halves[i] = halvesOf(cells[i], k % kSpecialised == 0); });
+      cells.clear();
+      for (std::vector<Cell>& two : halves)
+        cells.insert(cells.end(), std::move_iterator(two.begin()), std::move_iterator(two.end()));
+    }
+    return cells;
+  }
+
+ private:
+  struct Scratch {
+    ScalarReading<Interval> reading;
+    std::vector<Decision> decisions;
+  };
+
+  TapePtr tapeIn(const Box& box) const {
+    if (model_.slope() == kInfinity) return model_.whole()->firstOutputOnly();
+    std::vector<std::uint32_t> operands = model_.relevantOperands(box, 0.0, model_.all());
+    if (operands.empty()) operands = {model_.all().front()};
+    return model_.link(operands)->firstOutputOnly();
+  }
+
+  std::vector<Cell> halvesOf(const Cell& cell, bool specialise) {
+    Scratch& scratch = scratch_.local();
+    const glm::dvec3 size = cell.box.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    std::vector<Cell> halves;
+    for (const bool upper : {false, true}) {
+      Cell half = cell;
+      (upper ? half.box.min : half.box.max)[axis] = cell.box.centre()[axis];
+      const Interval v = evaluate(*cell.tape, half.box, scratch.reading);
+      if (!v.nan && (v.lo > 0.0 || v.hi < 0.0)) continue;
+      if (specialise && cell.tape->decisionCount() > 0) {
+        evaluate(*cell.tape, half.box, scratch.reading, scratch.decisions);
+        if (TapePtr special = cell.tape->specialised(scratch.decisions.data(), 1))
+          half.tape = std::move(special);
+      }
+      halves.push_back(std::move(half));
+    }
+    return halves;
+  }
+
+  const ModelTapes& model_;
+  tbb::enumerable_thread_specific<Scratch> scratch_;
+};
+
+// Points of the surface in a cell, on the lines along the axes through its centre.
+class Roots {
+ public:
+  const std::vector<glm::vec3>& in(const Cell& cell) {
+    const glm::vec3 min(cell.box.min), max(cell.box.max), centre(cell.box.centre());
+    PointRows at;
+    for (std::size_t i = 0; i < 3 * kAlong; ++i) {
+      glm::vec3 p = centre;
+      const std::size_t axis = i / kAlong, k = i % kAlong;
+      p[axis] = min[axis] + (max[axis] - min[axis]) * (static_cast<float>(k) / (kAlong - 1));
+      at.set(i, p);
+    }
+    batch_.evaluate(*cell.tape, at.rows(), 3 * kAlong, values_);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < 3 * kAlong; ++i) {
+      if (i % kAlong == kAlong - 1 || (values_[i] < 0.0f) == (values_[i + 1] < 0.0f)) continue;
+      const bool first = values_[i] < 0.0f;
+      inside_[count] = at.at(first ? i : i + 1);
+      outside_[count++] = at.at(first ? i + 1 : i);
+    }
+    bisect(*cell.tape, count);
+    points_.assign(outside_, outside_ + count);  // a reading of 0 is outside
+    return points_;
+  }
+
+ private:
+  void bisect(const Tape& tape, std::size_t count) {
+    PointRows middle;
+    for (int k = 0; k < kBisections && count > 0; ++k) {
+      for (std::size_t i = 0; i < count; ++i) middle.set(i, 0.5f * (inside_[i] + outside_[i]));
+      batch_.evaluate(tape, middle.rows(), count, values_);
+      for (std::size_t i = 0; i < count; ++i) (values_[i] < 0.0f ? inside_ : outside_)[i] = middle.at(i);
+    }
+  }
+
+  BatchEvaluator batch_;
+  float values_[kBatchPoints];
+  glm::vec3 inside_[3 * kAlong], outside_[3 * kAlong];
+  std::vector<glm::vec3> points_;
+};
+
+std::vector<Cell> cellsOf(const ModelTapes& model, const Box& bounds, Progress& progress) {
+  Divider divider(model);
+  std::vector<Cell> cells = divider.divide(bounds.grown(kMargin * bounds.longestSide()), kCells, progress);
+  const std::size_t operands = model.all().size();
+  if (operands < 2) return cells;
+  for (const std::uint32_t operand : model.all()) {
+    const Box box = intersect(model.boundsOf(operand), bounds);
+    if (box.empty() || !box.finite() || box.contains(bounds)) continue;
+    std::vector<Cell> more = divider.divide(box.grown(kMargin * box.longestSide()),
+                                            std::max(kCells / operands, kFewestCells), progress);
+    cells.insert(cells.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
+  }
+  return cells;
+}
+
+}  // namespace
+
+SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& positions,
+                               const std::vector<glm::uvec3>& triangles, const ModelTapes& model,
+                               const Box& bounds, Progress& progress) {
+  const TriangleTree tree(positions, triangles);
+  const std::vector<Cell> cells = cellsOf(model, bounds, progress);
+  std::vector<SurfaceDistance> found(cells.size());
+  tbb::enumerable_thread_specific<Roots> roots;
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+    if (progress.stopped()) return;
+    SurfaceDistance& here = found[i];
+    std::uint32_t hint = 0;
+    for (const glm::vec3& p : roots.local().in(cells[i])) {
+      const NearestPoint nearest = tree.nearest(p, hint);
+      hint = nearest.triangle;
+      ++here.points;
+      if (const double d = std::sqrt(nearest.squared); d > here.max) here.max = d, here.farthest = p;
+    }
+    progress.update(static_cast<double>(++done) / static_cast<double>(cells.size()));
+  });
+  SurfaceDistance all;
+  for (const SurfaceDistance& here : found) {
+    all.points += here.points;
+    if (here.max > all.max) all.max = here.max, all.farthest = here.farthest;
+  }
+  return all;
+}
+
+}  // namespace sdf

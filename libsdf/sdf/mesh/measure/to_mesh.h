@@ -1,0 +1,29 @@
+// How far the surface is from a mesh: what a mesh lacks cannot be seen from the mesh.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "sdf/base/box.h"
+#include "sdf/base/progress.h"
+#include "sdf/model/model.h"
+
+namespace sdf {
+
+/// Of points of the surface, the farthest from a mesh.
+struct SurfaceDistance {
+  double max = 0.0;          ///< scene units
+  glm::vec3 farthest{0.0f};  ///< the point
+  std::uint64_t points = 0;  ///< how many were looked at
+};
+
+/// The largest distance from points of the model's surface to the triangles, at least one. The points are
+/// found from the function alone: the bounds, and those of each operand of a union, are halved into some
+/// thousand cells in which intervals do not tell that there is no surface, and three lines through each cell
+/// are followed to where the sign changes. So points are as dense as the operand is small. Cost: log n of the
+/// triangles for each point. Does not depend on the number of threads.
+SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& positions,
+                               const std::vector<glm::uvec3>& triangles, const ModelTapes& model,
+                               const Box& bounds, Progress& progress);
+
+}  // namespace sdf

@@ -1,0 +1,77 @@
+#include "sdf/mesh/measure/to_mesh.h"
+
+#include <tbb/global_control.h>
+
+#include "mesh/scenes.h"
+#include "sdf/mesh/mesher.h"
+
+namespace sdf::test {
+namespace to_mesh_test {
+
+const std::vector<glm::uvec3> kSides{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+
+std::vector<glm::vec3> corners(const glm::vec3& half) {
+  std::vector<glm::vec3> all;
+  for (int i = 0; i < 8; ++i)
+    all.push_back(half * glm::vec3(i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f));
+  return all;
+}
+
+SurfaceDistance toBox(const Shape& shape, const glm::vec3& half) {
+  Progress progress;
+  return distanceToMesh(corners(half), kSides, Model(shape).at(), findBounds(shape), progress);
+}
+
+TEST(DistanceToMesh, IsNoneOfABoxFromItself) {
+  const SurfaceDistance d = toBox(box({1.0, 0.5, 0.25}), {1.0f, 0.5f, 0.25f});
+  EXPECT_EQ(d.max, 0.0);
+  EXPECT_GE(d.points, 1000u);
+}
+
+// Each of these meshes lies on the surface, or within 0.04 of it.
+TEST(DistanceToMesh, IsThatOfWhatTheMeshLacks) {
+  EXPECT_NEAR(toBox(box({0.5, 1.0, 0.04}), {0.25f, 0.67f, 0.04f}).max, std::hypot(0.25, 0.33), 0.02);
+  const SurfaceDistance rim = toBox(box({100.0, 0.0175, 80.0}), {99.5f, 0.0175f, 79.5f});
+  EXPECT_NEAR(rim.max, 0.5, 0.02);
+  EXPECT_NEAR(std::max(std::abs(rim.farthest.x) - 99.5, std::abs(rim.farthest.z) - 79.5), 0.5, 0.02);
+}
+
+// A ball of a hundredth of the box's side is one of the operands that points are spaced by.
+TEST(DistanceToMesh, SeesASmallOperandOfAUnion) {
+  const Shape both = box({1.0, 1.0, 1.0}) | translate(sphere(0.01), {1.5, 0.7, -0.3});
+  const SurfaceDistance d = toBox(both, glm::vec3(1.0f));
+  EXPECT_NEAR(d.max, 0.51, 1e-3);
+}
+
+TEST(DistanceToMesh, DoesNotDependOnTheNumberOfThreads) {
+  const auto run = [](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return toBox(melt(), glm::vec3(1.0f));
+  };
+  const SurfaceDistance one = run(1), two = run(2);
+  EXPECT_EQ(one.max, two.max);
+  EXPECT_EQ(one.farthest, two.farthest);
+  EXPECT_EQ(one.points, two.points);
+}
+
+// A thin solid in a scene whose voxels are too coarse for it keeps the tolerance, or it is said that it does
+// not.
+TEST(DistanceToMesh, IsPartOfWhatIsReported) {
+  const Shape door = box({0.5, 1.0, 0.04});
+  for (const double voxel : {0.05, 0.1, 0.26}) {
+    Progress progress;
+    const auto meshed =
+        meshShape(door, "door", {.voxelSize = voxel, .tolerance = 0.052, .strict = false}, progress);
+    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
+    glm::vec3 reach(0.0f);
+    for (const glm::vec3& p : meshed->mesh.positions) reach = glm::max(reach, glm::abs(p));
+    EXPECT_GT(meshed->stats.surfacePoints, 1000u);
+    EXPECT_LE(0.5 - reach.x, meshed->stats.maxDistance + 1e-6) << voxel;
+    EXPECT_LE(1.0 - reach.y, meshed->stats.maxDistance + 1e-6) << voxel;
+    EXPECT_LE(meshed->stats.maxDistance, 0.052) << voxel;
+  }
+}
+
+}  // namespace to_mesh_test
+}  // namespace sdf::test
