@@ -67,6 +67,10 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
 
 // Of the longest side of the bounds: below it positions, which are floats, cannot keep a tolerance.
 constexpr double kLeastTolerance = 0x1p-20;
+// Lengths whose squares are floats end here, and begin with its inverse.
+constexpr double kLargest = 0x1p63;
+// Of a coordinate: what lies between it and the next float at most. A voxel has to have some of them.
+constexpr double kBetweenFloats = 0x1p-23, kFloatsInAVoxel = 4.0;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
@@ -101,6 +105,7 @@ class Mesher {
       return Error{ErrorKind::Limits,
                    "part '" + name_ + "': a tolerance of " + shown(options_.tolerance) +
                        " is below the rounding of coordinates at this size; take at least " + shown(least)};
+    if (Status s = checkFloats(*bounds, h); !s) return s.error();
     const bool thins = options_.tolerance > 0.0;
     painted_ = isPainted(shape);
     begin("sampling");
@@ -138,6 +143,26 @@ class Mesher {
   }
 
  private:
+  // Positions and readings are floats: what they cannot tell apart is refused before any work.
+  Status checkFloats(const Box& bounds, double voxel) const {
+    const glm::dvec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    const double farthest = std::max({reach.x, reach.y, reach.z}), size = bounds.longestSide();
+    if (farthest > kLargest)
+      return sceneError(name_, "it reaches " + shown(farthest) +
+                                   " from the origin; squares of lengths over " + shown(kLargest) +
+                                   " are no floats: move it to the origin, or scale it down");
+    if (size > 0.0 && size < 1.0 / kLargest)
+      return sceneError(name_, "its bounds are " + shown(size) + " long; squares of lengths below " +
+                                   shown(1.0 / kLargest) + " are no floats: scale it up");
+    const double apart = farthest * kBetweenFloats;
+    if (voxel >= kFloatsInAVoxel * apart) return okStatus();
+    return sceneError(name_, "positions, which are floats, are up to " + shown(apart) +
+                                 " apart where it lies, " + shown(farthest) +
+                                 " from the origin: too coarse for a voxel size of " + shown(voxel) +
+                                 "; move it nearer to the origin, or take one of at least " +
+                                 shown(kFloatsInAVoxel * apart));
+  }
+
   // The mesh at the voxels' resolution, with its creases; empty where there is none. Its vertices lie on the
   // surface, or are balanced.
   FeatureMesh extract(NarrowBand& band, const BandField& field, bool balanced) {
