@@ -335,6 +335,14 @@ TEST(Errors, TheScriptsOwnErrorsKeepTheirPlace) {
   });
 }
 
+// Texts of scripts are not to move a terminal's cursor, nor to fill it.
+TEST(Errors, AreOneLineForATerminal) {
+  expectMessages({{"error('\\27[31mred\\7\\127 \\9tab\\r\\nline')", "scene.lua:1:  [31mred    tab  line"}});
+  const std::string longest = errorOf("local s = 'ä' for i = 1, 20 do s = s .. s end error(s)");
+  EXPECT_LE(longest.size(), 2010u);
+  EXPECT_TRUE(longest.ends_with("ä …")) << longest.substr(longest.size() - 8);
+}
+
 TEST(Errors, TheFileIsNamedAsItWasGiven) {
   const std::string lengthy = "some/folder/" + std::string(80, 'x') + ".lua";
   for (const std::string& name : {std::string("scene.lua"), std::string("../a b/scene.lua"), lengthy}) {

@@ -104,9 +104,15 @@ int addReturned(lua_State* L) {
   return 0;
 }
 
+// One line for a terminal: without what moves its cursor or changes its colours, and no longer than a page.
 std::string oneLine(std::string text) {
+  std::size_t most = 2000;
+  if (text.size() > most) {
+    while ((text[most] & 0xc0) == 0x80) --most;  // within a letter of UTF-8
+    text = text.substr(0, most) + " …";
+  }
   for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
   return text;
 }
 
