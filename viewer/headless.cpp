@@ -34,7 +34,7 @@ class Headless {
   Status pictures() {
     const int count = options_.frames.value_or(1);
     for (int i = 0; i < count; ++i)
-      if (auto s = checkWritable(nameOf(i)); !s) return s;
+      if (auto s = checkTarget(nameOf(i)); !s) return s;
     auto renderer = rendererAt(options_.time, options_.shader);
     if (!renderer) return renderer.error();
     auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8});
@@ -105,6 +105,7 @@ class Headless {
     whole.sharing = false;
     const auto shaders = assemble(scene_, whole);
     if (!shaders) return shaders.error();
+    if (auto s = checkTarget(*options_.glsl); !s) return s;
     return writeFile(*options_.glsl, [&](std::ostream& out) {
       out << shaders->picture.text;
       return okStatus();
@@ -154,6 +155,14 @@ class Headless {
     report["drawn_triangles"] = meshes->triangles();
     report["triangles_ms"] = median(times);
     return check("draw the triangles of meshes");
+  }
+
+  Status checkTarget(const std::filesystem::path& target) const {
+    if (auto s = checkWritable(target); !s) return s;
+    std::vector<std::string> read = scene_.files;
+    read.push_back(options_.scene.path.string());
+    if (options_.meshFile) read.push_back(options_.meshFile->string());
+    return checkNotRead(target, read);
   }
 
   std::filesystem::path nameOf(int i) const {

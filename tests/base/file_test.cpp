@@ -98,6 +98,63 @@ TEST(WriteFile, GivesTheFileOrdinaryPermissions) {
   EXPECT_EQ(about.st_mode & 0777u, 0666u & ~mask);
 }
 
+TEST(WriteFile, KeepsThePermissionsOfAnOlderFile) {
+  const Folder folder;
+  ASSERT_TRUE(writeFile(folder / "a", writing("old")));
+  for (const mode_t mode : {0640u, 0600u, 0664u}) {
+    ASSERT_EQ(::chmod((folder / "a").c_str(), mode), 0);
+    ASSERT_TRUE(writeFile(folder / "a", writing("new")));
+    struct stat about;
+    ASSERT_EQ(::stat((folder / "a").c_str(), &about), 0);
+    EXPECT_EQ(about.st_mode & 0777u, mode);
+  }
+}
+
+TEST(WriteFile, RemovesWhatAKilledWriterLeft) {
+  const Folder folder;
+  const bool ended = inChild([&] {
+    return writeFile(folder / "a",
+                     [](std::ostream&) -> Status {
+                       ::raise(SIGKILL);
+                       return okStatus();
+                     })
+        .ok();
+  });
+  ASSERT_FALSE(ended);
+  ASSERT_FALSE(folder.empty());
+  ASSERT_TRUE(writeFile(folder / "b", writing("text")));
+  std::filesystem::remove(folder / "b");
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(WriteFile, LeavesWhatIsBeingWrittenAlone) {
+  const Folder folder;
+  ASSERT_TRUE(writeFile(folder / "a", [&](std::ostream& out) {
+    if (Status s = writeFile(folder / "b", writing("inner")); !s) return s;
+    return text(out, "outer");
+  }));
+  EXPECT_EQ(contents(folder / "a"), "outer");
+  EXPECT_EQ(contents(folder / "b"), "inner");
+}
+
+TEST(CheckNotRead, RefusesAFileByEveryName) {
+  const Folder folder;
+  ASSERT_TRUE(writeFile(folder / "read", writing("text")));
+  std::filesystem::create_directory(folder / "deep");
+  std::filesystem::create_symlink("read", folder / "link");
+  std::filesystem::create_hard_link(folder / "read", folder / "hard");
+  std::filesystem::create_symlink("missing", folder / "dangling");
+  const std::vector<std::string> read{(folder / "read").string(), (folder / "missing").string()};
+  for (const char* name : {"read", "link", "hard", "deep/../read", "./read", "missing", "dangling"}) {
+    const Status refused = checkNotRead(folder / name, read);
+    ASSERT_FALSE(refused) << name;
+    EXPECT_EQ(refused.error().kind, ErrorKind::Files);
+    EXPECT_NE(refused.error().message.find("choose another name"), std::string::npos);
+  }
+  EXPECT_TRUE(checkNotRead(folder / "other", read));
+  EXPECT_TRUE(checkNotRead(folder / "deep/read", read));
+}
+
 TEST(WriteFile, NamesTheMissingFolder) {
   const Folder folder;
   const Status status = writeFile(folder / "none/a.glb", writing("text"));

@@ -45,6 +45,42 @@ TEST_F(BadInput, MissingArgumentsAreNamed) {
   expectRefusal(run({scene(kSphere)}), kUsage, {"--output", "--help"});
 }
 
+// Said before any work, with the place and a cure.
+TEST_F(BadInput, WhatFloatsCannotHoldIsRefused) {
+  const char* thing = "part('thing', (box(1, 0.5, 1) - sphere(0.7)):translate(6455808, 2408, 1920960))";
+  expectBadScene(thing, {"part 'thing'", "0.769592 apart", "6.45581e+06 from the origin",
+                         "move it nearer to the origin", "at least 3.07"});
+  expectBadScene("return sphere(1):translate(1e308, 0, 0)",
+                 {"1e+308 from the origin", "move it to the origin"});
+  expectBadScene("return sphere(5e-324)", {"part 'part 1'", "scale it up"});
+  expectBadScene("return sphere(1):scale(5e-324)", {"scale it up"});
+  expectBadScene(kSphere, {"too coarse for a voxel size of", "at least 4.7"}, kScene,
+                 {"--voxel-size", "1e-320"});
+}
+
+// What is read stays as it is, by whatever name it is to be written.
+TEST_F(BadInput, WhatIsReadIsNotWritten) {
+  const std::string ball = scene(kSphere);
+  expectRefusal(run({ball, "-o", out("a.glb"), "--report", ball}), kFiles, {ball, "choose another name"});
+  std::filesystem::create_symlink(ball, folder / "link.json");
+  expectRefusal(run({ball, "-o", out("a.glb"), "--report", (folder / "link.json").string()}), kFiles,
+                {"link.json", ball});
+  EXPECT_EQ(contents(ball), kSphere);
+  const std::string model = (folder / "m.glb").string();
+  ASSERT_EQ(run({ball, "-o", model, "--voxel-size", "0.2", "-q"}).status, 0);
+  const std::string before = contents(model), reader = scene("return mesh('m.glb')");
+  expectRefusal(run({reader, "-o", model}), kFiles, {model, "choose another name"});
+  expectRefusal(run({reader, "-o", out("a.glb"), "--report", model}), kFiles, {model});
+  EXPECT_EQ(contents(model), before);
+}
+
+TEST_F(BadInput, TheReportIsNotTheMesh) {
+  expectRefusal(run({scene(kSphere), "-o", out("a.glb"), "--report", out("a.glb")}), kUsage,
+                {"--report", "a name of its own"});
+  expectRefusal(run({scene(kSphere), "-o", out("a.glb"), "--lod", "2", "--report", out("../out/a_lod1.glb")}),
+                kUsage, {"--report", "a name of its own"});
+}
+
 TEST_F(BadInput, FlagsThatDoNotExistAreNamed) {
   expectBadFlags({"--voxel"}, {"--voxel", "--help"});
   expectBadFlags({"surplus.lua"}, {"surplus.lua"});

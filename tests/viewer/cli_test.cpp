@@ -240,6 +240,9 @@ TEST_F(Sdfview, ShowsAMeshFromAFileAgainstTheScene) {
   refuse(kFiles, "none.glb", kBall, {"--view", "mesh", "--mesh", at("none.glb")});
   std::ofstream(folder / "broken.glb") << "no mesh";
   refuse(kFiles, "broken.glb", kBall, {"--view", "error", "--mesh", at("broken.glb")});
+  // What is read stays as it is.
+  expectRefused(kFiles, "choose another name", {scene(kBall), "--glsl", scene(kBall)});
+  EXPECT_EQ(contents(scene(kBall)), kBall);
   refuse(kScene, "part 'part 1': unbounded in x, y and z; give bounds(", "return plane()",
          {"--view", "mesh"});
   refuse(kScene, "surface", "return sphere(1) - sphere(2)", {"--view", "error"});

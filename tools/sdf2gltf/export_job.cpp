@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "animation_export.h"
-#include "command_line/frames.h"
 #include "frame_export.h"
 #include "report.h"
 #include "sdf/base/file.h"
@@ -12,20 +11,21 @@
 namespace sdf::exporter {
 namespace {
 
-/// How many files there are, each with a frame of its own.
-int filesOf(const Options& options) { return options.animate ? 1 : options.frames.value_or(1); }
-
-/// The i-th of them.
-std::filesystem::path targetOf(const Options& options, int i) {
-  return options.frames && !options.animate ? command_line::frameName(options.output, i + 1) : options.output;
-}
-
 /// What can be known of the files to write before the work that fills them.
 Status checkTargets(const Options& options) {
-  for (int i = 0; i < filesOf(options); ++i)
-    for (int level = 0; level < options.levels.value_or(1); ++level)
-      if (Status s = checkWritable(levelName(targetOf(options, i), level)); !s) return s;
-  return options.report ? checkWritable(*options.report) : okStatus();
+  const std::vector<std::string> scene{options.scene.string()};
+  std::vector<std::filesystem::path> targets = targetsOf(options);
+  for (const std::filesystem::path& target : targets) {
+    if (Status s = checkWritable(target); !s) return s;
+    if (Status s = checkNotRead(target, scene); !s) return s;
+  }
+  if (!options.report) return okStatus();
+  targets.pop_back();
+  for (const std::filesystem::path& target : targets)
+    if (areOneFile(target, *options.report))
+      return Error{ErrorKind::Usage, "--report and --output would both write '" + target.string() +
+                                         "'; give the report a name of its own"};
+  return okStatus();
 }
 
 /// What was written, for the report.

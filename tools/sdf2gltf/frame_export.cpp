@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "memory.h"
+#include "sdf/base/file.h"
 #include "sdf/export/bake.h"
 #include "sdf/export/compress.h"
 #include "sdf/mesh/mesher.h"
@@ -59,6 +60,8 @@ Status FrameExport::loadParts(double time) {
       .values = options_.parameters, .time = time, .fixed = true, .folders = options_.folders};
   Result<Scene> loaded = stage(report.total, "script", [&] { return loadScene(options_.scene, script); });
   if (!loaded) return loaded.error();
+  for (const std::filesystem::path& target : targetsOf(options_))
+    if (Status s = checkNotRead(target, loaded->files); !s) return s;
   Result<Scene> chosen = selected(std::move(*loaded), options_);
   if (!chosen) return chosen.error();
   scene = std::move(*chosen);

@@ -191,6 +191,21 @@ std::filesystem::path levelName(const std::filesystem::path& output, int level) 
                                output.extension().string());
 }
 
+int filesOf(const Options& options) { return options.animate ? 1 : options.frames.value_or(1); }
+
+std::filesystem::path targetOf(const Options& options, int i) {
+  return options.frames && !options.animate ? frameName(options.output, i + 1) : options.output;
+}
+
+std::vector<std::filesystem::path> targetsOf(const Options& options) {
+  std::vector<std::filesystem::path> all;
+  for (int i = 0; i < filesOf(options); ++i)
+    for (int level = 0; level < options.levels.value_or(1); ++level)
+      all.push_back(levelName(targetOf(options, i), level));
+  if (options.report) all.push_back(*options.report);
+  return all;
+}
+
 std::string frameSubject(const Options& options, int i) {
   return options.frames ? "frame " + std::to_string(i + 1) + " of " + std::to_string(*options.frames) : "";
 }

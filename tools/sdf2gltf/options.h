@@ -46,6 +46,12 @@ double frameTime(const Options& options, int i);
 double levelTolerance(const Options& options, int level);
 /// Where it is written: scene.glb, scene_lod1.glb and so on.
 std::filesystem::path levelName(const std::filesystem::path& output, int level);
+/// How many files there are, each with a frame of its own.
+int filesOf(const Options& options);
+/// The i-th of them.
+std::filesystem::path targetOf(const Options& options, int i);
+/// All that is to be written, levels of detail, too; the report last.
+std::vector<std::filesystem::path> targetsOf(const Options& options);
 /// "frame 2 of 24"; "" where there is but one.
 std::string frameSubject(const Options& options, int i);
 

@@ -1,6 +1,7 @@
 #include "sdf/base/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,6 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 class TemporaryFile;
+
+// Of files that are being written: .sdf-1234-0.part.
+constexpr const char* kUnfinishedName = ".sdf-";
+constexpr const char* kUnfinishedExtension = ".part";
 
 /// The files that are being written. Renaming and removing happen under its lock, so that none slips through.
 struct Unfinished {
@@ -113,7 +118,21 @@ class DescriptorBuffer : public std::streambuf {
   std::vector<char> buffer_ = std::vector<char>(1 << 20);  // an interruption is noticed each time it is full
 };
 
-/// A new file in the folder of `target`, with a name that nothing there has; removed unless it was renamed.
+/// Removes files that no writer holds any more: those of programs that were killed.
+void removeLeftovers(const fs::path& folder) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kUnfinishedName) || !name.ends_with(kUnfinishedExtension)) continue;
+    const int file = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+    ::close(file);
+  }
+}
+
+/// A new file in the folder of `target`, with a name that nothing there has, locked while it is written;
+/// removed unless it was renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) {
@@ -123,12 +142,14 @@ class TemporaryFile {
       abandoned_ = true;
       return;
     }
+    removeLeftovers(folderOf(target));
     do {
-      path_ = (folderOf(target) /
-               (".sdf-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part"))
+      if (descriptor_ >= 0) ::close(descriptor_);
+      path_ = (folderOf(target) / (std::string(kUnfinishedName) + std::to_string(::getpid()) + "-" +
+                                   std::to_string(counter++) + kUnfinishedExtension))
                   .string();
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor_ < 0 && errno == EEXIST);
+    } while (descriptor_ < 0 ? errno == EEXIST : !claim());
     reason_ = descriptor_ < 0 ? errno : 0;
     if (reason_ == 0) unfinished().files.insert(this);
   }
@@ -141,6 +162,11 @@ class TemporaryFile {
   }
 
   int descriptor() const { return descriptor_; }
+  /// Lets those read and write it who may read and write `target`, if that is there.
+  void takePermissions(const fs::path& target) {
+    struct stat about;
+    if (::stat(target.c_str(), &about) == 0) ::fchmod(descriptor_, about.st_mode & 07777);
+  }
   /// errno of what failed, or 0.
   int reason() const { return reason_; }
   const std::atomic<bool>& abandoned() const { return abandoned_; }
@@ -153,7 +179,14 @@ class TemporaryFile {
 
   /// Gives the file its name. Some file systems report a failed write only when the file is closed.
   int renameTo(const fs::path& target) {
-    if (::close(std::exchange(descriptor_, -1)) != 0) return errno;
+    const int locked = ::dup(descriptor_);  // for as long as it has the name of an unfinished one
+    const int reason = ::close(std::exchange(descriptor_, -1)) != 0 ? errno : named(target);
+    if (locked >= 0) ::close(locked);
+    return reason;
+  }
+
+ private:
+  int named(const fs::path& target) {
     std::lock_guard lock(unfinished().mutex);
     if (abandoned_) return EINTR;
     if (::rename(path_.c_str(), target.c_str()) != 0) return errno;
@@ -161,7 +194,13 @@ class TemporaryFile {
     return 0;
   }
 
- private:
+  // Locks the file; false if somebody took it for a leftover before. Some file systems know no locks.
+  bool claim() const {
+    struct stat about;
+    ::flock(descriptor_, LOCK_EX | LOCK_NB);
+    return ::fstat(descriptor_, &about) != 0 || about.st_nlink > 0;
+  }
+
   std::string path_;
   std::atomic<bool> abandoned_ = false;
   int descriptor_ = -1;
@@ -204,12 +243,27 @@ Status checkWritable(const fs::path& target) {
   return okStatus();
 }
 
+bool areOneFile(const fs::path& a, const fs::path& b) {
+  std::error_code missing, ignored;
+  if (fs::equivalent(a, b, missing)) return true;
+  return fs::weakly_canonical(resolved(a), ignored) == fs::weakly_canonical(resolved(b), ignored);
+}
+
+Status checkNotRead(const fs::path& target, std::span<const std::string> read) {
+  for (const std::string& file : read)
+    if (areOneFile(target, file))
+      return Error{ErrorKind::Files, "cannot write '" + target.string() + "': '" + file +
+                                         "', which is read, is the same file; choose another name"};
+  return okStatus();
+}
+
 Status writeFile(const fs::path& target, const std::function<Status(std::ostream&)>& write) {
   if (Status possible = checkWritable(target); !possible) return possible;
   const fs::path real = resolved(target);
   TemporaryFile file(real);
   if (file.abandoned()) return interrupted(target);
   if (file.reason() != 0) return cannotWrite(target, file.reason());
+  file.takePermissions(real);
 
   DescriptorBuffer buffer(file.descriptor(), file.abandoned());
   std::ostream stream(&buffer);

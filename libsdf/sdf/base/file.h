@@ -21,9 +21,16 @@ Status checkExtension(const std::filesystem::path& name, std::span<const std::st
 /// shows only on writing. Errors: Files.
 Status checkWritable(const std::filesystem::path& target);
 
+/// Are these one file, by whatever names and links? Neither need be there.
+bool areOneFile(const std::filesystem::path& a, const std::filesystem::path& b);
+/// Refuses a target that is one of the files that a program reads: writing it would destroy what was read.
+/// Errors: Files.
+Status checkNotRead(const std::filesystem::path& target, std::span<const std::string> read);
+
 /// Calls `write` with a binary stream into a new file beside `target`, and renames that to `target` once
 /// `write` has succeeded and everything is written. On any failure the new file is removed and an older
-/// `target` is left as it was. A target that is a symbolic link is followed. Errors: those of `write`; Files,
+/// `target` is left as it was. A target that is a symbolic link is followed; the permissions of an older one
+/// are kept. What writers that were killed left in that folder is removed. Errors: those of `write`; Files,
 /// with the system's reason and what to do; Interrupted where AbandonedWrites ended it.
 Status writeFile(const std::filesystem::path& target, const std::function<Status(std::ostream&)>& write);
 
