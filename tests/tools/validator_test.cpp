@@ -2,18 +2,10 @@
 #include <set>
 
 #include "sdf2gltf.h"
+#include "support/samples.h"
 
 namespace sdf {
 namespace validator_test {
-
-std::vector<std::filesystem::path> samples() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(SDF_SOURCE_DIR "/samples")) {
-    if (entry.path().extension() == ".lua") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 // Those whose tolerance takes little time; the others are meshed with voxels alone.
 const std::set<std::string> kQuick{"dice", "metals", "s1_sphere"};
@@ -39,8 +31,7 @@ TEST_P(Validator, AcceptsTheSample) {
   EXPECT_EQ(verdict.status, 0) << verdict.out << verdict.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(, Validator, testing::ValuesIn(samples()),
-                         [](const auto& sample) { return sample.param.stem().string(); });
+INSTANTIATE_TEST_SUITE_P(, Validator, testing::ValuesIn(test::allSamples()), test::stemOf);
 
 }  // namespace validator_test
 }  // namespace sdf

@@ -195,8 +195,8 @@ Dual<T, N> pow(const Dual<T, N>& a, const Dual<T, N>& b) {
   // At base 0 the tangent is vertical for exponents in (0, 1), and of no use below.
   const T slopeA =
       select(min(equal(a.v, T(0.0)), less(b.v, T(1.0))), T(0.0), mul(b.v, pow(a.v, sub(b.v, T(1.0)))));
-  // d/db = p ln a. Where a < 0 there is a value at whole exponents alone: one that moves can only jump. pow(0, b) has
-  // a step at b = 0.
+  // d/db = p ln a. Where a < 0 there is a value at whole exponents alone: one that moves can only jump.
+  // pow(0, b) has a step at b = 0.
   const T noLogarithm = select(less(a.v, T(0.0)), stepSlope(b.v), stepSlope(less(T(0.0), b.v)));
   const T slopeB = select(less(T(0.0), a.v), mul(p, log(a.v)), noLogarithm);
   const T noPole = max(isFinite(p), lessEqual(T(0.0), b.v));

@@ -29,7 +29,8 @@ TEST(DistanceToMesh, IsNoneOfABoxFromItself) {
   EXPECT_GE(d.points, 1000u);
 }
 
-// Each of these meshes lies on the surface, or within 0.04 of it.
+// Each of these meshes lies on the surface, or within 0.04 of it. Points are half a cell from the farthest
+// corner, and the door's 2048 cells are 0.04 long; the sheet's rim is met by lines along the sheet.
 TEST(DistanceToMesh, IsThatOfWhatTheMeshLacks) {
   EXPECT_NEAR(toBox(box({0.5, 1.0, 0.04}), {0.25f, 0.67f, 0.04f}).max, std::hypot(0.25, 0.33), 0.02);
   const SurfaceDistance rim = toBox(box({100.0, 0.0175, 80.0}), {99.5f, 0.0175f, 79.5f});

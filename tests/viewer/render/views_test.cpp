@@ -274,8 +274,8 @@ TEST(Views, PixelsThatRanOutOfStepsAreMagentaAndTheirAlphaIsZero) {
 
 class EveryView : public testing::TestWithParam<int> {};
 
-// At a few pixels: that every shader compiles, and draws numbers. Compiling is what takes long: each view draws every third
-// sample, another third than the next view, unless all are asked for.
+// At a few pixels: that every shader compiles, and draws numbers. Compiling is what takes long: each view
+// draws every third sample, another third than the next view, unless all are asked for.
 TEST_P(EveryView, OfEverySampleCanBeDrawn) {
   int number = GetParam();
   for (const std::filesystem::path& file : samples()) {

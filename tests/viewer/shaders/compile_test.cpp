@@ -106,8 +106,7 @@ TEST(Compiling, LeavesAFramesNumbersToBeComputedInAFifthOfAMillisecond) {
       look.at(values);
       for (UniformValues& uniforms : all) uniforms.move(values);
     }
-    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / kFrames, kPatience)
-        << file;
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / kFrames, kPatience) << file;
   }
 }
 

@@ -165,7 +165,8 @@ TEST_P(GlslSample, DistancesAreThose) { checkDistance(whole, places, kMost); }
 // A chess set's gradient, and a sunflower's, are a shader that takes a driver long.
 TEST_P(GlslSample, GradientsAreThose) {
   const std::string name = GetParam().stem();
-  if ((name == "chess" || name == "sunflower") && !isThorough()) GTEST_SKIP() << "with ./bootstrap test --long";
+  if ((name == "chess" || name == "sunflower") && !isThorough())
+    GTEST_SKIP() << "with ./bootstrap test --long";
   checkGradient(whole, places, kMost);
 }
 
@@ -175,8 +176,7 @@ TEST_P(GlslSample, AttributesAreThose) {
         [&](const glm::dvec3& p, const glm::dvec3& n) { return evaluateAll(tape, p, n); });
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GlslSample, testing::ValuesIn(samples()),
-                         stemOf);
+INSTANTIATE_TEST_SUITE_P(All, GlslSample, testing::ValuesIn(samples()), stemOf);
 
 using GlslCatalog = Gpu;
 
