@@ -47,10 +47,11 @@ void Pieces::drew(double rays, double seconds) {
   ray_ = ray_ && ray < *ray_ ? 0.5 * (*ray_ + ray) : ray;  // as Pace::drew
 }
 
-int Pieces::rows(int rays, double seconds) const {
-  constexpr int kFirst = 16, kMost = 1 << 20;
-  if (!ray_) return kFirst;
-  return static_cast<int>(std::clamp(seconds / (*ray_ * rays), 1.0, double(kMost)));
+int Pieces::rows(int rays, int height, double seconds) const {
+  constexpr int kFirst = 16;
+  if (!ray_) return std::min(kFirst, height);
+  const double least = std::ceil(double(height) / kMost);
+  return static_cast<int>(std::clamp(seconds / (*ray_ * rays), least, double(height)));
 }
 
 double Canvas::secondsNow() {
@@ -116,7 +117,7 @@ std::optional<double> Canvas::drawnShare() const {
 Status Canvas::draw(Session& session, double seconds) {
   Drawing& d = *drawing_;
   if (const Status made = ensure(next_, d.width, d.height, {PixelFormat::Rgba8}); !made) return made;
-  const Rows rows{d.row, std::min(pieces_.rows(d.width, seconds), d.height - d.row)};
+  const Rows rows{d.row, std::min(pieces_.rows(d.width, d.height, seconds), d.height - d.row)};
   const double start = clock_();
   Renderer& renderer = session.renderer();
   const Status drawn = d.frame.samples == 1 ? renderer.draw(d.frame, *next_, rows)
@@ -157,7 +158,7 @@ Status Canvas::refine(Session& session, double seconds) {
   if (const Status made = ensure(next_, width, height, {PixelFormat::Rgba8}); !made) return made;
   Frame frame = session.frame();
   frame.samples = samplesAtRestOf(session);
-  const Rows rows{row_, std::min(pieces_.rows(width, seconds), height - row_)};
+  const Rows rows{row_, std::min(pieces_.rows(width, height, seconds), height - row_)};
   const double start = clock_();
   if (const Status drawn = session.renderer().refine(frame, statistics_.refined, *next_, rows); !drawn)
     return drawn;

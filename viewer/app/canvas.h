@@ -46,12 +46,16 @@ class Pieces {
  public:
   /// The seconds that a piece may take.
   static constexpr double kBudget = 0.05;
+  /// The pieces that a picture has at most. Each has a cost of its own, which fewer rows do not lessen: where
+  /// that is beyond the budget, on a busy machine, a picture of single rows would take minutes.
+  static constexpr int kMost = 64;
 
   /// Records that a piece of so many rays took this long.
   void drew(double rays, double seconds);
 
-  /// Returns how many rows, each of so many rays, are drawn next within these seconds: at least 1.
-  int rows(int rays, double seconds) const;
+  /// Returns how many of a picture's rows, each of so many rays, are drawn next within these seconds: at
+  /// least one in kMost.
+  int rows(int rays, int height, double seconds) const;
 
  private:
   std::optional<double> ray_;  // seconds, by the pieces so far
