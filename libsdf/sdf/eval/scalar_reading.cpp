@@ -3,6 +3,10 @@
 #include <cmath>
 
 namespace sdf {
+
+template class ScalarReading<double>;
+template class ScalarReading<Interval>;
+
 namespace {
 
 std::array<double, kVariableCount> variables(const glm::dvec3& p, const glm::dvec3& n) {

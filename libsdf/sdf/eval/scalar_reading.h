@@ -15,17 +15,7 @@ template <class T>
 class ScalarReading {
  public:
   /// Evaluates the tape for the given variables (x, y, z, and the normal where it is used).
-  void run(const Tape& tape, const std::array<T, kVariableCount>& variables) {
-    tape_ = &tape;
-    variables_ = variables;
-    values_.resize(tape.instructions().size());
-    T* next = values_.data();
-    for (const Instruction& instruction : tape.instructions())
-      *next++ = evaluateOp<T>(instruction.op, tape.payload(instruction), [&](int k) {
-        const int rows = rowArguments(instruction.op);
-        return k < rows ? value(instruction.in[k]) : number(tape.constant(instruction.constants + k - rows));
-      });
-  }
+  void run(const Tape& tape, const std::array<T, kVariableCount>& variables);
 
   T output(std::size_t i = 0) const { return value(tape_->outputs()[i]); }
   T value(Operand a) const {
@@ -45,6 +35,22 @@ class ScalarReading {
   std::array<T, kVariableCount> variables_;
   std::vector<T> values_;
 };
+
+template <class T>
+void ScalarReading<T>::run(const Tape& tape, const std::array<T, kVariableCount>& variables) {
+  tape_ = &tape;
+  variables_ = variables;
+  values_.resize(tape.instructions().size());
+  T* next = values_.data();
+  for (const Instruction& instruction : tape.instructions())
+    *next++ = evaluateOp<T>(instruction.op, tape.payload(instruction), [&](int k) {
+      const int rows = rowArguments(instruction.op);
+      return k < rows ? value(instruction.in[k]) : number(tape.constant(instruction.constants + k - rows));
+    });
+}
+
+extern template class ScalarReading<double>;
+extern template class ScalarReading<Interval>;
 
 /// The reference reading: output 0 in double at p (and, where the tape uses it, the unit normal n). This is
 /// the oracle.
