@@ -170,18 +170,23 @@ int Program::location(const std::string& name) const {
   return found->second;
 }
 
-std::vector<std::string> Program::uniformFaults() const {
+const std::set<std::string>& Program::declared() const {
+  if (declared_) return *declared_;
   std::array<GLuint, 2> shaders{};
   GLsizei count = 0;
   glGetAttachedShaders(program_.id(), GLsizei(shaders.size()), &count, shaders.data());
-  std::set<std::string> declared;
+  declared_.emplace();
   for (GLsizei i = 0; i < count; ++i)
-    declared.merge(declaredUniforms(
+    declared_->merge(declaredUniforms(
         textOf(shaders[std::size_t(i)], GL_SHADER_SOURCE_LENGTH, glGetShaderiv, glGetShaderSource)));
+  return *declared_;
+}
+
+std::vector<std::string> Program::uniformFaults() const {
   std::vector<std::string> faults;
   for (const auto& [name, place] : locations_)
-    if (!declared.contains(name)) faults.push_back("the uniform " + name + " is set but not declared");
-  for (const std::string& name : declared)
+    if (!declared().contains(name)) faults.push_back("the uniform " + name + " is set but not declared");
+  for (const std::string& name : declared())
     if (!locations_.contains(name)) faults.push_back("the uniform " + name + " is declared but not set");
   return faults;
 }

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -47,7 +48,7 @@ class Program {
   static Result<Program> overTiles(const std::string& fragment);
 
   /// Returns what is wrong with the uniforms that were set so far: a line for each that no shader declares,
-  /// and for each declared one that was not set. Cost: the length of the sources.
+  /// and for each declared one that was not set. Cost: once the length of the sources.
   std::vector<std::string> uniformFaults() const;
 
   // These make the program the one that draws.
@@ -72,11 +73,13 @@ class Program {
  private:
   Program(Handle program, Handle vertexArray)
       : program_(std::move(program)), vertexArray_(std::move(vertexArray)) {}
-  int location(const std::string& name) const;  // -1 if there is none; the program is used from now on
-  void refuseFaults() const;                    // if strict
+  int location(const std::string& name) const;    // -1 if there is none; the program is used from now on
+  const std::set<std::string>& declared() const;  // uniforms
+  void refuseFaults() const;                      // if strict
 
   Handle program_, vertexArray_;
   mutable std::unordered_map<std::string, int> locations_;  // of all that were set
+  mutable std::optional<std::set<std::string>> declared_;   // once they were read
 };
 
 }  // namespace sdf::viewer
