@@ -359,8 +359,9 @@ TEST_F(Export, SaysWhereTheToleranceOfItsOwnIsNotKept) {
   EXPECT_TRUE(part["watertight"]);
   EXPECT_EQ(part["self_intersections"], 0);
   EXPECT_GT(part["max_distance"], part["tolerance"]);
-  // The mesh ends where the crescent is too thin for it, some voxels before its rim: that counts.
-  EXPECT_GT(part["max_distance"].get<double>(), 2.0 * part["voxel_size"].get<double>());
+  // The mesh ends where the crescent is too thin for it, 0.066 before its rim; points are found over most of
+  // that.
+  EXPECT_GT(part["max_distance"].get<double>(), 0.03);
   EXPECT_LT(part["max_distance"].get<double>(), 0.07);
   EXPECT_EQ(run({file, "-o", out("a.glb"), "--tolerance", "0.05%"}).status, 4);
 }

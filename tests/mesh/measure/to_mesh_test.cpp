@@ -38,6 +38,15 @@ TEST(DistanceToMesh, IsThatOfWhatTheMeshLacks) {
   EXPECT_NEAR(std::max(std::abs(rim.farthest.x) - 99.5, std::abs(rim.farthest.z) - 79.5), 0.5, 0.02);
 }
 
+// A plate a twentieth of a thousandth as thick as it is long is passed by most pairs of readings.
+TEST(DistanceToMesh, SeesWhatIsThinnerThanReadingsAreApart) {
+  const Shape plate = rotateAbout(box({1.0, 0.8, 5e-5}), {0.6, 0.8, 0.0}, 0.5);
+  const glm::vec3 half(0.02f);
+  const SurfaceDistance d = toBox(plate, half);
+  EXPECT_GE(d.points, 2000u);
+  EXPECT_NEAR(d.max, std::hypot(1.0, 0.8), 0.06);
+}
+
 // A ball of a hundredth of the box's side is one of the operands that points are spaced by.
 TEST(DistanceToMesh, SeesASmallOperandOfAUnion) {
   const Shape both = box({1.0, 1.0, 1.0}) | translate(sphere(0.01), {1.5, 0.7, -0.3});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <utility>
 
@@ -24,8 +25,10 @@ constexpr int kMostHalvings = 60;
 constexpr int kSpecialised = 3;
 // Of the bounds' sides: what lies on a face of them is inside of the cells.
 constexpr double kMargin = 1e-3;
-// Readings along a line, and the halvings of the piece in which the sign changes.
+// Readings along a line; how often a piece of it is halved in which the slope lets the sign change twice; and
+// the halvings of a piece in which it does change.
 constexpr std::size_t kAlong = 9;
+constexpr int kIsolations = 5;
 constexpr int kBisections = 24;
 
 struct Cell {
@@ -93,42 +96,94 @@ class Divider {
 // Points of the surface in a cell, on the lines along the axes through its centre.
 class Roots {
  public:
+  explicit Roots(double slope) : slope_(static_cast<float>(slope)) {}
+
   const std::vector<glm::vec3>& in(const Cell& cell) {
     const glm::vec3 min(cell.box.min), max(cell.box.max), centre(cell.box.centre());
-    PointRows at;
-    for (std::size_t i = 0; i < 3 * kAlong; ++i) {
-      glm::vec3 p = centre;
+    std::vector<Reading> along(3 * kAlong);
+    for (std::size_t i = 0; i < along.size(); ++i) {
       const std::size_t axis = i / kAlong, k = i % kAlong;
-      p[axis] = min[axis] + (max[axis] - min[axis]) * (static_cast<float>(k) / (kAlong - 1));
-      at.set(i, p);
+      along[i].at = centre;
+      along[i].at[axis] = min[axis] + (max[axis] - min[axis]) * (static_cast<float>(k) / (kAlong - 1));
     }
-    batch_.evaluate(*cell.tape, at.rows(), 3 * kAlong, values_);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i + 1 < 3 * kAlong; ++i) {
-      if (i % kAlong == kAlong - 1 || (values_[i] < 0.0f) == (values_[i + 1] < 0.0f)) continue;
-      const bool first = values_[i] < 0.0f;
-      inside_[count] = at.at(first ? i : i + 1);
-      outside_[count++] = at.at(first ? i + 1 : i);
-    }
-    bisect(*cell.tape, count);
-    points_.assign(outside_, outside_ + count);  // a reading of 0 is outside
-    return points_;
+    read(*cell.tape, along);
+    pieces_.clear();
+    inside_.clear();
+    outside_.clear();
+    for (std::size_t i = 0; i + 1 < along.size(); ++i)
+      if (i % kAlong != kAlong - 1) take({along[i], along[i + 1]});
+    isolate(*cell.tape);
+    bisect(*cell.tape);
+    return outside_;  // a reading of 0 is outside
   }
 
  private:
-  void bisect(const Tape& tape, std::size_t count) {
-    PointRows middle;
-    for (int k = 0; k < kBisections && count > 0; ++k) {
-      for (std::size_t i = 0; i < count; ++i) middle.set(i, 0.5f * (inside_[i] + outside_[i]));
-      batch_.evaluate(tape, middle.rows(), count, values_);
-      for (std::size_t i = 0; i < count; ++i) (values_[i] < 0.0f ? inside_ : outside_)[i] = middle.at(i);
+  struct Reading {
+    glm::vec3 at;
+    float value;
+  };
+  struct Piece {
+    Reading from, to;
+  };
+
+  void read(const Tape& tape, std::vector<Reading>& readings) {
+    PointRows at;
+    float values[kBatchPoints];
+    for (std::size_t first = 0; first < readings.size(); first += kBatchPoints) {
+      const std::size_t count = std::min(readings.size() - first, kBatchPoints);
+      for (std::size_t i = 0; i < count; ++i) at.set(i, readings[first + i].at);
+      batch_.evaluate(tape, at.rows(), count, values);
+      for (std::size_t i = 0; i < count; ++i) readings[first + i].value = values[i];
     }
   }
 
+  // Keeps a piece in which the sign changes, or may do so twice: the surface is |f| / slope away at least.
+  void take(const Piece& piece) {
+    const bool first = piece.from.value < 0.0f, second = piece.to.value < 0.0f;
+    if (first != second) {
+      inside_.push_back((first ? piece.from : piece.to).at);
+      outside_.push_back((first ? piece.to : piece.from).at);
+    } else if (std::abs(piece.from.value) + std::abs(piece.to.value) <
+               slope_ * glm::distance(piece.from.at, piece.to.at)) {
+      pieces_.push_back(piece);
+    }
+  }
+
+  // Of the part that neither end's distance excludes.
+  glm::vec3 middleOf(const Piece& piece) const {
+    const glm::vec3 way = piece.to.at - piece.from.at;
+    const float by = (std::abs(piece.from.value) - std::abs(piece.to.value)) / (slope_ * glm::length(way));
+    return piece.from.at + 0.5f * (1.0f + by) * way;
+  }
+
+  void isolate(const Tape& tape) {
+    if (slope_ == kInfinity) return;
+    for (int k = 0; k < kIsolations && !pieces_.empty(); ++k) {
+      const std::vector<Piece> halved = std::exchange(pieces_, {});
+      std::vector<Reading> middles;
+      for (const Piece& piece : halved) middles.push_back({middleOf(piece), 0.0f});
+      read(tape, middles);
+      for (std::size_t i = 0; i < halved.size(); ++i) {
+        take({halved[i].from, middles[i]});
+        take({middles[i], halved[i].to});
+      }
+    }
+  }
+
+  void bisect(const Tape& tape) {
+    std::vector<Reading> middles(inside_.size());
+    for (int k = 0; k < kBisections && !middles.empty(); ++k) {
+      for (std::size_t i = 0; i < middles.size(); ++i) middles[i].at = 0.5f * (inside_[i] + outside_[i]);
+      read(tape, middles);
+      for (std::size_t i = 0; i < middles.size(); ++i)
+        (middles[i].value < 0.0f ? inside_ : outside_)[i] = middles[i].at;
+    }
+  }
+
+  float slope_;
   BatchEvaluator batch_;
-  float values_[kBatchPoints];
-  glm::vec3 inside_[3 * kAlong], outside_[3 * kAlong];
-  std::vector<glm::vec3> points_;
+  std::vector<Piece> pieces_;  // open: as the two ends tell, the sign may change twice between them
+  std::vector<glm::vec3> inside_, outside_;
 };
 
 std::vector<Cell> cellsOf(const ModelTapes& model, const Box& bounds, Progress& progress) {
@@ -154,7 +209,7 @@ SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& positions,
   const TriangleTree tree(positions, triangles);
   const std::vector<Cell> cells = cellsOf(model, bounds, progress);
   std::vector<SurfaceDistance> found(cells.size());
-  tbb::enumerable_thread_specific<Roots> roots;
+  tbb::enumerable_thread_specific<Roots> roots(model.slope());
   std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
     if (progress.stopped()) return;

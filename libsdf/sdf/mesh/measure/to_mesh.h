@@ -20,8 +20,9 @@ struct SurfaceDistance {
 /// The largest distance from points of the model's surface to the triangles, at least one. The points are
 /// found from the function alone: the bounds, and those of each operand of a union, are halved into some
 /// thousand cells in which intervals do not tell that there is no surface, and three lines through each cell
-/// are followed to where the sign changes. So points are as dense as the operand is small. Cost: log n of the
-/// triangles for each point. Does not depend on the number of threads.
+/// are followed to where the sign changes, and halved where the slope bound lets it do so twice. So points
+/// are as dense as the operand is small. Cost: log n of the triangles for each point. Does not depend on the
+/// number of threads.
 SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& positions,
                                const std::vector<glm::uvec3>& triangles, const ModelTapes& model,
                                const Box& bounds, Progress& progress);
