@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <utility>
 
 #include "sdf/base/box.h"
 #include "sdf/mesh/measure/find_surface.h"
@@ -61,38 +60,36 @@ struct Corner {
   glm::dvec3 x{0.0};  // relative to the point
 };
 
-// Adds each corner's next branch, of a block of them, and moves x behind where they meet; drops those that
-// have none.
-void addBranches(const PointRun& run, const std::vector<Way>& points, double reach, const Corner* corners,
-                 std::size_t count, std::vector<Corner>& next) {
+// Each corner with its next branch, and x moved behind where they meet; without those that have none.
+std::vector<Corner> withNextBranch(const PointRun& run, const std::vector<Way>& points,
+                                   const std::vector<Corner>& corners) {
   constexpr double kBehind = 0.02;  // of the way
   PointRows at, gradients;
   float values[kBatchPoints];
-  for (std::size_t k = 0; k < count; ++k) at.set(k, glm::vec3(points[corners[k].point].from + corners[k].x));
-  run.batch.evaluateGradient(*run.tapes.distance, at.rows(), count, values, gradients.x, gradients.y,
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    at.set(k, glm::vec3(points[corners[k].point].from + corners[k].x));
+  run.batch.evaluateGradient(*run.tapes.distance, at.rows(), corners.size(), values, gradients.x, gradients.y,
                              gradients.z);
-  for (std::size_t k = 0; k < count; ++k) {
+  std::vector<Corner> next;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
     Corner corner = corners[k];
     if (!corner.branches.add(corner.x, values[k], gradients.at(k))) continue;
     const double behind = kBehind * glm::length(corner.branches.nearest(0.0));
     corner.x = corner.branches.nearest(points[corner.point].inside ? behind : -behind);
     const double length = glm::length(corner.x);
-    if (length > 0.0 && length <= reach) next.push_back(corner);
+    if (length > 0.0 && length <= kFarthestVoxels * run.voxel) next.push_back(corner);
   }
+  return next;
 }
 
 }  // namespace
 
 std::vector<double> distancesToBranches(const PointRun& run, const std::vector<Way>& points) {
   std::vector<double> distances(points.size(), kInfinity);
-  std::vector<Corner> corners, next;
+  std::vector<Corner> corners;
   for (std::size_t i = 0; i < points.size(); ++i) corners.push_back({i, {}});
   for (int branch = 0; branch < 3 && !corners.empty(); ++branch) {
-    next.clear();
-    for (std::size_t first = 0; first < corners.size(); first += kBatchPoints)
-      addBranches(run, points, kFarthestVoxels * run.voxel, &corners[first],
-                  std::min(corners.size() - first, kBatchPoints), next);
-    std::swap(corners, next);
+    corners = withNextBranch(run, points, corners);
     std::vector<Way> ways;
     for (const Corner& corner : corners) {
       const Way& point = points[corner.point];

@@ -6,6 +6,7 @@
 
 #include "sdf/base/box.h"
 #include "sdf/mesh/measure/branches.h"
+#include "sdf/mesh/measure/read_values.h"
 #include "sdf/mesh/measure/search.h"
 #include "sdf/mesh/surface/surface_points.h"
 
@@ -77,8 +78,8 @@ class RunDistances {
       reach.push_back(std::max(rounding, 2.0f * first));
     }
     std::vector<bool> met(run_.count);
-    forEachValue(
-        run_, 27 * small.size(),
+    readValues(
+        run_.batch, *run_.tapes.distance, 27 * small.size(),
         [&](std::size_t k) {
           const int way = static_cast<int>(k % 27);
           return run_.points.at(small[k / 27]) +

@@ -9,6 +9,7 @@
 
 #include "sdf/base/box.h"
 #include "sdf/mesh/measure/find_surface.h"
+#include "sdf/mesh/measure/read_values.h"
 
 namespace sdf {
 namespace {
@@ -34,8 +35,8 @@ std::vector<std::size_t> firstAcross(const PointRun& run, const std::vector<Way>
                                      const std::vector<std::size_t>& which, std::size_t count,
                                      const Along& along) {
   std::vector<std::size_t> first(which.size(), count);
-  forEachValue(
-      run, which.size() * count,
+  readValues(
+      run.batch, *run.tapes.distance, which.size() * count,
       [&](std::size_t k) {
         const std::size_t i = which[k / count];
         return ways[i].from + along(i, k % count) * ways[i].direction;
@@ -139,7 +140,7 @@ std::vector<double> distancesAround(const PointRun& run, const std::vector<Way>&
           glm::round(points[open[k / count]].from / run.voxel) + samples[first + k % count];
       return glm::dvec3(glm::vec3(lattice * run.voxel));
     };
-    forEachValue(run, open.size() * count, at, [&](std::size_t k, float value) {
+    readValues(run.batch, *run.tapes.distance, open.size() * count, at, [&](std::size_t k, float value) {
       const std::size_t i = open[k / count];
       const glm::dvec3 way = at(k) - points[i].from;
       const double length = glm::length(way);

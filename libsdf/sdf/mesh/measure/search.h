@@ -1,6 +1,5 @@
 // Looking for a surface from points near it, many points at a time.
 #pragma once
-#include <algorithm>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -11,19 +10,6 @@ namespace sdf {
 /// Is a point with this value on the surface, or on the side where one that is inside or not is not? What is
 /// no number is outside, as it is for the mesher.
 inline bool isAcross(float value, bool inside) { return inside ? !(value < 0.0f) : value <= 0.0f; }
-
-/// Calls take(k, value) for each of so many points.
-template <class Point, class Take>
-void forEachValue(const PointRun& run, std::size_t count, const Point& point, const Take& take) {
-  PointRows at;
-  float values[kBatchPoints];
-  for (std::size_t first = 0; first < count; first += kBatchPoints) {
-    const std::size_t size = std::min(count - first, kBatchPoints);
-    for (std::size_t k = 0; k < size; ++k) at.set(k, glm::vec3(point(first + k)));
-    run.batch.evaluate(*run.tapes.distance, at.rows(), size, values);
-    for (std::size_t k = 0; k < size; ++k) take(first + k, values[k]);
-  }
-}
 
 /// A point, its side, and the line through it on which the surface is looked for.
 struct Way {

@@ -12,6 +12,7 @@
 
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/measure/read_values.h"
 #include "sdf/triangles/tree.h"
 
 namespace sdf {
@@ -25,8 +26,9 @@ constexpr int kMostHalvings = 60;
 constexpr int kSpecialised = 3;
 // Of the bounds' sides: what lies on a face of them is inside of the cells.
 constexpr double kMargin = 1e-3;
-// Readings along a line; how often a piece of it is halved in which the slope lets the sign change twice; and
-// the halvings of a piece in which it does change.
+// Readings along a line; how often a piece of it is halved in which the slope lets the sign change twice, of
+// which (1 - cos a) / 2 is left each time at an angle of a to the surface's normal; and the halvings of a
+// piece in which it does change, as many as a float has bits.
 constexpr std::size_t kAlong = 9;
 constexpr int kIsolations = 5;
 constexpr int kBisections = 24;
@@ -127,14 +129,9 @@ class Roots {
   };
 
   void read(const Tape& tape, std::vector<Reading>& readings) {
-    PointRows at;
-    float values[kBatchPoints];
-    for (std::size_t first = 0; first < readings.size(); first += kBatchPoints) {
-      const std::size_t count = std::min(readings.size() - first, kBatchPoints);
-      for (std::size_t i = 0; i < count; ++i) at.set(i, readings[first + i].at);
-      batch_.evaluate(tape, at.rows(), count, values);
-      for (std::size_t i = 0; i < count; ++i) readings[first + i].value = values[i];
-    }
+    readValues(
+        batch_, tape, readings.size(), [&](std::size_t i) { return readings[i].at; },
+        [&](std::size_t i, float value) { readings[i].value = value; });
   }
 
   // Keeps a piece in which the sign changes, or may do so twice: the surface is |f| / slope away at least.
