@@ -182,6 +182,21 @@ TEST(Specialisation, KeepsAFactorThatIsWrittenAsZero) {
   EXPECT_TRUE(std::isnan(evaluate(*special, {0.0, -1.0, 0.0})));
 }
 
+TEST(Specialisation, IsEqualWhereTheSameIsDropped) {
+  const auto balls = [] { return min(sphere({0, 0, 0}, 1), sphere({3, 0, 0}, 1)); };
+  const Tape both(balls()), anew(balls());
+  const TapePtr first = specialiseOnce(both, {-1.0, 0.0, 0.0}, 0.5, false),
+                again = specialiseOnce(both, {0.0, 1.0, 0.0}, 0.25, false),
+                second = specialiseOnce(both, {4.0, 0.0, 0.0}, 0.5, false);
+  ASSERT_TRUE(first && again && second);
+  EXPECT_NE(first, again);
+  EXPECT_EQ(*first, *again);
+  EXPECT_EQ(first->hash(), again->hash());
+  EXPECT_FALSE(*first == *second);
+  EXPECT_FALSE(*first == both);
+  EXPECT_FALSE(both == anew);  // constants are compared by their place
+}
+
 TEST(Specialisation, SaysWhenNothingCanBeDropped) {
   const Tape tape(min(sphere({0, 0, 0}, 1), sphere({0.5, 0, 0}, 1)));
   const Decision open = Decision::Open;

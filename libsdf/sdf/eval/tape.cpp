@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sdf/base/fnv.h"
 #include "sdf/eval/tape_compiler.h"
 
 namespace sdf {
@@ -142,6 +143,15 @@ std::shared_ptr<const Tape> Tape::firstOutputOnly() const {
   std::vector<Operand> known(instructions().size());
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = Operand::value(i);
   return reduced(known, {outputs().data(), 1});
+}
+
+std::uint64_t Tape::hash() const {
+  auto h = kFnvBegin<std::uint64_t>;
+  for (const Instruction& i : instructions()) {
+    h = fnv<std::uint64_t>(h, static_cast<std::uint64_t>(i.op) << 32 | i.constants);
+    for (const Operand a : i.in) h = fnv<std::uint64_t>(h, a.index());
+  }
+  return h;
 }
 
 std::shared_ptr<const Tape> Tape::reduced(const std::vector<Operand>& known,

@@ -44,6 +44,7 @@ struct Instruction {
   std::array<Operand, 3> in;
   std::uint32_t constants = 0;
   float lipschitz = 0.0f;  ///< proven global bound of the value's slope, rounded up; infinite where unknown
+  friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 
 /// The same instruction with registers. Registers [0, kVariableCount) are the variables.
@@ -106,6 +107,14 @@ class Tape {
   std::shared_ptr<const Tape> specialised(const Decision* decisions, std::size_t stride) const;
   /// The tape of output 0 alone.
   std::shared_ptr<const Tape> firstOutputOnly() const;
+
+  /// Do both come from one compilation and consist of the same instructions? Then all readings of both agree
+  /// to the bit.
+  friend bool operator==(const Tape& a, const Tape& b) {
+    return a.pool_ == b.pool_ && a.outputs() == b.outputs() && a.instructions() == b.instructions();
+  }
+  /// The same of equal tapes.
+  std::uint64_t hash() const;
 
  private:
   friend class TapeCompiler;

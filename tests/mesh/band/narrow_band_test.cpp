@@ -167,6 +167,26 @@ TEST(NarrowBand, WorkGrowsWithSurfaceNotVolume) {
   EXPECT_LE(bandOf(sphere(r), region(2.0), h).sampleCount(), 1.25 * voxels);
 }
 
+// Leaves that are reached by the same balls lie on all sides of these.
+TEST(NarrowBand, LeavesWithEqualTapesShareThem) {
+  const Shape balls = strewn(30, 0.4);
+  const NarrowBand band = bandOf(balls, region(2.2), 4.4 / 128);
+  const BandField field(band, wholeTapes(tapeOf(balls)));
+  const auto finder = field.finder();
+  std::vector<TapePtr> distinct;
+  const int n = 48;
+  for (int i = 0; i < n * n * n; ++i) {
+    const glm::vec3 at(i / (n * n), i / n % n, i % n);
+    const TapePtr& tape = finder->at(4.4f / n * (at + 0.5f) - 2.2f).tapes.surface;
+    const auto same = std::ranges::find_if(distinct, [&](const TapePtr& t) { return *t == *tape; });
+    if (same == distinct.end())
+      distinct.push_back(tape);
+    else
+      ASSERT_EQ(*same, tape);
+  }
+  EXPECT_GE(distinct.size(), 30u);
+}
+
 TEST(NarrowBand, AThousandBallsCostTheirSurfaceToo) {
   const double h = 4.0 / 512, r = 0.06, dense = 512.0 * 512.0 * 512.0;
   const Shape balls = strewn(1000, r);

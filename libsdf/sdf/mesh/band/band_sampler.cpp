@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <unordered_map>
 #include <utility>
 
 #include "sdf/eval/batch.h"
@@ -65,6 +66,22 @@ struct Workspace {
   std::vector<Decision> decisionsOfOne;
   std::vector<LinkedTape> linked;  // of the present cell's children, which often share theirs
   std::vector<LocalTapes> local;
+};
+
+// Leaves far apart may have equal tapes: one of them stands for all, so that what reads points of many leaves
+// reads them in few runs.
+class DistinctTapes {
+ public:
+  LocalTapes of(const LocalTapes& tapes) {
+    const std::uint64_t hash = tapes.surface->hash();
+    const auto [first, last] = known_.equal_range(hash);
+    for (auto it = first; it != last; ++it)
+      if (*it->second.surface == *tapes.surface) return it->second;
+    return known_.emplace(hash, tapes)->second;
+  }
+
+ private:
+  std::unordered_multimap<std::uint64_t, LocalTapes> known_;
 };
 
 // Independent minima, which the compiler turns into vector code. A NaN is passed over. `count` is a multiple
@@ -420,8 +437,9 @@ class BandSampler {
         glm::vec3(firstNotNumber_.x(), firstNotNumber_.y(), firstNotNumber_.z()) * static_cast<float>(h_)};
     auto& tree = band.grid_->grid->tree();
     band.grid_->tapes.reserve(leaves_.size());
+    DistinctTapes distinct;
     for (BandLeaf& l : leaves_) {
-      band.grid_->tapes.emplace(l.leaf->origin(), std::move(l.tapes));
+      band.grid_->tapes.emplace(l.leaf->origin(), distinct.of(l.tapes));
       tree.addLeaf(l.leaf.release());
     }
     band.settleZeros();  // tiles take their sign from the samples at leaves' corners, and are neutral yet
