@@ -409,6 +409,28 @@ TEST(Field, HasASlopeWhereItsFormulaHasOneWithinItsBounds) {
   }
 }
 
+// A slope that is stated holds within the bounds: by the formula's own values from outside a march would step
+// over the solid.
+TEST(Field, NeverPromisesMoreThanTheWayToItsSolidOutsideOfWhereItsSlopeIsStated) {
+  const Vec3E p = position();
+  const Expr formula = square(dot(p, p)) - 0.25;
+  const double radius = std::sqrt(0.5), slope = 4.0 * std::pow(3.0, 1.5);  // at a corner of the bounds
+  const Box bounds = Box::centred(dvec3(1.0));
+  const Shape s = field(formula, bounds, slope);
+  ASSERT_TRUE(s.ok());
+  EXPECT_EQ(slopeOf(s), slope);
+  const test::Evaluator f(s.distance), g(formula);
+  test::Sampler sampler(Box::centred(dvec3(8.0)), 5);
+  for (int i = 0; i < 4000; ++i) {
+    const dvec3 a = (i % 2 == 0 ? 1.0 : 0.125) * sampler.orOnAnAxis(), b = sampler.near(a, 0.5);
+    ASSERT_LE(std::abs(f(a) - f(b)), slope * glm::length(a - b) * (1.0 + 1e-12) + 1e-12) << test::text(a);
+    ASSERT_LE(f(a) / slope, std::abs(glm::length(a) - radius) + 1e-12) << test::text(a);
+    if (bounds.contains({a, a})) {
+      ASSERT_EQ(f(a), g(a)) << test::text(a);
+    }
+  }
+}
+
 TEST(Field, OperatorsKeepTheSlopeThatItsBoundsGiveIt) {
   const Vec3E p = position();
   const Shape ball = field(dot(p, p) - 0.5, Box::centred(dvec3(1.0))), block = box(Vec3E(0.5));

@@ -375,7 +375,7 @@ const std::vector<FunctionInfo>& shapeLibrary() {
        "field(function(x, y, z) return … end, {bounds = {{x0, y0, z0}, {x1, y1, z1}}, lipschitz = 2})",
        "solid where the formula is 0 or less",
        {{"bounds", SettingKind::Box, "a box that holds the solid; trusted", Rule::Any, {}, "none"},
-        {"lipschitz", PlainNumber, "a bound on the formula's slope; trusted. Without one, sdfview derives it within the bounds, and refuses the field where it cannot; sdf2gltf meshes any field, but slowly where no slope is known", Rule::Positive, {}, "derived"}},
+        {"lipschitz", PlainNumber, "a bound on the formula's slope, within the bounds if there are some; trusted. Without one, sdfview derives it within the bounds, and refuses the field where it cannot; sdf2gltf meshes any field, but slowly where no slope is known", Rule::Positive, {}, "derived"}},
        freeForm},
       {"mesh",
        "mesh(\"bunny.glb\", {voxels = 128})",

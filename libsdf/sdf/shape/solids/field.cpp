@@ -10,8 +10,8 @@ namespace sdf {
 
 namespace {
 
-// How far beyond the bounds the formula is taken as it is, as a share of their longest side: what leaves them
-// is then seen to.
+// How far beyond the bounds a formula may be asked for, as a share of their longest side: what leaves them is
+// then seen to.
 constexpr double kMargin = 0.5;
 
 // The formula looked up at the nearest point of the box.
@@ -33,14 +33,21 @@ double steepest(const Expr& formula, const Box& region) {
   return most;
 }
 
-// The formula where it is asked for near its bounds, which alone has a slope: elsewhere it is looked up at
-// the nearest point of them, and is no less than the way there. A point of a box moves no more than the one
-// that it is nearest to.
-Expr nearBounds(const Expr& formula, const Box& bounds) {
+// The formula at the nearest point of a region, which it has that slope in, and beyond a box that holds the
+// region no less than the way to it: dividing it by the slope is never more than the way to its zero set. A
+// point of a box moves no more than the one that it is nearest to.
+Expr knownWithin(const Expr& formula, const Box& region, double slope, const Box& box) {
+  return max(heldWithin(formula, region).claimLipschitz(slope), slope * *outsideBox(box));
+}
+
+// What is not known everywhere is looked up within the bounds, where it is stated, or where intervals bound
+// its slope, also a little beyond. It is prolonged so far that what reaches the bounds is seen to leave them.
+Expr nearBounds(const Expr& formula, const Box& bounds, double stated) {
   const Box near = bounds.grown(kMargin * bounds.longestSide());
+  if (stated < kInfinity) return knownWithin(formula, bounds, stated, near);
   const double slope = steepest(formula, near);
   if (slope == kInfinity) return formula;
-  return max(heldWithin(formula, near).claimLipschitz(slope), *outsideBox(near));
+  return knownWithin(formula, near, slope > 0.0 ? slope : 1.0, near);
 }
 
 }  // namespace
@@ -54,8 +61,10 @@ Shape field(const Expr& distance, const Box& bounds, double lipschitz) {
   c.that(!bounds.empty(), "bounds must not be empty");
   if (!c.ok()) return c.failure();
   Shape s;
-  s.distance = distance.claimLipschitz(lipschitz);
-  if (s.distance.lipschitz() == kInfinity && bounds.finite()) s.distance = nearBounds(distance, bounds);
+  const bool known =
+      lipschitz == kInfinity ? distance.lipschitz() < kInfinity : distance.lipschitz() <= lipschitz;
+  s.distance = known || !bounds.finite() ? distance.claimLipschitz(lipschitz)
+                                         : nearBounds(distance, bounds, lipschitz);
   s.bounds = bounds;
   s.claim = {ClaimKind::Field, s.distance.lipschitz()};
   return s;

@@ -87,10 +87,10 @@ Shape schwarzD(const Expr& cell, const Expr& thickness);
 
 /// Any formula of position() and parameters as a shape: solid where distance <= 0. Claimed a field: only the
 /// zero set and the sign count. `bounds`, where given, must contain the solid; `lipschitz`, where given, is
-/// trusted as a bound on the formula's gradient, otherwise what the graph proves is used. Where that is
-/// nothing but the bounds are finite, the distance is the formula's only as far as half their longest side
-/// beyond them; its slope is bounded by intervals over cells of that box, and further out it is at least the
-/// way there. lipschitz > 0.
+/// trusted as a bound on the formula's gradient within the bounds, otherwise what the graph proves is used.
+/// Where that is nothing but the bounds are finite, its slope is bounded by intervals over cells of a box
+/// that reaches half their longest side beyond them. Outside of where its slope is known the formula is that
+/// of the nearest point there, and beyond that box at least the slope times the way to it. lipschitz > 0.
 Shape field(const Expr& distance, const Box& bounds = Box::everything(), double lipschitz = kInfinity);
 
 }  // namespace sdf
