@@ -23,9 +23,10 @@ struct Extent {
   glm::vec3 min{std::numeric_limits<float>::infinity()}, max{-std::numeric_limits<float>::infinity()};
   void add(const glm::vec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
   void add(const Extent& other) { min = glm::min(min, other.min), max = glm::max(max, other.max); }
-  float halfArea() const {
-    const glm::vec3 s = max - min;
-    return s.x < 0.0f ? 0.0f : s.x * s.y + s.y * s.z + s.z * s.x;
+  // Of a float's extent squares are no floats.
+  double halfArea() const {
+    const glm::dvec3 s = glm::dvec3(max) - glm::dvec3(min);
+    return s.x < 0.0 ? 0.0 : s.x * s.y + s.y * s.z + s.z * s.x;
   }
 };
 
@@ -103,9 +104,10 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
   const glm::vec3 sides = middles.max - middles.min;
   const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
   if (count <= kLeaf || !(sides[axis] > 0.0f)) return;
-  const float perSide = kBins / sides[axis];
+  const double perSide = kBins / static_cast<double>(sides[axis]);
   const auto binOf = [&](std::uint32_t i) {
-    return std::min(static_cast<int>((middleOf(i)[axis] - middles.min[axis]) * perSide), kBins - 1);
+    const double along = static_cast<double>(middleOf(i)[axis]) - static_cast<double>(middles.min[axis]);
+    return std::min(static_cast<int>(along * perSide), kBins - 1);
   };
   std::array<Bin, kBins> bins;
   for (std::uint32_t i = first; i < first + count; ++i) {
@@ -113,18 +115,18 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
     bin.extent.add(extentOf(points_, triangles_[order_[i]]));
     ++bin.count;
   }
-  std::array<float, kBins> below{};  // the cost of what is in this bin and those before
+  std::array<double, kBins> below{};  // the cost of what is in this bin and those before
   Bin sum;
   for (int i = 0; i < kBins; ++i) {
     sum.extent.add(bins[i].extent), sum.count += bins[i].count;
-    below[i] = sum.extent.halfArea() * static_cast<float>(sum.count);
+    below[i] = sum.extent.halfArea() * sum.count;
   }
   sum = {};
   int cut = 0;
-  float least = std::numeric_limits<float>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   for (int i = kBins - 1; i > 0; --i) {
     sum.extent.add(bins[i].extent), sum.count += bins[i].count;
-    const float cost = below[i - 1] + sum.extent.halfArea() * static_cast<float>(sum.count);
+    const double cost = below[i - 1] + sum.extent.halfArea() * sum.count;
     if (sum.count > 0 && sum.count < count && cost < least) least = cost, cut = i;
   }
   const auto begin = order_.begin() + first;
