@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "command_line/memory.h"
 #include "viewer/app/window.h"
 #include "viewer/headless.h"
 #include "viewer/options.h"
@@ -20,6 +21,8 @@ sdf::Status run(const sdf::viewer::Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  sdf::command_line::endWhereMemoryEnds("sdfview",
+                                        "take smaller pictures, meshes of fewer voxels, or fewer shapes");
   auto parsed = sdf::viewer::parseOptions(argc, argv);
   if (!parsed) return fail(parsed.error());
   if (const auto* answer = std::get_if<sdf::command_line::Answer>(&*parsed)) {

@@ -39,11 +39,13 @@ Channel openChannel(bool terminal) {
 [[noreturn]] void becomeProgram(const Command& command, int out, int err) {
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
-  if (command.fileSizeLimit >= 0) {
-    const auto bytes = static_cast<rlim_t>(command.fileSizeLimit);
-    const rlimit limit{bytes, bytes};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
+  const auto limitTo = [](auto resource, long most) {
+    if (most < 0) return;
+    const rlimit limit{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
+    ::setrlimit(resource, &limit);
+  };
+  limitTo(RLIMIT_FSIZE, command.fileSizeLimit);
+  limitTo(RLIMIT_AS, command.memoryLimit);
   // Opened first: nobody may not be let into the folders above the program, such as root's home.
   const int program = ::open(command.words[0].c_str(), O_RDONLY | O_CLOEXEC);
   if (command.asNobody && ::geteuid() == 0 && ::setuid(kNobody) != 0) ::_exit(126);

@@ -15,6 +15,7 @@ struct Outcome {
 struct Command {
   std::vector<std::string> words;  ///< the program and its arguments
   long fileSizeLimit = -1;         ///< bytes, like ulimit -f; -1: none
+  long memoryLimit = -1;           ///< bytes of addresses, like ulimit -v; -1: none
   bool asNobody = false;           ///< without the superuser's rights
   bool terminal = false;           ///< stderr is a terminal
   double signalAfter = -1.0;  ///< seconds from the first words on stderr to sending `signal`; negative: never

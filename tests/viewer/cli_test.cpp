@@ -686,5 +686,21 @@ TEST_F(Sdfview, WritesAShaderThatCompiles) {
   EXPECT_EQ(outcome.status, 0) << outcome.out;
 }
 
+// A sanitizer needs more addresses than there are.
+#ifndef SDF_SANITIZED
+TEST_F(Sdfview, SaysWhenTheMemoryIsUsedUp) {
+  Command command{{SDFVIEW_PROGRAM,
+                   scene("local s = sphere(1) for i = 1, 26 do s = union{s, s} end return s"), "--render",
+                   at("a.png")}};
+  command.memoryLimit = 1L << 30;
+  const Outcome outcome = command.run();
+  EXPECT_EQ(outcome.status, kLimits);
+  EXPECT_EQ(
+      outcome.err,
+      "sdfview: the memory is used up; take smaller pictures, meshes of fewer voxels, or fewer shapes\n");
+  EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
+}
+#endif
+
 }  // namespace cli_test
 }  // namespace sdf

@@ -11,6 +11,7 @@
 
 #include "bench/machine.h"
 #include "charts.h"
+#include "command_line/memory.h"
 
 #include "options.h"
 #include "sdf/base/fnv.h"
@@ -137,6 +138,7 @@ int run(const Options& options) {
 }  // namespace sdf::chart
 
 int main(int argc, char** argv) {
+  sdf::command_line::endWhereMemoryEnds("sdfchart", "take --quick, or a machine with more");
   auto parsed = sdf::chart::parseOptions(argc, argv);
   if (!parsed) return sdf::chart::fail(parsed.error());
   if (const auto* answer = std::get_if<sdf::command_line::Answer>(&*parsed)) {
