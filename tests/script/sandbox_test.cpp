@@ -93,6 +93,9 @@ TEST(Sandbox, GraphsCountAsMemory) {
   // Each of these holds little in Lua itself.
   for (const char* text : {
            "local s = sphere(1) for i = 1, 100 do s = s | s:translate(i, 0, 0) end return s",
+           "local s = sphere(1) for i = 1, 40 do s = union{s, s} end return s",
+           "local s = sphere(1) for i = 1, 12 do s = union{s, s} end local t = {} for i = 1, 1e9 do t[i] = "
+           "s:paint{color = {1, 0, 0}} end return s",
            "local e = time for i = 1, 1e9 do e = sin(e) * e end return sphere(e)",
            "local function f(x, n) for i = 1, n do x = sin(x) + cos(x) * i end return x end "
            "field(function(x) return f(x, "
@@ -108,6 +111,18 @@ TEST(Sandbox, GraphsThatAreDroppedCostNothing) {
   ScriptOptions options = littleMemory();
   const Scene scene = sceneOf("for i = 1, 3e5 do local e = sin(time + i) end return sphere(1)", options);
   EXPECT_EQ(scene.parts.size(), 1u);
+}
+
+TEST(Sandbox, ALoopOfTheLibraryIsBounded) {
+  const std::string most = "scene.lua:1: table.move moves up to 10 million values at a time; move fewer";
+  for (const char* ends :
+       {"1, math.maxinteger - 1, 2", "math.mininteger, math.maxinteger, 1", "1, 1e7 + 1, 2"})
+    EXPECT_EQ(errorOf("table.move({}, " + std::string(ends) + ")", {}), most) << ends;
+  EXPECT_EQ(errorOf("table.move(1, 1, 2, 2)", {}),
+            "scene.lua:1: bad argument #1 to 'move' (table expected, got number)");
+  EXPECT_EQ(errorOf("table.move({}, 'a', 2, 2)", {}),
+            "scene.lua:1: bad argument #2 to 'move' (number expected, got string)");
+  EXPECT_EQ(sceneOf("local t = table.move({1, 2, 3}, 2, 3, 1) return sphere(t[1])", {}).parts.size(), 1u);
 }
 
 TEST(Sandbox, WorkThatFewInstructionsAskForIsBoundedByTime) {

@@ -114,6 +114,12 @@ NodeLimit::NodeLimit(std::int64_t count) : before_(nodesHeld) { nodesAllowed = b
 NodeLimit::~NodeLimit() { nodesAllowed = std::numeric_limits<std::int64_t>::max(); }
 std::int64_t NodeLimit::held() const { return nodesHeld - before_; }
 
+CountedAsNodes::CountedAsNodes(std::int64_t nodes) : nodes_(nodes) {
+  if (nodesHeld + nodes > nodesAllowed) throw NodeLimitReached();
+  nodesHeld += nodes;
+}
+CountedAsNodes::~CountedAsNodes() { nodesHeld -= nodes_; }
+
 // Every live node, so that equal nodes are found again. References from here are not counted: a node leaves
 // as its last handle goes. The last reference is dropped under the lock, so no look-up can revive a node that
 // is being deleted.

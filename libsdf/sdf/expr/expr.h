@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sdf/expr/op.h"
@@ -92,6 +93,9 @@ class Expr {
   Node* node_;
 };
 
+/// Bytes that a node is taken to cost: the node, its place in the table and the allocator's overhead.
+inline constexpr std::size_t kNodeBytes = 256;
+
 /// Thrown by the making of a node that the NodeLimit in force does not allow.
 struct NodeLimitReached : std::exception {
   const char* what() const noexcept override { return "the expression graph outgrew its limit"; }
@@ -111,6 +115,23 @@ class NodeLimit {
 
  private:
   std::int64_t before_;
+};
+
+/// What is made of graphs and takes memory, too, counts as so many nodes held while it lives. Throws
+/// NodeLimitReached where there may not be as many.
+class CountedAsNodes {
+ public:
+  explicit CountedAsNodes(std::int64_t nodes = 0);
+  ~CountedAsNodes();
+  CountedAsNodes(const CountedAsNodes& other) : CountedAsNodes(other.nodes_) {}
+  CountedAsNodes(CountedAsNodes&& other) noexcept : nodes_(std::exchange(other.nodes_, 0)) {}
+  CountedAsNodes& operator=(CountedAsNodes&& other) noexcept {
+    std::swap(nodes_, other.nodes_);
+    return *this;
+  }
+
+ private:
+  std::int64_t nodes_;
 };
 
 Expr operator-(const Expr& a);

@@ -14,9 +14,6 @@ struct lua_State;
 
 namespace sdf {
 
-/// Bytes that one graph node is taken to cost: the node, its place in the table and the allocator's overhead.
-inline constexpr std::size_t kNodeBytes = 256;
-
 struct ScriptContext {
   ScriptContext(std::string fileName, const ScriptOptions& scriptOptions)
       : file(std::move(fileName)),

@@ -117,7 +117,7 @@ Attributes mixed(const Attributes& a, const Attributes& b, const Expr& second,
 std::shared_ptr<const Union> mappedUnion(const Shape& shape,
                                          const std::function<Shape(const Shape&)>& operation) {
   if (!shape.outer) return nullptr;
-  auto mapped = std::make_shared<Union>(Union{shape.outer->blend, {}});
+  auto mapped = std::make_shared<Union>(shape.outer->blend, shape.outer->operands.size());
   for (const Shape& operand : shape.outer->operands) mapped->operands.push_back(operation(operand));
   return mapped;
 }

@@ -26,6 +26,11 @@ Attributes attributesOf(const Material& m) {
   // clang-format on
 }
 
+Union::Union(const Blend& by, std::size_t count)
+    : blend(by), counted(static_cast<std::int64_t>(count * ((sizeof(Shape) + kNodeBytes - 1) / kNodeBytes))) {
+  operands.reserve(count);
+}
+
 Shape Shape::failed(std::string message) {
   Shape s;
   s.distance = 1.0;

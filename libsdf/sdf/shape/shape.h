@@ -111,6 +111,10 @@ struct Shape {
 struct Union {
   Blend blend;
   std::vector<Shape> operands;  ///< at least two
+  CountedAsNodes counted;       ///< as much as they take
+
+  /// With room for so many.
+  Union(const Blend& by, std::size_t count);
 };
 
 /// Proven bound of the distance's slope over all of space; infinite where none is known.

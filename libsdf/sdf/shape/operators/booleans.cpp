@@ -151,9 +151,12 @@ Shape combined(const std::vector<Shape>& shapes, const Blend& blend, ClaimKind b
 // The operands, those of hard unions in the place of the union; nothing where all operands matter everywhere.
 std::shared_ptr<const Union> listOf(const std::vector<Shape>& shapes, const Blend& blend) {
   if (blend.kind == Kind::Exponential) return nullptr;
-  auto list = std::make_shared<Union>(Union{blend, {}});
+  const auto isPart = [&](const Shape& s) { return isHard(blend) && s.outer && isHard(s.outer->blend); };
+  std::size_t count = 0;
+  for (const Shape& s : shapes) count += isPart(s) ? s.outer->operands.size() : 1;
+  auto list = std::make_shared<Union>(blend, count);
   for (const Shape& s : shapes)
-    if (isHard(blend) && s.outer && isHard(s.outer->blend))
+    if (isPart(s))
       list->operands.insert(list->operands.end(), s.outer->operands.begin(), s.outer->operands.end());
     else
       list->operands.push_back(s);
