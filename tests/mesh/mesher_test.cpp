@@ -250,6 +250,63 @@ TEST(MeshShape, MeshesPayloadsInAUnion) {
               signedVolume(expected.mesh.positions, expected.mesh.triangles), 1e-3);
 }
 
+class SamplingCounter : public Progress {
+ public:
+  void beginStage(std::string_view name) override { count += name == "sampling"; }
+  int count = 0;
+};
+
+TEST(MeshShape, StartsFromTheLargestVoxelsThatKeepTheTolerance) {
+  for (const Shape& shape :
+       {sphere(1.0), rotateAbout(box({1.0, 0.7, 0.4}), {0.6, 0.8, 0.0}, 0.5), boredBox()}) {
+    SamplingCounter samplings;
+    const MeshStats stats = meshShape(shape, "part", {.tolerance = 2e-3}, samplings).value().stats;
+    EXPECT_LE(samplings.count, 3);  // of the smallest, and of 16 and 8 times as large ones
+    EXPECT_EQ(stats.voxelSize, findBounds(shape).longestSide() / 200.0);
+    EXPECT_LE(stats.maxDistance, 2e-3);
+    // Those that the smallest voxels gave are among the points that were looked at.
+    EXPECT_GE(stats.surfacePoints, 50000u);
+    EXPECT_TRUE(stats.watertight && stats.manifold);
+    EXPECT_EQ(stats.crossings, 0u);
+  }
+}
+
+// Each is three voxels of the default's wide.
+TEST(MeshShape, KeepsWhatOnlyTheSmallestVoxelsSee) {
+  const Shape bores = infiniteCylinder(0.015);
+  const Shape bored = subtract(box(Vec3E(1.0)), translate(bores, {0.313, 0.0, 0.217}));
+  EXPECT_EQ(meshed(bored, {.tolerance = 2e-3}).stats.eulerCharacteristic, 0);
+  const Shape warted = sphere(1.0) | translate(sphere(0.015), {0.6, 0.8, 0.0});
+  const MeshedShape mesh = meshed(warted, {.tolerance = 2e-3});
+  EXPECT_LE(mesh.stats.maxDistance, 2e-3);
+  double top = 0.0;
+  for (const glm::vec3& p : mesh.mesh.positions) top = std::max<double>(top, glm::length(p));
+  EXPECT_GE(top, 1.013);
+}
+
+// Squares 25 of the default's voxels wide, and a spot of three.
+TEST(MeshShape, KeepsThePaintThatOnlyTheSmallestVoxelsSee) {
+  const Vec3E p = position();
+  const Expr squares = select(less(0.0, sin(kPi * 4.0 * p.x) * sin(kPi * 4.0 * p.z)), 1.0, 0.0),
+             spot = select(less(length(p - Vec3E(0.537, 0.1, 0.313)), 0.015), 1.0, 0.0);
+  const Shape board = box({1.0, 0.1, 1.0});
+  const auto redOf = [](const MeshedShape& m) {
+    double red = 0.0;  // area times colour, seen from above
+    for (const glm::uvec3& t : m.mesh.triangles) {
+      const glm::vec3 &a = m.mesh.positions[t.x], &b = m.mesh.positions[t.y], &c = m.mesh.positions[t.z];
+      const double area = 0.5 * glm::cross(b - a, c - a).y;
+      if (area > 0.0)
+        red += area * (m.mesh.colors[t.x].x + m.mesh.colors[t.y].x + m.mesh.colors[t.z].x) / 3.0;
+    }
+    return red;
+  };
+  const MeshedShape squared = meshed(board.paint({.color = {squares, 0.5, 0.5}}), {.tolerance = 1e-3});
+  EXPECT_NEAR(redOf(squared), 2.0, 0.01);
+  EXPECT_LE(squared.stats.triangles, 500u);
+  const MeshedShape spotted = meshed(board.paint({.color = {spot, 0.5, 0.5}}), {.tolerance = 1e-3});
+  EXPECT_NEAR(redOf(spotted), kPi * 0.015 * 0.015, 0.2 * kPi * 0.015 * 0.015);
+}
+
 TEST(MeshShape, SaysWhenThereIsNothingToMesh) {
   const Vec3E p = position();
   struct Case {

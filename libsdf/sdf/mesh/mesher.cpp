@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
+#include <memory>
 #include <utility>
 
 #include "sdf/mesh/band/narrow_band.h"
@@ -19,6 +20,7 @@
 #include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/measure/topology.h"
+#include "sdf/mesh/measure/witnesses.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/refine/balance.h"
 #include "sdf/mesh/refine/thin.h"
@@ -76,6 +78,9 @@ constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
 // cannot mend.
 constexpr double kResolved = 0.25;
+// Of the coarser voxels that are tried: times those that were asked for, from the largest to the smallest
+// that save much; and of one of them, how far its lattice may be off.
+constexpr double kCoarsest = 16.0, kFinest = 4.0, kFollowed = 0.1;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
@@ -87,6 +92,14 @@ bool isPainted(const Shape& shape) {
     if (!shape.surface[static_cast<int>(a)].isConstant()) return true;
   return false;
 }
+
+// A shape's samples at one resolution, and the mesh that is made of them.
+struct Lattice {
+  Lattice(NarrowBand samples, LocalTapes whole) : band(std::move(samples)), field(band, std::move(whole)) {}
+  NarrowBand band;
+  BandField field;
+  FeatureMesh mesh;
+};
 
 // Runs the stages of one mesh and keeps their times.
 class Mesher {
@@ -108,37 +121,44 @@ class Mesher {
     if (Status s = checkFloats(*bounds, h); !s) return s.error();
     const bool thins = options_.tolerance > 0.0;
     painted_ = isPainted(shape);
-    begin("sampling");
     const ModelTapes model = Model(shape).at(options_.values);
-    const LocalTapes whole{model.whole(), model.whole()->firstOutputOnly()};
-    for (int halvings = 0;; ++halvings, h /= 2.0, begin("sampling")) {
-      Result<NarrowBand> sampled = sampleNarrowBand(model, {h, *bounds, options_.maxMemory}, progress_);
+    for (int halvings = 0;; ++halvings, h /= 2.0) {
+      Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
       if (!sampled) return sampled.error();
-      const BandField field(*sampled, whole);
-      findUnresolved(*sampled, field, progress_, result_.stats);
-      FeatureMesh mesh = extract(*sampled, field, !thins);
+      Lattice& lattice = **sampled;
+      findUnresolved(lattice.band, lattice.field, progress_, result_.stats);
+      result_.stats.voxelSize = h;
+      result_.stats.notNumbers = lattice.band.notNumbers().count;
+      result_.stats.firstNotNumber = lattice.band.notNumbers().first;
+      FeatureMesh& mesh = lattice.mesh;
+      extract(lattice, !thins);
       const bool last =
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
       const bool cheap = mesh.triangles.size() <= kMostToTry;
       if (!last && cheap && canResolve(h / std::exp2(kHalvings - halvings))) continue;
       if (mesh.triangles.empty()) return noSurface(h);
       if (thins) {
-        begin("remeshing");
         result_.stats.tolerance = options_.tolerance;
-        if (Status s = checkLattice(mesh, *bounds, h, field); !s) return s.error();
-        const bool finer = !last && (options_.strict || cheap);
+        begin("remeshing");
         const double limit = std::max(options_.tolerance, kResolved * h);
-        if (finer && distanceToMesh(mesh.positions, mesh.triangles, model, *bounds, progress_).max > limit)
-          continue;
-        const bool broken =
-            result_.stats.maxDistance > limit && !placesBeyond(limit, mesh, field, h, progress_).empty();
+        if (surface_.empty()) surface_ = surfacePoints(model, *bounds, progress_);
+        const Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
+        if (halvings == 0 && result_.stats.unresolved == 0 &&
+            thinCoarser(*sampled, witnesses, model, *bounds))
+          return finish(shape, model, *bounds, **sampled);
+        begin("remeshing");
+        if (Status s = checkLattice(mesh, *bounds, h, lattice.field); !s) return s.error();
+        const bool finer = !last && (options_.strict || cheap);
+        if (finer && witnesses.lacking() > limit) continue;
+        const bool broken = result_.stats.maxDistance > limit &&
+                            !placesBeyond(limit, mesh, lattice.field, h, progress_).empty();
         if (broken && finer) continue;
         if (broken && options_.strict) return checkTolerance().error();
-        const bool kept =
-            thin(mesh, field, {options_.tolerance, h, painted_, options_.strict, broken}, progress_);
+        const bool kept = thin(mesh, lattice.field, witnesses,
+                               {options_.tolerance, h, painted_, options_.strict, broken}, progress_);
         if (!kept && finer && options_.strict) continue;
       }
-      return finish(shape, model, *bounds, h, *sampled, field, mesh);
+      return finish(shape, model, *bounds, lattice);
     }
   }
 
@@ -163,12 +183,22 @@ class Mesher {
                                  shown(kFloatsInAVoxel * apart));
   }
 
+  Result<std::unique_ptr<Lattice>> sample(const ModelTapes& model, const Box& bounds, double voxel) {
+    begin("sampling");
+    Result<NarrowBand> band = sampleNarrowBand(model, {voxel, bounds, options_.maxMemory}, progress_);
+    if (!band) return band.error();
+    result_.stats.voxels += band->sampleCount();
+    return std::make_unique<Lattice>(std::move(*band),
+                                     LocalTapes{model.whole(), model.whole()->firstOutputOnly()});
+  }
+
   // The mesh at the voxels' resolution, with its creases; empty where there is none. Its vertices lie on the
   // surface, or are balanced.
-  FeatureMesh extract(NarrowBand& band, const BandField& field, bool balanced) {
+  void extract(Lattice& lattice, bool balanced) {
+    const BandField& field = lattice.field;
     begin("extraction");
-    RawSurface raw = band.extract();
-    if (raw.triangles.empty()) return {};
+    RawSurface raw = lattice.band.extract();
+    if (raw.triangles.empty()) return;
     begin("projection");
     const std::vector<glm::vec3> extracted = raw.points;
     std::vector<glm::vec3> normals;
@@ -190,7 +220,47 @@ class Mesher {
       begin("borders");
       cutAtBorders(mesh, field, progress_);
     }
-    return std::move(mesh);
+    lattice.mesh = std::move(mesh);
+  }
+
+  // Replaces the mesh by that of the largest voxels from which remeshing keeps the tolerance, up to some
+  // times as large as these; returns whether there are any. What these voxels see none may miss: the vertices
+  // of this mesh are points of the surface, and where it is painted those of its creases points of borders,
+  // which are to be met within the tolerance.
+  bool thinCoarser(std::unique_ptr<Lattice>& fine, const Witnesses& witnesses, const ModelTapes& model,
+                   const Box& bounds) {
+    const std::size_t seen = fine->mesh.positions.size();
+    for (double times = kCoarsest; times >= kFinest && !progress_.stopped(); times /= 2.0) {
+      const double voxel = times * fine->band.voxelSize();
+      Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, voxel);
+      if (!sampled) break;
+      std::unique_ptr<Lattice>& coarse = *sampled;
+      MeshStats stats;
+      findUnresolved(coarse->band, coarse->field, progress_, stats);
+      if (stats.unresolved > 0) continue;
+      extract(*coarse, false);
+      FeatureMesh& mesh = coarse->mesh;
+      if (mesh.triangles.empty()) continue;
+      begin("remeshing");
+      const double limit = std::max(options_.tolerance, kFollowed * voxel);
+      if (witnesses.toSurface(mesh, progress_).max > limit || witnesses.toBorders(mesh, progress_) > limit)
+        continue;
+      // What is painted is looked at as closely as without this.
+      const LocalField& field = (painted_ ? fine : coarse)->field;
+      measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
+      if (stats.maxDistance > limit) continue;
+      if (!thin(mesh, field, witnesses, {options_.tolerance, voxel, painted_, false}, progress_)) continue;
+      witnessed_ = witnesses.toSurface(mesh, progress_);
+      witnessed_.points = seen;  // the others are looked at again
+      if (witnessed_.max > options_.tolerance) continue;
+      if (painted_)
+        fine->mesh = std::move(mesh);
+      else
+        fine = std::move(coarse);
+      return true;
+    }
+    witnessed_ = {};
+    return false;
   }
 
   // Of what is not closed remeshing could make nothing.
@@ -209,8 +279,11 @@ class Mesher {
   }
 
   // Measures, checks and colours what was made.
-  Result<MeshedShape> finish(const Shape& shape, const ModelTapes& model, const Box& bounds, double voxel,
-                             const NarrowBand& band, const BandField& field, const FeatureMesh& features) {
+  Result<MeshedShape> finish(const Shape& shape, const ModelTapes& model, const Box& bounds,
+                             const Lattice& lattice) {
+    const FeatureMesh& features = lattice.mesh;
+    const BandField& field = lattice.field;
+    const double voxel = result_.stats.voxelSize;
     begin("measuring");
     const std::vector<float> distances =
         measureDistance(features.positions, features.triangles, field, progress_, result_.stats);
@@ -230,19 +303,17 @@ class Mesher {
     colorMesh(shape, features.materials, options_.values, field, progress_, mesh);
     end();
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    result_.stats.voxels = band.sampleCount();
-    result_.stats.voxelSize = voxel;
-    result_.stats.notNumbers = band.notNumbers().count;
-    result_.stats.firstNotNumber = band.notNumbers().first;
     return std::move(result_);
   }
 
   // What the mesh lacks is seen from the surface only.
   void measureToMesh(const FeatureMesh& mesh, const ModelTapes& model, const Box& bounds) {
-    const SurfaceDistance missed = distanceToMesh(mesh.positions, mesh.triangles, model, bounds, progress_);
+    if (surface_.empty()) surface_ = surfacePoints(model, bounds, progress_);
+    const SurfaceDistance missed = distanceToMesh(surface_, mesh.positions, mesh.triangles, progress_);
     MeshStats& stats = result_.stats;
-    stats.surfacePoints = missed.points;
-    if (missed.max > stats.maxDistance) stats.maxDistance = missed.max, stats.farthest = missed.farthest;
+    stats.surfacePoints = missed.points + witnessed_.points;
+    for (const SurfaceDistance& from : {missed, witnessed_})
+      if (from.max > stats.maxDistance) stats.maxDistance = from.max, stats.farthest = from.farthest;
   }
 
   void measureCrossings(const FeatureMesh& mesh) {
@@ -367,6 +438,8 @@ class Mesher {
   Progress& progress_;
   MeshedShape result_;
   bool painted_ = false;
+  std::vector<glm::vec3> surface_;  // points of it
+  SurfaceDistance witnessed_;       // from vertices of a finer lattice, where there was one
   std::size_t stage_ = 0;
   Clock::time_point began_;
 };

@@ -20,7 +20,8 @@ std::vector<glm::vec3> corners(const glm::vec3& half) {
 
 SurfaceDistance toBox(const Shape& shape, const glm::vec3& half) {
   Progress progress;
-  return distanceToMesh(corners(half), kSides, Model(shape).at(), findBounds(shape), progress);
+  return distanceToMesh(surfacePoints(Model(shape).at(), findBounds(shape), progress), corners(half), kSides,
+                        progress);
 }
 
 TEST(DistanceToMesh, IsNoneOfABoxFromItself) {
@@ -53,6 +54,18 @@ TEST(DistanceToMesh, SeesASmallOperandOfAUnion) {
   const Shape both = box({1.0, 1.0, 1.0}) | translate(sphere(0.01), {1.5, 0.7, -0.3});
   const SurfaceDistance d = toBox(both, glm::vec3(1.0f));
   EXPECT_NEAR(d.max, 0.51, 1e-3);
+}
+
+// More points than are read at a time.
+TEST(DistanceToMesh, IsTheLargestOfKnownPoints) {
+  std::vector<glm::vec3> points(1000, {1.0f, 0.25f, -0.5f});
+  points[777] = {1.0f, 2.0f, 0.5f};
+  Progress progress;
+  const SurfaceDistance d = distanceToMesh(points, corners({1.0f, 0.5f, 1.0f}), kSides, progress);
+  EXPECT_EQ(d.points, 1000u);
+  EXPECT_EQ(d.max, 1.5);
+  EXPECT_EQ(d.farthest, points[777]);
+  EXPECT_EQ(distanceToMesh({}, corners(glm::vec3(1.0f)), kSides, progress).points, 0u);
 }
 
 TEST(DistanceToMesh, DoesNotDependOnTheNumberOfThreads) {

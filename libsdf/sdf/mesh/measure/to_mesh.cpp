@@ -1,5 +1,6 @@
 #include "sdf/mesh/measure/to_mesh.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -13,7 +14,6 @@
 #include "sdf/eval/batch.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/mesh/measure/read_values.h"
-#include "sdf/triangles/tree.h"
 
 namespace sdf {
 namespace {
@@ -200,31 +200,44 @@ std::vector<Cell> cellsOf(const ModelTapes& model, const Box& bounds, Progress& 
 
 }  // namespace
 
-SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& positions,
-                               const std::vector<glm::uvec3>& triangles, const ModelTapes& model,
-                               const Box& bounds, Progress& progress) {
-  const TriangleTree tree(positions, triangles);
+std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress) {
   const std::vector<Cell> cells = cellsOf(model, bounds, progress);
-  std::vector<SurfaceDistance> found(cells.size());
+  std::vector<std::vector<glm::vec3>> found(cells.size());
   tbb::enumerable_thread_specific<Roots> roots(model.slope());
   std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
     if (progress.stopped()) return;
-    SurfaceDistance& here = found[i];
-    std::uint32_t hint = 0;
-    for (const glm::vec3& p : roots.local().in(cells[i])) {
-      const NearestPoint nearest = tree.nearest(p, hint);
-      hint = nearest.triangle;
-      ++here.points;
-      if (const double d = std::sqrt(nearest.squared); d > here.max) here.max = d, here.farthest = p;
-    }
+    found[i] = roots.local().in(cells[i]);
     progress.update(static_cast<double>(++done) / static_cast<double>(cells.size()));
   });
-  SurfaceDistance all;
-  for (const SurfaceDistance& here : found) {
-    all.points += here.points;
-    if (here.max > all.max) all.max = here.max, all.farthest = here.farthest;
-  }
+  std::vector<glm::vec3> all;
+  for (const std::vector<glm::vec3>& here : found) all.insert(all.end(), here.begin(), here.end());
+  return all;
+}
+
+std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
+                                           const std::vector<glm::vec3>& positions,
+                                           const std::vector<glm::uvec3>& triangles, Progress& progress) {
+  constexpr std::size_t kAtATime = 256;
+  const TriangleTree tree(positions, triangles);
+  std::vector<NearestPoint> nearest(points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kAtATime), [&](const auto& range) {
+    std::uint32_t hint = 0;
+    for (std::size_t i = range.begin(); i < range.end() && !progress.stopped(); ++i) {
+      nearest[i] = tree.nearest(points[i], hint);
+      hint = nearest[i].triangle;
+    }
+  });
+  return nearest;
+}
+
+SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& positions,
+                               const std::vector<glm::uvec3>& triangles, Progress& progress) {
+  const std::vector<NearestPoint> nearest = nearestTriangles(points, positions, triangles, progress);
+  SurfaceDistance all{.points = points.size()};
+  if (progress.stopped()) return all;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const double d = std::sqrt(nearest[i].squared); d > all.max) all.max = d, all.farthest = points[i];
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include "sdf/base/box.h"
 #include "sdf/base/progress.h"
 #include "sdf/model/model.h"
+#include "sdf/triangles/tree.h"
 
 namespace sdf {
 
@@ -17,14 +18,20 @@ struct SurfaceDistance {
   std::uint64_t points = 0;  ///< how many were looked at
 };
 
-/// The largest distance from points of the model's surface to the triangles, at least one. The points are
-/// found from the function alone: the bounds, and those of each operand of a union, are halved into some
-/// thousand cells in which intervals do not tell that there is no surface, and three lines through each cell
-/// are followed to where the sign changes, and halved where the slope bound lets it do so twice. So points
-/// are as dense as the operand is small. Cost: log n of the triangles for each point. Does not depend on the
-/// number of threads.
-SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& positions,
-                               const std::vector<glm::uvec3>& triangles, const ModelTapes& model,
-                               const Box& bounds, Progress& progress);
+/// Points of the model's surface, found from the function alone: the bounds, and those of each operand of a
+/// union, are halved into some thousand cells in which intervals do not tell that there is no surface, and
+/// three lines through each cell are followed to where the sign changes, and halved where the slope bound
+/// lets it do so twice. So points are as dense as the operand is small. Does not depend on the number of
+/// threads.
+std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress);
+
+/// The nearest of the triangles, at least one, to each point. Cost: log n of the triangles for each.
+std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
+                                           const std::vector<glm::vec3>& positions,
+                                           const std::vector<glm::uvec3>& triangles, Progress& progress);
+
+/// The largest of these distances.
+SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& positions,
+                               const std::vector<glm::uvec3>& triangles, Progress& progress);
 
 }  // namespace sdf

@@ -16,7 +16,7 @@ constexpr double kOvershoot = 1.3;
 constexpr double kRough = 0.7;
 // Cycles of adjusting and collapsing, of collapsing after splits, and sweeps over all vertices that adjusting
 // takes at most.
-constexpr int kCycles = 2, kCleanings = 2, kSweeps = 6;
+constexpr int kCycles = 3, kCleanings = 2, kSweeps = 4;
 // A sweep that changes less than this share of the vertices is the last.
 constexpr double kSettled = 0.01;
 // First sweeps let a change raise the energy by so much: it may open the way to a better shape.
@@ -104,6 +104,7 @@ class Remesher {
     for (int i = 0; i < kHalvings && !quiet_.stopped(); ++i) {
       changes_.collapseShortest();
       measure();
+      if (measured_.exceeding.empty()) measureWitnesses();
       if (measured_.exceeding.empty() || measured_.exceeding.size() > kRunaway * fewest) return;
       fewest = std::min(fewest, measured_.exceeding.size() + kFewRounds);
       changes_.project(measured_.vertices);
@@ -111,6 +112,27 @@ class Remesher {
     }
     changes_.collapseShortest();
     measure();
+    measureWitnesses();
+  }
+
+  // Adds the triangles next to which points of the surface are too far off.
+  void measureWitnesses() {
+    if (!options_.witnesses || quiet_.stopped()) return;
+    std::vector<glm::uvec3> triangles;
+    std::vector<std::uint32_t> from;
+    for (std::uint32_t h = 0; h < mesh_.halfEdges(); h += 3) {
+      if (!mesh_.alive(h)) continue;
+      triangles.emplace_back(mesh_.from(h), mesh_.from(h + 1), mesh_.from(h + 2));
+      from.push_back(h);
+    }
+    const Witnesses::Missed missed =
+        options_.witnesses->missedBy(mesh_.positions, triangles, kMeasured * options_.tolerance, quiet_);
+    for (const std::uint32_t t : missed.triangles)
+      if (!mesh_.isExemptTriangle(from[t])) measured_.exceeding.push_back(from[t]);
+    if (measured_.exceeding.empty()) return;
+    measured_.largest = std::max(measured_.largest, missed.max);
+    std::ranges::sort(measured_.exceeding);
+    measured_.exceeding.erase(std::ranges::unique(measured_.exceeding).begin(), measured_.exceeding.end());
   }
 
   // Splits what blurs the colours, down to a voxel.

@@ -6,6 +6,7 @@
 
 #include "sdf/base/progress.h"
 #include "sdf/mesh/edit/feature_mesh.h"
+#include "sdf/mesh/measure/witnesses.h"
 #include "sdf/mesh/surface/local_field.h"
 
 namespace sdf {
@@ -17,6 +18,8 @@ struct RemeshOptions {
   bool painted = false;
   /// Is the tolerance to be kept even where that makes needles or folds?
   bool force = true;
+  /// Points of the surface that the mesh is to come as near to, if there are any.
+  const Witnesses* witnesses = nullptr;
 };
 
 /// What was measured of the mesh that remesh left.

@@ -98,6 +98,8 @@ std::size_t RemeshChanges::relocate(float loose) {
     evaluate(before, Sampling::Few, old);
     if (progress_.stopped()) return moved;
     dropFlat(before, old, chosen, tolerance_);
+    for (FanError& e : old)
+      if (painted_ && e.smooth) e.balance = glm::vec3(0.0f);
     std::vector<float> best(chosen.size());
     std::vector<glm::vec3> to(chosen.size()), normal(chosen.size());
     for (std::size_t i = 0; i < chosen.size(); ++i)

@@ -106,15 +106,25 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates(bool& mo
 
 void RemeshChanges::tryCollapses(const std::vector<std::uint32_t>& edges, Care care, Fans& fans,
                                  std::vector<FanError>& errors) const {
-  for (const std::uint32_t h : edges) fans.addCollapsed(mesh_, h);
+  for (const std::uint32_t h : edges) {
+    fans.addCollapsed(mesh_, h);
+    // The distance does not tell where a border is: its vertices stay on it.
+    if (painted_ && mesh_.isCrease(h)) fans.all.back().centre = mesh_.positions[mesh_.to(h)];
+  }
+  const auto addChords = [&](bool all) {
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      if (mesh_.isCrease(edges[i]) && (all || errors[i].smooth))
+        errors[i].largest = std::max(errors[i].largest, chordError(edges[i]));
+  };
   if (care == Care::Rough) {
     estimate(fans, errors);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      if (mesh_.isCrease(edges[i])) errors[i].largest = std::max(errors[i].largest, chordError(edges[i]));
+    addChords(true);
   } else {
     evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
     moveToOffsets(fans, errors);
     evaluate(fans, Sampling::Few, errors);
+    if (progress_.stopped()) return;
+    if (painted_) addChords(false);
     std::vector<std::uint32_t> passing;
     for (std::uint32_t i = 0; i < edges.size(); ++i)
       if (errors[i].sound && errors[i].largest <= kCrease * tolerance_) passing.push_back(i);

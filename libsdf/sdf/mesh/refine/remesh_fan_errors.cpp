@@ -212,9 +212,10 @@ class Judge {
     const auto sector = [&](const FanSample& s) { return two && view_.inSecond(s.triangle) ? 1 : 0; };
     for (std::size_t i = 0; i < samples_.size(); ++i)
       if (samples_[i].kind == FanSample::Centre) normals[sector(samples_[i])] += readings_[i].normal;
-    e.normal = normals[0];
-    e.onto = stepOnto(readings_.first(view_.centres()));
     const bool apart = two && std::abs(glm::dot(normals[0], normals[1])) < kOneSide;
+    e.normal = normals[0];
+    e.smooth = two && !apart;
+    e.onto = stepOnto(readings_.first(view_.centres()));
     for (Balance& side : sides_) side.clear();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const int k = apart ? sector(samples_[i]) : 0;

@@ -61,6 +61,7 @@ struct FanError {
   float spoke = 0.0f;       ///< the same at the spokes' middles
   std::uint32_t worstSpoke = 0;
   float energy = 0.0f;      ///< sum over the samples of (distance / tolerance)^kEnergyPower
+  bool smooth = false;      ///< two creases meet at the centre, and the surface does not turn there
   bool sound = true;        ///< no triangle is a needle or turned away from the gradient
   glm::vec3 normal{0.0f};   ///< of the surface at the centre, of the first sector; unit
   glm::vec3 offset{0.0f};   ///< off or onto the surface: makes the largest distance to either side equal

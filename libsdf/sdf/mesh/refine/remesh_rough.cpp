@@ -55,6 +55,7 @@ void RemeshChanges::estimate(Fans& fans, std::vector<FanError>& errors) const {
     Fan& fan = fans.all[i];
     fan.centre += stepOnto(centres);
     if (!centres.empty()) e.normal = centres[0].normal;
+    e.smooth = centres.size() == 2 && std::abs(glm::dot(e.normal, centres[1].normal)) >= kOneSide;
     e.sound = fan.count <= kMostSpokes;
     for (std::uint32_t k = 0; k < fan.count; ++k) {
       const std::array<const Fans::Spoke*, 2> ends{&view.rim[k], &view.rim[view.after(k)]};

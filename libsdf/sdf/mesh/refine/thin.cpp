@@ -90,8 +90,9 @@ void holdNear(const std::vector<glm::vec3>& places, double reach, Hold hold, Fea
 
 class Thinner {
  public:
-  Thinner(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress)
-      : mesh_(mesh), field_(field), options_(options), progress_(progress) {
+  Thinner(FeatureMesh& mesh, const LocalField& field, const Witnesses& witnesses, const ThinOptions& options,
+          Progress& progress)
+      : mesh_(mesh), field_(field), witnesses_(witnesses), options_(options), progress_(progress) {
     closeCreases(mesh);
     if (options.broken) leaveBroken();
     lattice_ = mesh;
@@ -154,7 +155,9 @@ class Thinner {
   bool remeshStrictly(double tolerance, bool force, std::vector<glm::vec3>& trouble) {
     for (double held = tolerance; held > kStrictest * tolerance && !progress_.stopped();) {
       const RemeshResult r =
-          remesh(mesh_, field_, {.tolerance = held, .painted = options_.painted, .force = force}, progress_);
+          remesh(mesh_, field_,
+                 {.tolerance = held, .painted = options_.painted, .force = force, .witnesses = &witnesses_},
+                 progress_);
       const std::vector<glm::vec3> crossing = cornersOfCrossings(mesh_);
       const double distance = std::max(r.maxDistance, farthest()), missed = distance / tolerance;
       if (missed <= 1.0 && crossing.empty()) return true;
@@ -209,6 +212,7 @@ class Thinner {
 
   FeatureMesh& mesh_;
   const LocalField& field_;
+  const Witnesses& witnesses_;
   const ThinOptions& options_;
   Progress& progress_;
   FeatureMesh lattice_;
@@ -238,8 +242,9 @@ std::vector<glm::vec3> placesBeyond(double limit, const FeatureMesh& mesh, const
   return places;
 }
 
-bool thin(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress) {
-  return Thinner(mesh, field, options, progress).run();
+bool thin(FeatureMesh& mesh, const LocalField& field, const Witnesses& witnesses, const ThinOptions& options,
+          Progress& progress) {
+  return Thinner(mesh, field, witnesses, options, progress).run();
 }
 
 }  // namespace sdf

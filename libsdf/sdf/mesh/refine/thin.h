@@ -2,12 +2,13 @@
 #pragma once
 #include "sdf/base/progress.h"
 #include "sdf/mesh/edit/feature_mesh.h"
+#include "sdf/mesh/measure/witnesses.h"
 #include "sdf/mesh/surface/local_field.h"
 
 namespace sdf {
 
 struct ThinOptions {
-  double tolerance;      ///< distance between mesh and surface, scene units; positive
+  double tolerance;      ///< distance between mesh and surface, both ways, scene units; positive
   double voxel;          ///< the lattice's, scene units
   bool painted = false;  ///< RemeshOptions::painted
   /// Otherwise what exceeds the tolerance is left as it is where nothing helps.
@@ -24,9 +25,11 @@ std::vector<glm::vec3> placesBeyond(double limit, const FeatureMesh& mesh, const
 
 /// Remeshes with few triangles (remesh.h). Where the result misses the tolerance or crosses itself, which it
 /// does where walls, gaps and steps are about as thin as the tolerance, the mesh is left as it was and the
-/// rest is remeshed again. Returns whether the tolerance is kept, but for what is left as it is; the mesh may
-/// cross itself even then, where nothing helped. If it is not, the mesh is the best of what was tried. Cost:
-/// once to some times what remeshing costs.
-bool thin(FeatureMesh& mesh, const LocalField& field, const ThinOptions& options, Progress& progress);
+/// rest is remeshed again. How far the surface is from the mesh is told by `witnesses`. Returns whether the
+/// tolerance is kept, but for what is left as it is; the mesh may cross itself even then, where nothing
+/// helped. If it is not, the mesh is the best of what was tried. Cost: once to some times what remeshing
+/// costs.
+bool thin(FeatureMesh& mesh, const LocalField& field, const Witnesses& witnesses, const ThinOptions& options,
+          Progress& progress);
 
 }  // namespace sdf

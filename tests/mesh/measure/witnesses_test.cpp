@@ -1,0 +1,68 @@
+#include "sdf/mesh/measure/witnesses.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sdf::test {
+namespace witnesses_test {
+
+// A square of two triangles at a height, whose diagonal is a crease.
+FeatureMesh square(float height) {
+  FeatureMesh mesh;
+  mesh.positions = {{0, 0, height}, {1, 0, height}, {1, 1, height}, {0, 1, height}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.creases = {{0, 2}};
+  return mesh;
+}
+
+Witnesses witnesses(const FeatureMesh& mesh, bool withBorders = true) {
+  Progress progress;
+  return {{}, mesh, 0.0, withBorders, progress};
+}
+
+TEST(Witnesses, AreAsFarAsTheFarthestVertex) {
+  Progress progress;
+  FeatureMesh higher = square(0.0f);
+  higher.positions[1].z = 0.25f;
+  const SurfaceDistance d = witnesses(higher).toSurface(square(0.0f), progress);
+  EXPECT_EQ(d.max, 0.25);
+  EXPECT_EQ(d.farthest, higher.positions[1]);
+  EXPECT_EQ(d.points, 4u);
+  EXPECT_EQ(witnesses(higher).toBorders(square(0.0f), progress), 0.0);
+}
+
+TEST(Witnesses, OfBordersAreVerticesOnCreases) {
+  Progress progress;
+  FeatureMesh other = square(0.0f);
+  other.creases = {{1, 3}};
+  EXPECT_NEAR(witnesses(square(0.5f)).toBorders(other, progress), std::hypot(0.5, std::sqrt(0.5)), 1e-6);
+  EXPECT_EQ(witnesses(square(0.5f), false).toBorders(other, progress), 0.0);
+  other.creases.clear();
+  EXPECT_EQ(witnesses(square(0.5f)).toBorders(other, progress), HUGE_VAL);
+  EXPECT_EQ(witnesses(other).toBorders(other, progress), 0.0);
+}
+
+TEST(Witnesses, ArePointsThatTheMeshItselfIsNear) {
+  Progress progress;
+  const Witnesses both({{0.5f, 0.5f, 0.125f}, {0.25f, 0.5f, 0.5f}}, square(0.0f), 0.25, false, progress);
+  EXPECT_EQ(both.lacking(), 0.5);
+  EXPECT_EQ(both.toSurface(square(0.0f), progress).max, 0.125);
+  EXPECT_EQ(both.toSurface(square(0.0f), progress).points, 5u);
+}
+
+TEST(Witnesses, NameTheTrianglesBesideThem) {
+  Progress progress;
+  FeatureMesh higher = square(0.0f);
+  higher.positions[3].z = 0.25f;
+  const FeatureMesh flat = square(0.0f);
+  const auto missed = [&](double limit) {
+    return witnesses(higher).missedBy(flat.positions, flat.triangles, limit, progress);
+  };
+  EXPECT_EQ(missed(0.2).max, 0.25);
+  EXPECT_EQ(missed(0.2).triangles, std::vector<std::uint32_t>{1});
+  EXPECT_TRUE(missed(0.25).triangles.empty());
+}
+
+}  // namespace witnesses_test
+}  // namespace sdf::test
