@@ -689,9 +689,8 @@ TEST_F(Sdfview, WritesAShaderThatCompiles) {
 // A sanitizer needs more addresses than there are.
 #ifndef SDF_SANITIZED
 TEST_F(Sdfview, SaysWhenTheMemoryIsUsedUp) {
-  Command command{{SDFVIEW_PROGRAM,
-                   scene("local s = sphere(1) for i = 1, 26 do s = union{s, s} end return s"), "--render",
-                   at("a.png")}};
+  Command command{
+      {SDFVIEW_PROGRAM, scene(kBall), "--render", at("a.png"), "--view", "wire", "--voxel-size", "0.002"}};
   command.memoryLimit = 1L << 30;
   const Outcome outcome = command.run();
   EXPECT_EQ(outcome.status, kLimits);

@@ -88,9 +88,10 @@ Shape schwarzD(const Expr& cell, const Expr& thickness);
 /// Any formula of position() and parameters as a shape: solid where distance <= 0. Claimed a field: only the
 /// zero set and the sign count. `bounds`, where given, must contain the solid; `lipschitz`, where given, is
 /// trusted as a bound on the formula's gradient within the bounds, otherwise what the graph proves is used.
-/// Where that is nothing but the bounds are finite, its slope is bounded by intervals over cells of a box
-/// that reaches half their longest side beyond them. Outside of where its slope is known the formula is that
-/// of the nearest point there, and beyond that box at least the slope times the way to it. lipschitz > 0.
+/// Where that is nothing but the bounds are finite, the distance is the formula's only as far as half their
+/// longest side beyond them; its slope is bounded by intervals over cells of that box, and further out it is
+/// at least the way there. A formula that is steeper around its bounds than it is said to be is no more there
+/// than the way to the bounds, or than its value at their nearest point, allows. lipschitz > 0.
 Shape field(const Expr& distance, const Box& bounds = Box::everything(), double lipschitz = kInfinity);
 
 }  // namespace sdf
