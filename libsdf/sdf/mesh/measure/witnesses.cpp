@@ -46,7 +46,8 @@ Witnesses::Missed Witnesses::missedBy(const std::vector<glm::vec3>& positions,
     if (d > limit) missed.triangles.push_back(n.triangle);
   }
   std::ranges::sort(missed.triangles);
-  missed.triangles.erase(std::ranges::unique(missed.triangles).begin(), missed.triangles.end());
+  missed.triangles.erase(std::unique(missed.triangles.begin(), missed.triangles.end()),
+                         missed.triangles.end());
   return missed;
 }
 

@@ -132,7 +132,8 @@ class Remesher {
     if (measured_.exceeding.empty()) return;
     measured_.largest = std::max(measured_.largest, missed.max);
     std::ranges::sort(measured_.exceeding);
-    measured_.exceeding.erase(std::ranges::unique(measured_.exceeding).begin(), measured_.exceeding.end());
+    measured_.exceeding.erase(std::unique(measured_.exceeding.begin(), measured_.exceeding.end()),
+                              measured_.exceeding.end());
   }
 
   // Splits what blurs the colours, down to a voxel.
