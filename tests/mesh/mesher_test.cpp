@@ -260,35 +260,38 @@ TEST(MeshShape, StartsFromTheLargestVoxelsThatKeepTheTolerance) {
   for (const Shape& shape :
        {sphere(1.0), rotateAbout(box({1.0, 0.7, 0.4}), {0.6, 0.8, 0.0}, 0.5), boredBox()}) {
     SamplingCounter samplings;
-    const MeshStats stats = meshShape(shape, "part", {.tolerance = 2e-3}, samplings).value().stats;
+    const MeshStats stats =
+        meshShape(shape, "part", {.voxelSize = 0.02, .tolerance = 4e-3}, samplings).value().stats;
     EXPECT_LE(samplings.count, 3);  // of the smallest, and of 16 and 8 times as large ones
-    EXPECT_EQ(stats.voxelSize, findBounds(shape).longestSide() / 200.0);
-    EXPECT_LE(stats.maxDistance, 2e-3);
+    EXPECT_EQ(stats.voxelSize, 0.02);
+    EXPECT_LE(stats.maxDistance, 4e-3);
     // Those that the smallest voxels gave are among the points that were looked at.
-    EXPECT_GE(stats.surfacePoints, 50000u);
+    EXPECT_GE(stats.surfacePoints, 15000u);
     EXPECT_TRUE(stats.watertight && stats.manifold);
     EXPECT_EQ(stats.crossings, 0u);
   }
 }
 
-// Each is three voxels of the default's wide.
+// Each is three voxels wide.
 TEST(MeshShape, KeepsWhatOnlyTheSmallestVoxelsSee) {
-  const Shape bores = infiniteCylinder(0.015);
+  const Shape bores = infiniteCylinder(0.03);
   const Shape bored = subtract(box(Vec3E(1.0)), translate(bores, {0.313, 0.0, 0.217}));
-  EXPECT_EQ(meshed(bored, {.tolerance = 2e-3}).stats.eulerCharacteristic, 0);
-  const Shape warted = sphere(1.0) | translate(sphere(0.015), {0.6, 0.8, 0.0});
-  const MeshedShape mesh = meshed(warted, {.tolerance = 2e-3});
-  EXPECT_LE(mesh.stats.maxDistance, 2e-3);
+  EXPECT_EQ(meshed(bored, {.voxelSize = 0.02, .tolerance = 4e-3}).stats.eulerCharacteristic, 0);
+  const Shape warted = sphere(1.0) | translate(sphere(0.03), {0.6, 0.8, 0.0});
+  const MeshedShape mesh = meshed(warted, {.voxelSize = 0.02, .tolerance = 4e-3});
+  EXPECT_LE(mesh.stats.maxDistance, 4e-3);
   double top = 0.0;
   for (const glm::vec3& p : mesh.mesh.positions) top = std::max<double>(top, glm::length(p));
-  EXPECT_GE(top, 1.013);
+  EXPECT_GE(top, 1.026);
 }
 
-// Squares 25 of the default's voxels wide, and a spot of three.
+// Squares 25 voxels wide, and a spot of six, which is as round as the tolerance asks: a polygon in it has so
+// much less of its area.
 TEST(MeshShape, KeepsThePaintThatOnlyTheSmallestVoxelsSee) {
+  constexpr double kRadius = 0.06, kTolerance = 1e-3;
   const Vec3E p = position();
   const Expr squares = select(less(0.0, sin(kPi * 4.0 * p.x) * sin(kPi * 4.0 * p.z)), 1.0, 0.0),
-             spot = select(less(length(p - Vec3E(0.537, 0.1, 0.313)), 0.015), 1.0, 0.0);
+             spot = select(less(length(p - Vec3E(0.537, 0.1, 0.313)), kRadius), 1.0, 0.0);
   const Shape board = box({1.0, 0.1, 1.0});
   const auto redOf = [](const MeshedShape& m) {
     double red = 0.0;  // area times colour, seen from above
@@ -300,11 +303,12 @@ TEST(MeshShape, KeepsThePaintThatOnlyTheSmallestVoxelsSee) {
     }
     return red;
   };
-  const MeshedShape squared = meshed(board.paint({.color = {squares, 0.5, 0.5}}), {.tolerance = 1e-3});
+  const MeshedShape squared = meshed(board.paint({.color = {squares, 0.5, 0.5}}), {.tolerance = kTolerance});
   EXPECT_NEAR(redOf(squared), 2.0, 0.01);
   EXPECT_LE(squared.stats.triangles, 500u);
-  const MeshedShape spotted = meshed(board.paint({.color = {spot, 0.5, 0.5}}), {.tolerance = 1e-3});
-  EXPECT_NEAR(redOf(spotted), kPi * 0.015 * 0.015, 0.2 * kPi * 0.015 * 0.015);
+  const MeshedShape spotted =
+      meshed(board.paint({.color = {spot, 0.5, 0.5}}), {.voxelSize = 0.02, .tolerance = kTolerance});
+  EXPECT_NEAR(redOf(spotted), kPi * kRadius * kRadius, 2.0 * kTolerance * 2.0 * kPi * kRadius);
 }
 
 TEST(MeshShape, SaysWhenThereIsNothingToMesh) {
