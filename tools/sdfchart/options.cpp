@@ -33,9 +33,7 @@ void declare(CLI::App& app, Options& options) {
   app.footer(
       "A run that was interrupted goes on where it was when it is called again.\n"
       "Exit status: 0 done, 2 usage, 3 scene, 4 limits, 5 files, 7 measured but not drawn (node or the "
-      "charting "
-      "library "
-      "is missing), 8 a default is behind (--check), 130 interrupted.");
+      "charting library is missing), 8 a default is behind (--check), 130 interrupted.");
 }
 
 }  // namespace

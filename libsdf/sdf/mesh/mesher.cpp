@@ -79,7 +79,9 @@ constexpr int kHalvings = 3;
 // cannot mend.
 constexpr double kResolved = 0.25;
 // Of the coarser voxels that are tried: times those that were asked for, from the largest to the smallest
-// that save much; and of one of them, how far its lattice may be off.
+// that save much; and of one of them, how far its lattice may be off. Measured on the samples: at twice the
+// voxels creases with gaps left five times the triangles, and lattices a quarter of a voxel off were mostly
+// remeshed in vain, for two to three times the time.
 constexpr double kCoarsest = 16.0, kFinest = 4.0, kFollowed = 0.1;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.

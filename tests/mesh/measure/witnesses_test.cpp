@@ -36,6 +36,7 @@ TEST(Witnesses, OfBordersAreVerticesOnCreases) {
   Progress progress;
   FeatureMesh other = square(0.0f);
   other.creases = {{1, 3}};
+  // Roundings of floats near 1.
   EXPECT_NEAR(witnesses(square(0.5f)).toBorders(other, progress), std::hypot(0.5, std::sqrt(0.5)), 1e-6);
   EXPECT_EQ(witnesses(square(0.5f), false).toBorders(other, progress), 0.0);
   other.creases.clear();

@@ -16,10 +16,10 @@ Witnesses::Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& m
     if (d <= limit) surface_.push_back(surface[i]);
   }
   if (!withBorders) return;
-  for (const auto& [a, b] : mesh.creases) {
-    borders_.push_back(mesh.positions[a]);
-    borders_.push_back(mesh.positions[b]);
-  }
+  std::vector<char> onCrease(mesh.positions.size(), 0);
+  for (const auto& [a, b] : mesh.creases) onCrease[a] = onCrease[b] = 1;
+  for (std::size_t v = 0; v < onCrease.size(); ++v)
+    if (onCrease[v]) borders_.push_back(mesh.positions[v]);
 }
 
 SurfaceDistance Witnesses::toSurface(const FeatureMesh& mesh, Progress& progress) const {
