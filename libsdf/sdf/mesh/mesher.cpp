@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "sdf/mesh/band/narrow_band.h"
@@ -311,8 +312,11 @@ class Mesher {
   // What the mesh lacks is seen from the surface only.
   void measureToMesh(const FeatureMesh& mesh, const ModelTapes& model, const Box& bounds) {
     if (surface_.empty()) surface_ = surfacePoints(model, bounds, progress_);
-    const SurfaceDistance missed = distanceToMesh(surface_, mesh.positions, mesh.triangles, progress_);
     MeshStats& stats = result_.stats;
+    // A cell's diagonal: what is farther away has no vertex in its cell.
+    const double limit = std::numbers::sqrt3 * stats.voxelSize;
+    const SurfaceDistance missed = distanceToMesh(surface_, mesh.positions, mesh.triangles, progress_, limit);
+    if (stats.unresolved == 0) stats.unresolved = missed.beyond, stats.firstUnresolved = missed.farthest;
     stats.surfacePoints = missed.points + witnessed_.points;
     for (const SurfaceDistance& from : {missed, witnessed_})
       if (from.max > stats.maxDistance) stats.maxDistance = from.max, stats.farthest = from.farthest;

@@ -56,6 +56,37 @@ TEST(DistanceToMesh, SeesASmallOperandOfAUnion) {
   EXPECT_NEAR(d.max, 0.51, 1e-3);
 }
 
+// Of a formula it is not known that it has such a ball: cells far from the rest of the surface are halved
+// until it is met.
+TEST(DistanceToMesh, SeesASmallPieceOfAFormula) {
+  const Vec3E p = position();
+  for (const double r : {0.1, 0.03, 0.01, 0.003})
+    for (const double x : {1.5, 1.53, 1.6187}) {
+      const Vec3E q = p - Vec3E(x, 0.011, -0.024);
+      const Shape both = field(min(dot(p, p) - 1.0, dot(q, q) - r * r), region(1.8));
+      Progress progress;
+      const std::vector<glm::vec3> points = surfacePoints(Model(both).at(), both.bounds, progress);
+      int onBall = 0;
+      for (const glm::vec3& at : points)
+        if (at.x > 1.2f) ++onBall;
+      EXPECT_GE(onBall, 1) << r << ", " << x;
+    }
+}
+
+// The plane of which two boxes share a face is inside of both, to a rounding.
+TEST(DistanceToMesh, SeesNoFilmWhereSolidsTouch) {
+  for (const double at : {0.1, 0.3, 0.7, 1.1}) {
+    const Shape both = translate(box({1.0, at, 1.0}), {0.0, at, 0.0}) |
+                       translate(box({1.0, 0.2, 1.0}), {0.0, 2.0 * at + 0.2, 0.0});
+    Progress progress;
+    for (const glm::vec3& p : surfacePoints(Model(both).at(), findBounds(both), progress))
+      EXPECT_GE(std::max({std::abs(p.x), std::abs(p.z), p.y < 0.5 * at ? 1.0f : 0.0f,
+                          p.y > 2.0 * at + 0.3 ? 1.0f : 0.0f}),
+                0.9999f)
+          << at << ": " << p.y;
+  }
+}
+
 // More points than are read at a time.
 TEST(DistanceToMesh, IsTheLargestOfKnownPoints) {
   std::vector<glm::vec3> points(1000, {1.0f, 0.25f, -0.5f});
@@ -77,6 +108,20 @@ TEST(DistanceToMesh, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.max, two.max);
   EXPECT_EQ(one.farthest, two.farthest);
   EXPECT_EQ(one.points, two.points);
+}
+
+// Voxels that no sample of which meets a piece are too coarse for it, and that is said.
+TEST(DistanceToMesh, OfAPieceThatVoxelsPassCountsAsUnresolved) {
+  const Vec3E p = position(), q = p - Vec3E(1.5, 0.0, 0.0);
+  const Shape both = field(min(dot(p, p) - 1.0, dot(q, q) - 1e-4), {{-1.2, -1.2, -1.2}, {1.8, 1.2, 1.2}});
+  for (const double voxel : {0.2, 0.15, 0.07}) {
+    Progress progress;
+    const auto meshed = meshShape(both, "both", {.voxelSize = voxel}, progress);
+    ASSERT_TRUE(meshed.ok()) << meshed.error().message;
+    EXPECT_EQ(meshed->stats.components, 1) << voxel;
+    EXPECT_NEAR(meshed->stats.maxDistance, 0.5, 0.02) << voxel;
+    EXPECT_GT(meshed->stats.unresolved, 0u) << voxel;
+  }
 }
 
 // A thin solid in a scene whose voxels are too coarse for it keeps the tolerance, or it is said that it does

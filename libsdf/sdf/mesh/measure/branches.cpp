@@ -84,8 +84,8 @@ std::vector<Corner> withNextBranch(const PointRun& run, const std::vector<Way>& 
 
 }  // namespace
 
-std::vector<double> distancesToBranches(const PointRun& run, const std::vector<Way>& points) {
-  std::vector<double> distances(points.size(), kInfinity);
+std::vector<Met> meetBranches(const PointRun& run, const std::vector<Way>& points) {
+  std::vector<Met> met(points.size());
   std::vector<Corner> corners;
   for (std::size_t i = 0; i < points.size(); ++i) corners.push_back({i, {}});
   for (int branch = 0; branch < 3 && !corners.empty(); ++branch) {
@@ -96,13 +96,13 @@ std::vector<double> distancesToBranches(const PointRun& run, const std::vector<W
       const double length = glm::length(corner.x);
       ways.push_back({point.from, point.inside, corner.x / length, length});
     }
-    const std::vector<double> along = distancesAlong(run, ways);
+    const std::vector<Met> along = meetAlong(run, ways);
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      double& distance = distances[corners[k].point];
-      distance = std::min(distance, along[k]);
+      Met& m = met[corners[k].point];
+      m = nearer(m, along[k]);
     }
   }
-  return distances;
+  return met;
 }
 
 }  // namespace sdf

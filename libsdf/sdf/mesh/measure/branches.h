@@ -6,10 +6,10 @@
 
 namespace sdf {
 
-/// Distance of each of at most kBatchPoints points to where the sign changes on the way to the edge or the
+/// Where the sign changes on the way from each of at most kBatchPoints points to the edge or the
 /// corner where the field's branches meet by first order: planes on which each is 0, up to three of them;
-/// infinite where that is more than kFarthestVoxels away. A way ends a little behind, where the next branch
+/// nowhere where that is more than kFarthestVoxels away. A way ends a little behind, where the next branch
 /// is found.
-std::vector<double> distancesToBranches(const PointRun& run, const std::vector<Way>& points);
+std::vector<Met> meetBranches(const PointRun& run, const std::vector<Way>& points);
 
 }  // namespace sdf

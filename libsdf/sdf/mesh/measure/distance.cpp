@@ -84,15 +84,58 @@ double meanSquare(const TriangleError& e, const float (&corners)[3]) {
   return std::isnan(squares) ? kInfinity : squares;  // of an infinite distance
 }
 
-// The largest distance so far, and its place.
-struct Farthest {
-  double distance = 0.0;
+struct Far {
+  float distance = 0.0f;
   glm::vec3 at{0.0f};
+};
 
-  template <class Point>
-  void take(double d, const Point& point) {
-    if (std::abs(d) > distance) distance = std::abs(d), at = point();
+// Points, of which the farthest is asked for; those whose distance is no number are left out.
+class FarPoints {
+ public:
+  void add(float distance, const glm::vec3& at) {
+    if (!std::isnan(distance)) points_.push_back({std::abs(distance), at});
+    largest_ = std::max(largest_, std::abs(distance));
   }
+  /// Of those so far.
+  float largest() const { return largest_; }
+
+  /// Each is as far as it was added with or nearer: looked for in all directions from the farthest on, until
+  /// no other can be farther.
+  Far farthest(const LocalField& field, Progress& progress) {
+    Far farthest;
+    std::ranges::make_heap(points_, {}, &Far::distance);
+    while (!points_.empty() && points_.front().distance > farthest.distance && !progress.stopped()) {
+      const std::vector<Far> next = takeNext();
+      forEachRun(
+          next.size(), [&](std::size_t i) { return next[i].at; }, field, progress,
+          [&](const PointRun& run) {
+            float distances[kBatchPoints];
+            findSurfaceAllAround(run, distances);
+            for (std::size_t i = 0; i < run.count; ++i) looked_[run.first + i] = std::abs(distances[i]);
+          });
+      for (std::size_t i = 0; i < next.size(); ++i)
+        if (const float d = std::min(looked_[i], next[i].distance); d > farthest.distance)
+          farthest = {d, next[i].at};
+    }
+    return farthest;
+  }
+
+ private:
+  static constexpr std::size_t kAtATime = 2 * kBatchPoints;
+
+  std::vector<Far> takeNext() {
+    std::vector<Far> next;
+    while (next.size() < kAtATime && !points_.empty()) {
+      std::ranges::pop_heap(points_, {}, &Far::distance);
+      next.push_back(points_.back());
+      points_.pop_back();
+    }
+    return next;
+  }
+
+  std::vector<Far> points_;
+  float largest_ = 0.0f;
+  float looked_[kAtATime];
 };
 
 }  // namespace
@@ -116,9 +159,8 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
         e.voxels = std::max(e.voxels, static_cast<float>(std::abs(d) / voxel));
       });
   double area = 0.0, squares = 0.0;
-  Farthest farthest;
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    farthest.take(atVertices[i], [&] { return positions[i]; });
+  FarPoints far;
+  for (std::size_t i = 0; i < positions.size(); ++i) far.add(atVertices[i], positions[i]);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const glm::uvec3& v = triangles[t];
     const double a =
@@ -126,20 +168,21 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
     area += a;
     squares += a * meanSquare(inside[t], {atVertices[v.x], atVertices[v.y], atVertices[v.z]});
     const int k = inside[t].farthest();
-    farthest.take(inside[t].inside[k], [&] { return samplePoint(positions, v, k); });
+    far.add(inside[t].inside[k], samplePoint(positions, v, k));
   }
+  const float largest = far.largest();
   std::vector<std::uint32_t> edges;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (inside[t].voxels > kEdge &&
-        std::abs(inside[t].inside[inside[t].farthest()]) > 0.5 * farthest.distance)
+    if (inside[t].voxels > kEdge && std::abs(inside[t].inside[inside[t].farthest()]) > 0.5 * largest)
       edges.push_back(t);
   const auto fine = [&](std::size_t i) {
     return finePoint(positions, triangles[edges[i / kFine]], static_cast<int>(i % kFine));
   };
   const std::vector<float> atFine = distancesAt(kFine * edges.size(), fine, field, progress);
-  for (std::size_t i = 0; i < atFine.size(); ++i) farthest.take(atFine[i], [&] { return fine(i); });
+  for (std::size_t i = 0; i < atFine.size(); ++i) far.add(atFine[i], fine(i));
+  const Far farthest = far.farthest(field, progress);
   // Where all distances are equal, rounding may lift their mean above them.
-  stats.rmsDistance = area > 0.0 ? std::min(std::sqrt(squares / area), farthest.distance) : 0.0;
+  stats.rmsDistance = area > 0.0 ? std::min(std::sqrt(squares / area), double{farthest.distance}) : 0.0;
   stats.maxDistance = farthest.distance;
   stats.farthest = farthest.at;
   for (float& d : atVertices) d = std::abs(d);

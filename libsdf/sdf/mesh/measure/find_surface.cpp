@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "sdf/base/box.h"
 #include "sdf/mesh/measure/branches.h"
@@ -27,14 +28,12 @@ constexpr double kNear = 0.5;
 constexpr double kSearchVoxels = 2.0;
 constexpr double kAsExpected = 2.0;
 
-float largest(const glm::vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 // The distances of the points of a run to where the sign changes, without a sign; infinite or no number where
 // the gradient is none, and there is no surface in reach.
 class RunDistances {
  public:
-  RunDistances(const PointRun& run, const RunGradients& g, float* distances)
-      : run_(run), g_(g), distances_(distances) {}
+  RunDistances(const PointRun& run, const RunGradients& g, bool allAround, float* distances)
+      : run_(run), g_(g), allAround_(allAround), distances_(distances) {}
 
   void find() {
     std::vector<std::size_t> unmet = takeFirstOrder();
@@ -50,7 +49,8 @@ class RunDistances {
     std::vector<std::size_t> unmet;
     for (std::size_t i = 0; i < run_.count; ++i) {
       distances_[i] = std::abs(g_.distance(i));
-      if (distances_[i] != 0.0f && !(isMet(i) && distances_[i] <= kNear * run_.voxel)) unmet.push_back(i);
+      const bool isTaken = isMet(i) && distances_[i] <= kNear * run_.voxel && !allAround_;
+      if (distances_[i] != 0.0f && !isTaken) unmet.push_back(i);
     }
     return unmet;
   }
@@ -72,7 +72,7 @@ class RunDistances {
     std::vector<std::size_t> small;
     std::vector<float> reach;
     for (const std::size_t i : unmet) {
-      const float first = distances_[i], rounding = kRoundings * largest(run_.points.at(i));
+      const float first = distances_[i], rounding = kRoundings * largestCoordinate(run_.points.at(i));
       if (!(first <= std::max(double{rounding}, kSmall * run_.voxel))) continue;
       small.push_back(i);
       reach.push_back(std::max(rounding, 2.0f * first));
@@ -97,19 +97,26 @@ class RunDistances {
     for (const std::size_t i : unmet)
       ways.push_back(
           {glm::dvec3(run_.points.at(i)), isInside(i), glm::dvec3(g_.normal(i)), kSearchVoxels * run_.voxel});
-    std::vector<double> found = distancesToBranches(run_, ways);
-    const std::vector<double> along = distancesAlong(run_, ways);
+    std::vector<Met> met = meetBranches(run_, ways);
+    const std::vector<Met> along = meetAlong(run_, ways);
     std::vector<std::size_t> open;
     std::vector<Way> around;
     for (std::size_t k = 0; k < ways.size(); ++k) {
-      found[k] = std::min(found[k], along[k]);
-      if (found[k] <= kAsExpected * distances_[unmet[k]] && found[k] <= kNear * run_.voxel) continue;
+      met[k] = nearer(met[k], along[k]);
+      const double distance = met[k].distance;
+      if (distance <= kAsExpected * distances_[unmet[k]] && distance <= kNear * run_.voxel && !allAround_)
+        continue;
       open.push_back(k);
       around.push_back(ways[k]);
+      around.back().reach = std::min(met[k].distance, kFarthestVoxels * run_.voxel);
     }
-    const std::vector<double> nearest = distancesAround(run_, around);
-    for (std::size_t k = 0; k < open.size(); ++k) found[open[k]] = std::min(found[open[k]], nearest[k]);
-    for (std::size_t k = 0; k < ways.size(); ++k) take(unmet[k], found[k]);
+    met = meetNearer(run_, ways, std::move(met));
+    std::vector<Met> nearest = meetAround(run_, around);
+    const std::vector<Met> all = meetAllAround(run_, around);
+    for (std::size_t k = 0; k < open.size(); ++k) nearest[k] = nearer(nearest[k], all[k]);
+    nearest = meetNearer(run_, around, std::move(nearest));
+    for (std::size_t k = 0; k < open.size(); ++k) met[open[k]] = nearer(met[open[k]], nearest[k]);
+    for (std::size_t k = 0; k < ways.size(); ++k) take(unmet[k], met[k].distance);
   }
 
   // Where nothing is found the first-order figure stays.
@@ -120,17 +127,22 @@ class RunDistances {
 
   const PointRun& run_;
   const RunGradients& g_;
+  bool allAround_;
   float* distances_;
   float short_[kBatchPoints], long_[kBatchPoints];
 };
 
-}  // namespace
-
-void findSurface(const PointRun& run, float* distances) {
+void find(const PointRun& run, bool allAround, float* distances) {
   RunGradients g;
   g.evaluate(run, run.points);
-  RunDistances(run, g, distances).find();
+  RunDistances(run, g, allAround, distances).find();
   for (std::size_t i = 0; i < run.count; ++i) distances[i] = std::copysign(distances[i], g.value[i]);
 }
+
+}  // namespace
+
+void findSurface(const PointRun& run, float* distances) { find(run, false, distances); }
+
+void findSurfaceAllAround(const PointRun& run, float* distances) { find(run, true, distances); }
 
 }  // namespace sdf

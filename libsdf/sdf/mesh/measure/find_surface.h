@@ -14,8 +14,13 @@ inline constexpr double kFarthestVoxels = 3.0;
 /// (Taubin 1994) where the sign changes along the gradient within a tenth of it, and, below a hundredth of a
 /// voxel, in any direction within twice of it. Elsewhere, and above half a voxel, the surface is looked for
 /// where the field's branches meet by first order (edges, corners), along the gradient, and at the samples of
-/// the lattice up to kFarthestVoxels away: what is found is an upper bound. Where nothing is found the
-/// first-order figure stays; it may be infinite, or no number. A reading of 0 is on the surface.
+/// the lattice up to kFarthestVoxels away, and from what is found along its normal: an upper bound. Where
+/// nothing is found the first-order figure stays; it may be infinite, or no number. A reading of 0 is on the
+/// surface.
 void findSurface(const PointRun& run, float* distances);
+
+/// The same, but that the surface is looked for in all directions whatever the first order says, from all
+/// that is above a hundredth of a voxel. Costs some hundred readings a point.
+void findSurfaceAllAround(const PointRun& run, float* distances);
 
 }  // namespace sdf

@@ -83,7 +83,7 @@ std::vector<Piece> piecesOf(const PointRun& run, const std::vector<Way>& ways) {
 
 }  // namespace
 
-std::vector<double> distancesAlong(const PointRun& run, const std::vector<Way>& ways) {
+std::vector<Met> meetAlong(const PointRun& run, const std::vector<Way>& ways) {
   std::vector<Piece> pieces = piecesOf(run, ways);
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < ways.size(); ++i)
@@ -100,10 +100,12 @@ std::vector<double> distancesAlong(const PointRun& run, const std::vector<Way>& 
       pieces[found[k]].near += static_cast<double>(first[k]) * pieces[found[k]].width;
     bits += more;
   }
-  std::vector<double> distances(ways.size());
-  std::transform(pieces.begin(), pieces.end(), distances.begin(),
-                 [](const Piece& p) { return std::abs(p.near + p.width); });
-  return distances;
+  std::vector<Met> met(ways.size());
+  for (const std::size_t i : found) {
+    const double t = pieces[i].near + pieces[i].width;
+    met[i] = {std::abs(t), std::copysign(1.0, t) * ways[i].direction};
+  }
+  return met;
 }
 
 namespace {
@@ -122,7 +124,7 @@ std::vector<glm::dvec3> samplesAround() {
 
 }  // namespace
 
-std::vector<double> distancesAround(const PointRun& run, const std::vector<Way>& points) {
+std::vector<Met> meetAround(const PointRun& run, const std::vector<Way>& points) {
   constexpr double kHalfDiagonal =
       0.8660254037844387;  // of a voxel: from a point to the sample nearest to it
   static const std::vector<glm::dvec3> samples = samplesAround();
@@ -152,16 +154,64 @@ std::vector<double> distancesAround(const PointRun& run, const std::vector<Way>&
   }
   std::vector<Way> toSamples;
   std::vector<std::size_t> which;
-  std::vector<double> distances(points.size(), kInfinity);
+  std::vector<Met> met(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!found[i]) continue;
-    distances[i] = nearest[i];
+    met[i] = {nearest[i], ways[i].direction};
     if (nearest[i] > 0.0) which.push_back(i), toSamples.push_back(ways[i]);
   }
-  const std::vector<double> along = distancesAlong(run, toSamples);
-  for (std::size_t k = 0; k < which.size(); ++k)
-    distances[which[k]] = std::min(distances[which[k]], along[k]);
-  return distances;
+  const std::vector<Met> along = meetAlong(run, toSamples);
+  for (std::size_t k = 0; k < which.size(); ++k) met[which[k]] = nearer(met[which[k]], along[k]);
+  return met;
+}
+
+std::vector<Met> meetAllAround(const PointRun& run, const std::vector<Way>& points) {
+  constexpr int kLines = 13;
+  std::vector<Way> ways;
+  for (const Way& point : points)
+    for (int i = 14; i < 14 + kLines; ++i)
+      ways.push_back({point.from, point.inside,
+                      glm::normalize(glm::dvec3(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1)), point.reach});
+  const std::vector<Met> along = meetAlong(run, ways);
+  std::vector<Met> met(points.size());
+  for (std::size_t i = 0; i < along.size(); ++i) met[i / kLines] = nearer(met[i / kLines], along[i]);
+  return met;
+}
+
+std::vector<Met> meetNearer(const PointRun& run, const std::vector<Way>& points, std::vector<Met> met) {
+  // The gradient is read a little before the surface, where a field that is flat on it has one.
+  constexpr double kBefore = 1.0 - 0x1p-6, kWorthwhile = 0.99;
+  constexpr int kRounds = 8;
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < met.size(); ++i)
+    if (met[i].distance > 0.0 && met[i].distance < kInfinity) open.push_back(i);
+  for (int round = 0; round < kRounds && !open.empty(); ++round) {
+    PointRows at, gradients;
+    float values[kBatchPoints];
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const Met& m = met[open[k]];
+      at.set(k, glm::vec3(points[open[k]].from + kBefore * m.distance * m.direction));
+    }
+    run.batch.evaluateGradient(*run.tapes.distance, at.rows(), open.size(), values, gradients.x, gradients.y,
+                               gradients.z);
+    std::vector<std::size_t> which;
+    std::vector<Way> ways;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const Way& point = points[open[k]];
+      const glm::dvec3 normal = glm::normalize(glm::dvec3(gradients.at(k)));
+      if (!std::isfinite(normal.x + normal.y + normal.z)) continue;
+      which.push_back(open[k]);
+      ways.push_back({point.from, point.inside, normal, met[open[k]].distance});
+    }
+    const std::vector<Met> along = meetAlong(run, ways);
+    open.clear();
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      Met& m = met[which[k]];
+      if (along[k].distance < kWorthwhile * m.distance) open.push_back(which[k]);
+      m = nearer(m, along[k]);
+    }
+  }
+  return met;
 }
 
 }  // namespace sdf

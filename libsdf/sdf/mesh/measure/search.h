@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "sdf/base/box.h"
 #include "sdf/mesh/surface/surface_points.h"
 
 namespace sdf {
@@ -19,12 +20,26 @@ struct Way {
   double reach;          ///< to either side
 };
 
-/// Distance along each way to where the sign changes, up to 2^-24 of its reach; infinite where 16 steps to
-/// either side do not tell that it does. Any point of the surface bounds the distance to it from above.
-std::vector<double> distancesAlong(const PointRun& run, const std::vector<Way>& ways);
+/// Where the surface was met from a point. Any point of the surface bounds the distance to it from above.
+struct Met {
+  double distance = kInfinity;  ///< infinite where it was not
+  glm::dvec3 direction{0.0};    ///< unit
+};
+inline const Met& nearer(const Met& a, const Met& b) { return b.distance < a.distance ? b : a; }
+
+/// Where the sign changes along each way, up to 2^-24 of its reach; nowhere where 16 steps to either side do
+/// not tell that it does.
+std::vector<Met> meetAlong(const PointRun& run, const std::vector<Way>& ways);
 
 /// The same on the way from each point to the nearest sample of the lattice on the other side, at most
 /// kFarthestVoxels away.
-std::vector<double> distancesAround(const PointRun& run, const std::vector<Way>& points);
+std::vector<Met> meetAround(const PointRun& run, const std::vector<Way>& points);
+
+/// The same along 13 lines through each point: to its neighbours in a lattice of 3 by 3 by 3.
+std::vector<Met> meetAllAround(const PointRun& run, const std::vector<Way>& points);
+
+/// The same along the gradients at the places where it was met, again and again as long as that is nearer:
+/// the nearest point of a smooth surface lies along its own normal.
+std::vector<Met> meetNearer(const PointRun& run, const std::vector<Way>& points, std::vector<Met> met);
 
 }  // namespace sdf

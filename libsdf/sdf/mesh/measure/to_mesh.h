@@ -16,13 +16,15 @@ struct SurfaceDistance {
   double max = 0.0;          ///< scene units
   glm::vec3 farthest{0.0f};  ///< the point
   std::uint64_t points = 0;  ///< how many were looked at
+  std::uint64_t beyond = 0;  ///< how many of them are farther than was asked about
 };
 
 /// Points of the model's surface, found from the function alone: the bounds, and those of each operand of a
 /// union, are halved into some thousand cells in which intervals do not tell that there is no surface, and
-/// three lines through each cell are followed to where the sign changes, and halved where the slope bound
-/// lets it do so twice. So points are as dense as the operand is small. Does not depend on the number of
-/// threads.
+/// lines through each cell are followed to where the sign changes (cell_roots.h). So points are as dense as
+/// the operand is small. Cells in which no point is found are halved on until the slope or intervals tell
+/// that there is none, or a multiple of the cells was looked into: a small piece of the surface far from the
+/// rest is not passed over. Does not depend on the number of threads.
 std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress);
 
 /// The nearest of the triangles, at least one, to each point. Cost: log n of the triangles for each.
@@ -30,8 +32,9 @@ std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
                                            const std::vector<glm::vec3>& positions,
                                            const std::vector<glm::uvec3>& triangles, Progress& progress);
 
-/// The largest of these distances.
+/// The largest of these distances, and how many are larger than `limit`.
 SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& positions,
-                               const std::vector<glm::uvec3>& triangles, Progress& progress);
+                               const std::vector<glm::uvec3>& triangles, Progress& progress,
+                               double limit = kInfinity);
 
 }  // namespace sdf

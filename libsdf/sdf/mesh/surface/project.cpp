@@ -15,8 +15,6 @@ constexpr int kRefineSteps = 3;
 // Of a point's coordinates: steps that are shorter are their rounding and the reading's.
 constexpr float kSettled = 0x1p-21f;
 
-float largest(const glm::vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
   const float reach = static_cast<float>(run.voxel);
   PointRows trial = run.points;
@@ -35,7 +33,7 @@ void refineRun(const PointRun& run, glm::vec3* positions, glm::vec3* normals) {
       }
       const glm::vec3 way = g.step(i), target = trial.at(i) + way;
       if (!(glm::distance(target, run.points.at(i)) <= reach)) continue;
-      if (glm::length(way) <= kSettled * largest(target)) continue;
+      if (glm::length(way) <= kSettled * largestCoordinate(target)) continue;
       moved = true;
       trial.set(i, target);
     }

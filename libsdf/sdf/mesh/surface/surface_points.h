@@ -1,5 +1,7 @@
 // Evaluating the scene at points on a mesh, each with the tapes of its own leaf.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -10,6 +12,11 @@
 #include "sdf/mesh/surface/local_field.h"
 
 namespace sdf {
+
+/// Of the coordinates, without their signs: what the rounding of a position goes by.
+inline float largestCoordinate(const glm::vec3& p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
 
 /// A run of consecutive points that share their tapes, as rows for the batch readings.
 struct PointRun {

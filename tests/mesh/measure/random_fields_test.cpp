@@ -1,0 +1,186 @@
+// What is reported of meshes of formulas whose value is no distance, held to distances that are found in
+// double by a search of its own: rays in all directions from points of the mesh, and lines through space to
+// the surface.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "sdf/eval/function.h"
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/measure/to_mesh.h"
+#include "sdf/mesh/mesher.h"
+#include "sdf/shape/solids/solids.h"
+#include "support/thorough.h"
+
+namespace sdf::test {
+namespace random_fields_test {
+
+using Random = std::mt19937_64;
+
+double between(Random& random, double lo, double hi) {
+  return std::uniform_real_distribution<double>(lo, hi)(random);
+}
+int below(Random& random, int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); }
+
+// Zero on an ellipsoid or a rounded cube of half a unit or so, near the origin.
+Expr quadric(Random& random) {
+  const bool quartic = below(random, 3) == 0;
+  const Expr coordinates[] = {position().x, position().y, position().z};
+  Expr sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Expr d = square(coordinates[axis] - between(random, -0.5, 0.5));
+    sum = sum + (quartic ? square(d) : d) * between(random, 0.6, 2.0);
+  }
+  return sum - std::pow(between(random, 0.3, 0.8), quartic ? 4.0 : 2.0);
+}
+
+Expr formula(Random& random, int depth) {
+  if (depth == 0) return quadric(random);
+  const Expr a = formula(random, depth - 1);
+  const Vec3E p = position();
+  switch (below(random, 8)) {
+    case 0:
+      return min(a, formula(random, depth - 1));
+    case 1:
+      return max(a, -formula(random, depth - 1));
+    case 2:
+      return max(a, formula(random, depth - 1));
+    case 3:
+      return a * formula(random, depth - 1);
+    case 4:
+      return a * a * a;  // flat where it is 0
+    case 5:
+      return a * (dot(p, p) + 0.05);
+    case 6:
+      return a * exp(p.x * between(random, -3.0, 3.0));
+    default:
+      return a + 0.02 * sin(p.x * 5.0) * sin(p.y * 5.0);
+  }
+}
+
+// A search in double, by nothing but values.
+class Search {
+ public:
+  explicit Search(const Expr& e) : tape_(Function({e}).at()) {}
+
+  double value(const glm::dvec3& p) const { return evaluate(*tape_, p); }
+
+  // How far along the ray the sign is another one, `reach` where it stays.
+  double along(const glm::dvec3& p, const glm::dvec3& way, double reach) const {
+    constexpr int kSteps = 32;
+    const bool inside = value(p) < 0.0;
+    for (int k = 1; k <= kSteps; ++k)
+      if ((value(p + reach * k / kSteps * way) < 0.0) != inside) {
+        double lo = reach * (k - 1) / kSteps, hi = reach * k / kSteps;
+        for (int i = 0; i < 40; ++i) {
+          const double mid = 0.5 * (lo + hi);
+          ((value(p + mid * way) < 0.0) == inside ? lo : hi) = mid;
+        }
+        return hi;
+      }
+    return reach;
+  }
+
+  // The distance to where the sign changes; no more than the reach, and too large by some per cent at most
+  // where what is nearest is a tip.
+  double nearest(const glm::dvec3& p, double reach, Random& random) const {
+    constexpr int kDirections = 300, kRounds = 4, kAround = 40;
+    double least = reach;
+    glm::dvec3 best(1, 0, 0);
+    const auto look = [&](const glm::dvec3& way) {
+      if (const double d = along(p, way, least); d < least) least = d, best = way;
+    };
+    for (int i = 0; i < kDirections; ++i) {
+      const double z = 1.0 - (2.0 * i + 1.0) / kDirections, turn = i * 2.399963229728653;
+      const double r = std::sqrt(1.0 - z * z);
+      look({r * std::cos(turn), r * std::sin(turn), z});
+    }
+    double spread = 0.15;
+    for (int round = 0; round < kRounds; ++round, spread *= 0.4) {
+      const glm::dvec3 middle = best;
+      for (int i = 0; i < kAround; ++i)
+        look(glm::normalize(middle + spread * glm::dvec3(between(random, -1, 1), between(random, -1, 1),
+                                                         between(random, -1, 1))));
+    }
+    return least;
+  }
+
+ private:
+  TapePtr tape_;
+};
+
+struct Outcome {
+  bool meshed = false;
+  std::string message;
+};
+
+Outcome holdToSearch(unsigned seed) {
+  Random random(seed);
+  const double size = std::pow(10.0, between(random, -2.0, 2.0));
+  Expr f = formula(random, 1 + below(random, 2)) * std::pow(10.0, between(random, -6.0, 6.0));
+  const Expr scaled = remap(f, {position().x / size, position().y / size, position().z / size}, 1.0 / size);
+  const Box bounds = Box::centred(glm::dvec3(2.0 * size));
+  const double voxel = 4.0 * size / (16 + below(random, 24));
+  Progress progress;
+  const auto made = meshShape(field(scaled, bounds), "field", {.voxelSize = voxel}, progress);
+  if (!made) return {false, made.error().message};
+  const Mesh& mesh = made->mesh;
+  const MeshStats& stats = made->stats;
+  const Search search(scaled);
+  const double rounding = 4e-6 * size;
+
+  // The place that is named is as far off as it is said to be.
+  const glm::dvec3 farthest(stats.farthest);
+  const double toMesh = distanceToMesh({stats.farthest}, mesh.positions, mesh.triangles, progress).max;
+  if (toMesh <= rounding) {
+    const double found = search.nearest(farthest, 4.0 * voxel, random);
+    EXPECT_GE(stats.maxDistance, 0.85 * found - rounding) << "too small, seed " << seed;
+    EXPECT_LE(stats.maxDistance, 1.15 * found + rounding) << "too large, seed " << seed;
+  } else {
+    EXPECT_NEAR(stats.maxDistance, toMesh, rounding) << seed;
+    EXPECT_LE(search.nearest(farthest, 4.0 * voxel, random), rounding) << "no surface there, seed " << seed;
+  }
+  // Nothing of the mesh is farther off.
+  for (int i = 0; i < 20; ++i) {
+    const glm::uvec3& t = mesh.triangles[below(random, static_cast<int>(mesh.triangles.size()))];
+    const double u = between(random, 0.0, 1.0), v = between(random, 0.0, 1.0 - u);
+    const glm::dvec3 p = (1.0 - u - v) * glm::dvec3(mesh.positions[t.x]) +
+                         u * glm::dvec3(mesh.positions[t.y]) + v * glm::dvec3(mesh.positions[t.z]);
+    const double found = search.nearest(p, 4.0 * voxel, random);
+    EXPECT_LE(found, 1.15 * stats.maxDistance + rounding) << "at a point of the mesh, seed " << seed;
+  }
+  // Nothing of the surface is farther off.
+  std::vector<glm::vec3> surface;
+  for (int i = 0; i < 60; ++i) {
+    glm::dvec3 p;
+    for (int axis = 0; axis < 3; ++axis) p[axis] = between(random, -1.5, 1.5) * size;
+    glm::dvec3 way(0.0);
+    way[below(random, 3)] = 1.0;
+    const double d = search.along(p, way, 3.0 * size);
+    if (d < 3.0 * size) surface.emplace_back(p + d * way);
+  }
+  const SurfaceDistance missed = distanceToMesh(surface, mesh.positions, mesh.triangles, progress);
+  EXPECT_LE(missed.max, 1.05 * stats.maxDistance + rounding)
+      << "at " << missed.farthest.x << ", " << missed.farthest.y << ", " << missed.farthest.z << ", seed "
+      << seed;
+  return {true, ""};
+}
+
+TEST(RandomFields, AreAsFarOffAsReported) {
+  const unsigned count = isThorough() ? 500 : 24;
+  unsigned meshed = 0;
+  for (unsigned seed = 1; seed <= count; ++seed) {
+    const Outcome outcome = holdToSearch(seed);
+    meshed += outcome.meshed;
+    // One solid less another, or what two share, may be nothing, or nearly so.
+    const auto says = [&](const char* words) { return outcome.message.find(words) != std::string::npos; };
+    EXPECT_TRUE(outcome.meshed || says("no surface inside the bounds") || says("too thin to be seen"))
+        << outcome.message << ", seed " << seed;
+  }
+  EXPECT_GE(meshed, count * 9 / 10);
+}
+
+}  // namespace random_fields_test
+}  // namespace sdf::test
