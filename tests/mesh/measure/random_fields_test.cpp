@@ -7,8 +7,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "sdf/eval/function.h"
-#include "sdf/eval/scalar_reading.h"
+#include "mesh/measure/surface_search.h"
 #include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/shape/solids/solids.h"
@@ -16,13 +15,6 @@
 
 namespace sdf::test {
 namespace random_fields_test {
-
-using Random = std::mt19937_64;
-
-double between(Random& random, double lo, double hi) {
-  return std::uniform_real_distribution<double>(lo, hi)(random);
-}
-int below(Random& random, int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); }
 
 // Zero on an ellipsoid or a rounded cube of half a unit or so, near the origin.
 Expr quadric(Random& random) {
@@ -59,57 +51,6 @@ Expr formula(Random& random, int depth) {
       return a + 0.02 * sin(p.x * 5.0) * sin(p.y * 5.0);
   }
 }
-
-// A search in double, by nothing but values.
-class Search {
- public:
-  explicit Search(const Expr& e) : tape_(Function({e}).at()) {}
-
-  double value(const glm::dvec3& p) const { return evaluate(*tape_, p); }
-
-  // How far along the ray the sign is another one, `reach` where it stays.
-  double along(const glm::dvec3& p, const glm::dvec3& way, double reach) const {
-    constexpr int kSteps = 32;
-    const bool inside = value(p) < 0.0;
-    for (int k = 1; k <= kSteps; ++k)
-      if ((value(p + reach * k / kSteps * way) < 0.0) != inside) {
-        double lo = reach * (k - 1) / kSteps, hi = reach * k / kSteps;
-        for (int i = 0; i < 40; ++i) {
-          const double mid = 0.5 * (lo + hi);
-          ((value(p + mid * way) < 0.0) == inside ? lo : hi) = mid;
-        }
-        return hi;
-      }
-    return reach;
-  }
-
-  // The distance to where the sign changes; no more than the reach, and too large by some per cent at most
-  // where what is nearest is a tip.
-  double nearest(const glm::dvec3& p, double reach, Random& random) const {
-    constexpr int kDirections = 300, kRounds = 4, kAround = 40;
-    double least = reach;
-    glm::dvec3 best(1, 0, 0);
-    const auto look = [&](const glm::dvec3& way) {
-      if (const double d = along(p, way, least); d < least) least = d, best = way;
-    };
-    for (int i = 0; i < kDirections; ++i) {
-      const double z = 1.0 - (2.0 * i + 1.0) / kDirections, turn = i * 2.399963229728653;
-      const double r = std::sqrt(1.0 - z * z);
-      look({r * std::cos(turn), r * std::sin(turn), z});
-    }
-    double spread = 0.15;
-    for (int round = 0; round < kRounds; ++round, spread *= 0.4) {
-      const glm::dvec3 middle = best;
-      for (int i = 0; i < kAround; ++i)
-        look(glm::normalize(middle + spread * glm::dvec3(between(random, -1, 1), between(random, -1, 1),
-                                                         between(random, -1, 1))));
-    }
-    return least;
-  }
-
- private:
-  TapePtr tape_;
-};
 
 struct Outcome {
   bool meshed = false;
@@ -151,20 +92,8 @@ Outcome holdToSearch(unsigned seed) {
     const double found = search.nearest(p, 4.0 * voxel, random);
     EXPECT_LE(found, 1.15 * stats.maxDistance + rounding) << "at a point of the mesh, seed " << seed;
   }
-  // Nothing of the surface is farther off.
-  std::vector<glm::vec3> surface;
-  for (int i = 0; i < 60; ++i) {
-    glm::dvec3 p;
-    for (int axis = 0; axis < 3; ++axis) p[axis] = between(random, -1.5, 1.5) * size;
-    glm::dvec3 way(0.0);
-    way[below(random, 3)] = 1.0;
-    const double d = search.along(p, way, 3.0 * size);
-    if (d < 3.0 * size) surface.emplace_back(p + d * way);
-  }
-  const SurfaceDistance missed = distanceToMesh(surface, mesh.positions, mesh.triangles, progress);
-  EXPECT_LE(missed.max, 1.05 * stats.maxDistance + rounding)
-      << "at " << missed.farthest.x << ", " << missed.farthest.y << ", " << missed.farthest.z << ", seed "
-      << seed;
+  holdSurface(search, Box::centred(glm::dvec3(1.5 * size)), *made, random, seed);
+  holdSides(search, Box::centred(glm::dvec3(1.5 * size)), *made, random, seed);
   return {true, ""};
 }
 
