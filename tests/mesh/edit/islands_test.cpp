@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mesh/feature_meshes.h"
 #include "sdf/mesh/mesher.h"
 
@@ -117,7 +119,9 @@ TEST(Islands, LeaveACrescentSmall) {
   const Result<MeshedShape> meshed = meshShape(crescent, "crescent", options, progress);
   ASSERT_TRUE(meshed.ok()) << meshed.error().message;
   EXPECT_LE(meshed->stats.triangles, 4000u);
-  EXPECT_LE(meshed->stats.maxDistance, 2e-3);
+  // Of a horn whose sides are at this angle, the rim is left out where it is as thick as the tolerance.
+  const double half = std::asin(0.5 * std::hypot(0.25, 0.1) / 0.6);
+  EXPECT_LE(meshed->stats.maxDistance, options.tolerance / (2.0 * std::tan(half)));
 }
 
 }  // namespace islands_test

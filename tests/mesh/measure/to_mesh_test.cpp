@@ -4,6 +4,8 @@
 
 #include "mesh/scenes.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/solids/flats.h"
 
 namespace sdf::test {
 namespace to_mesh_test {
@@ -85,6 +87,16 @@ TEST(DistanceToMesh, SeesNoFilmWhereSolidsTouch) {
                 0.9999f)
           << at << ": " << p.y;
   }
+}
+
+// The distance of a profile with a side on the axis is 0 there, inside of the solid.
+TEST(DistanceToMesh, SeesNoFilmOnAnAxis) {
+  const glm::dvec2 profile[] = {{0.0, 0.0}, {0.7, 0.0}, {0.3, 0.5}, {0.4, 1.1}, {0.0, 1.3}};
+  const Shape top = revolve(polygon(profile));
+  Progress progress;
+  for (const glm::vec3& p : surfacePoints(Model(top).at(), findBounds(top), progress))
+    EXPECT_TRUE(std::hypot(p.x, p.z) > 0.01f || p.y < 0.01f || p.y > 1.29f)
+        << p.x << " " << p.y << " " << p.z;
 }
 
 // More points than are read at a time.

@@ -43,7 +43,7 @@ TEST(Thin, StepsAndRimsBelowTheToleranceDoNotCross) {
   const Shape letter = box({0.3, 0.03, 1.0}) | rotate(box({0.03, 0.3, 1.0}), {0.0, 0.0, 0.2});
   const Shape standing = subtract({letter & cylinder(0.815, 0.5), cylinder(0.74, 2.0)});
   for (const double tolerance : {4e-3})
-    EXPECT_LE(meshed(cup | standing, 0.025, tolerance).mesh.triangles.size(), 4000u) << tolerance;
+    EXPECT_LE(meshed(cup | standing, 0.0125, tolerance).mesh.triangles.size(), 4000u) << tolerance;
 }
 
 // Where a crescent's horns run out to nothing no tolerance can be kept. Elsewhere it is.

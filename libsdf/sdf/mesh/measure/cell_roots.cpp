@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kAlong = 9;
 constexpr int kIsolations = 5;
 constexpr int kBisections = 24;
-// Of the largest coordinate: some times what lies between it and the next float. The numbers of two shapes
-// that touch are rounded each by themselves.
+// Of the largest coordinate or the shape's size: some times what lies between it and the next float. The
+// numbers of two shapes that touch are rounded each by themselves.
 constexpr float kFilm = 8.0f * 0x1p-23f;
 
 }  // namespace
@@ -114,7 +114,7 @@ void CellRoots::bisect(const Tape& tape) {
 void CellRoots::takePoints(const Tape& tape) {
   std::vector<Reading> beside;
   for (const Bracket& b : brackets_) {
-    const glm::vec3 film = kFilm * largestCoordinate(b.outside) * b.way;
+    const glm::vec3 film = kFilm * std::max(largestCoordinate(b.outside), size_) * b.way;
     beside.push_back({b.inside - film, 0.0f});
     beside.push_back({b.outside + film, 0.0f});
   }

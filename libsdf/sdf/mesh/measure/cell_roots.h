@@ -11,8 +11,9 @@ namespace sdf {
 /// Looks for the surface in cells, one after the other.
 class CellRoots {
  public:
-  /// Of a distance that is nowhere steeper than that; infinite where it is not known.
-  explicit CellRoots(double slope) : slope_(static_cast<float>(slope)) {}
+  /// Of a distance that is nowhere steeper than that, infinite where it is not known, and of a shape as large
+  /// as that.
+  CellRoots(double slope, double size) : slope_(static_cast<float>(slope)), size_(static_cast<float>(size)) {}
 
   /// Looks along the lines through the cell's centre: along the axes and, where there is no surface on these,
   /// to the corners. `isolates`: where the slope lets the sign change twice between two readings, that piece
@@ -47,6 +48,7 @@ class CellRoots {
   void takePoints(const Tape& tape);
 
   float slope_;
+  float size_;
   bool isolates_ = false;
   bool mayHold_ = false;
   BatchEvaluator batch_;

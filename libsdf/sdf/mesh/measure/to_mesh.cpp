@@ -120,7 +120,7 @@ std::vector<Cell> cellsOf(Divider& divider, const ModelTapes& model, const Box& 
 
 std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress) {
   Divider divider(model);
-  tbb::enumerable_thread_specific<CellRoots> roots(model.slope());
+  tbb::enumerable_thread_specific<CellRoots> roots(model.slope(), bounds.longestSide());
   std::vector<glm::vec3> all;
   std::vector<Cell> cells = cellsOf(divider, model, bounds, progress);
   const std::size_t most = kSearched * cells.size();
