@@ -15,6 +15,7 @@
 #include "sdf/base/box.h"
 #include "sdf/base/flat_map.h"
 #include "sdf/expr/apply-inl.h"
+#include "sdf/expr/depth.h"
 
 namespace sdf {
 
@@ -29,6 +30,7 @@ class Node {
   std::unique_ptr<PayloadPart> payload;
   std::array<Expr, kMaxGraphArity> args{Expr(nullptr), Expr(nullptr), Expr(nullptr)};
   std::size_t hash = 0;
+  std::uint32_t depth = 0;
   Interval range;
   double lipschitz = 0.0;
   std::array<Interval, 3> partials{};
@@ -139,6 +141,8 @@ class NodeTable {
     }
     if (nodesHeld >= nodesAllowed) throw NodeLimitReached();
     if (!n->payload) setFacts(*n);  // a payload's own code does not run under the lock
+    for (const Expr& a : n->args)
+      if (a.node()) n->depth = std::max(n->depth, a.node()->depth + 1);
     Node* node = n.release();
     nodes_.insert(node);
     ++nodesHeld;
@@ -264,6 +268,7 @@ const ParameterInfo& Expr::parameterInfo() const { return *node_->parameter; }
 const PayloadPart* Expr::payloadPart() const { return node_->payload.get(); }
 const Interval& Expr::range() const { return node_->range; }
 double Expr::lipschitz() const { return node_->lipschitz; }
+std::uint32_t depthOf(const Expr& e) { return e.node()->depth; }
 const std::array<Interval, 3>& Expr::partials() const { return node_->partials; }
 Expr Expr::claimLipschitz(double bound) const {
   if (!(bound < lipschitz())) return *this;
