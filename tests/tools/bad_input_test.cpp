@@ -271,7 +271,7 @@ TEST_F(BadInput, FoldersThatMayNotBeWrittenToAreRefused) {
   command.asNobody = true;
   std::filesystem::permissions(
       folder / "out", perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec);
-  const Outcome outcome = command.run();
+  const Outcome outcome = runCommand(command);
   std::filesystem::permissions(folder / "out", perms::owner_all);
   expectRefusal(outcome, kFiles, {"Permission denied", "choose a folder that you may write to"});
 }
@@ -317,7 +317,7 @@ TEST_F(BadInput, AFullDiskLeavesNothing) {
 TEST_F(BadInput, AFileBeyondTheSizeLimitLeavesNothing) {
   Command command = BadInput::command({scene(kSphere), "-o", out("a.glb")});
   command.fileSizeLimit = 10'000;
-  expectRefusal(command.run(), kFiles, {"a.glb", "File too large", "ulimit"});
+  expectRefusal(runCommand(command), kFiles, {"a.glb", "File too large", "ulimit"});
 }
 
 }  // namespace bad_input_test
