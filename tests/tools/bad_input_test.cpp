@@ -161,6 +161,12 @@ TEST_F(BadInput, WhatCannotBeProvenIsSaidWithItsPlace) {
       {"no distance below 1.87083 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
 }
 
+TEST_F(BadInput, WhatStoodInTheWayOfAProofIsNamedWithItsLine) {
+  expectBadScene("local tip = cone(0.5, 1)\nreturn tip:translate(1, 0, 0)",
+                 {". There the cone at ", ".lua:1 stood in the way: intervals do not tell if it rises. "},
+                 kLimits, {"--certify", "--voxel-size", "0.1"});
+}
+
 TEST_F(BadInput, BakedOcclusionNeedsAKnownSlope) {
   expectBadScene(
       "ambient_occlusion { kind = 'taps' } bounds({-1, -1, -1}, {1, 1, 1})"

@@ -10,6 +10,7 @@
 
 #include "sdf/base/srgb.h"
 #include "sdf/expr/depth.h"
+#include "sdf/expr/origin.h"
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/shape/catalog.h"
@@ -82,6 +83,7 @@ void raise(lua_State* L, const std::string& message) {
 int callGuarded(lua_State* L, LibraryFunction f) {
   try {
     checkLimits(L);
+    const Origin origin("formula", contextOf(L).file, currentLine(L));
     return f(L);
   } catch (const NodeLimitReached&) {
     lua_gc(L, LUA_GCCOLLECT);
