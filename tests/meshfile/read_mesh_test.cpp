@@ -3,7 +3,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gltf/synthetic.h"
 #include "mesh_files.h"
@@ -95,6 +97,47 @@ TEST(ReadMesh, RefusesMoreTrianglesThanItTakes) {
   EXPECT_EQ(read.error().kind, ErrorKind::Limits);
   EXPECT_EQ(read.error().message, "cannot read '" + (folder / "a.glb").string() +
                                       "': it has more than 50000000 triangles; simplify it or split it up");
+}
+
+// A sparse file takes no room: what is larger than any that can be read is not looked into.
+TEST(ReadMesh, RefusesGigabytesUnread) {
+  const Folder folder;
+  for (const char* name : {"a.obj", "a.stl", "a.ply", "a.glb", "a.gltf"}) {
+    const std::filesystem::path file = written(folder / name, "v 0 0 0\n");
+    std::filesystem::resize_file(file, std::uintmax_t{4} << 30);
+    EXPECT_EQ(whyNot(file),
+              "it has 4294 MB, and files of up to 2500 MB are read; simplify it or split it up");
+    EXPECT_EQ(readMesh(file).error().kind, ErrorKind::Limits);
+    std::filesystem::remove(file);
+  }
+}
+
+// As a fan all its triangles would meet in one corner, and looking for crossings would take their square.
+TEST(ReadMesh, CutsFacesOfManyCornersFromTheirBorderInward) {
+  const Folder folder;
+  constexpr int kCorners = 100'000;
+  std::string points, face = "f", plyPoints;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    const std::string at = std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+    points += "v " + at, plyPoints += at;
+    face += " " + std::to_string(i + 1);
+  }
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kCorners) +
+                    "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                    "property list int int vertex_indices\nend_header\n" +
+                    plyPoints + std::to_string(kCorners);
+  for (int i = 0; i < kCorners; ++i) ply += " " + std::to_string(i);
+  for (const auto& file :
+       {written(folder / "a.obj", points + face + "\n"), written(folder / "a.ply", ply + "\n")}) {
+    const ReadMesh read = readWell(file);
+    EXPECT_GT(read.mesh.triangles.size(), kCorners * 9u / 10u);  // some have no area
+    std::vector<int> around(read.mesh.positions.size(), 0);
+    for (const glm::uvec3& t : read.mesh.triangles)
+      for (int k = 0; k < 3; ++k) ++around[t[k]];
+    EXPECT_LE(*std::ranges::max_element(around), 100) << file;
+    EXPECT_EQ(read.mesh.materialOf.size(), read.mesh.triangles.size());
+  }
 }
 
 // Only what ends a file in vain may be missing: the last line's end, or an STL's endsolid.

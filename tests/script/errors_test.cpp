@@ -26,6 +26,38 @@ TEST(Errors, SyntaxErrorsNameLineAndReason) {
                   {"s = \"open", "scene.lua:1: unfinished string near <eof>"}});
 }
 
+// A zero ends strings in C, not in Lua: what follows it counts.
+TEST(Errors, NamesHoldNoControlCharacters) {
+  expectMessages({
+      {R"(part("a\0b", sphere(1)))",
+       R"(scene.lua:1: part: the name must be without control characters, got "a\0b")"},
+      {R"(part("a\27[2J", sphere(1)))",
+       R"(scene.lua:1: part: the name must be without control characters, got "a\27[2J")"},
+      {R"(param("k\0", 1))", R"(scene.lua:1: param: the name must be without control characters, got "k\0")"},
+      {R"(param("k\n=", 1))",
+       R"(scene.lua:1: param: the name must be without control characters, got "k\10=")"},
+      {R"(material{name = "red\0"})",
+       R"(scene.lua:1: material: 'name' must be without control characters, got "red\0")"},
+      {R"(return mesh("a.obj\0.txt"))",
+       R"(scene.lua:1: mesh: the file must be without control characters, got "a.obj\0.txt")"},
+  });
+}
+
+TEST(Errors, WordsCountToTheirEnd) {
+  expectMessages({
+      {R"(tone("filmic\0"))",
+       R"(scene.lua:1: tone must be one of "linear" or "filmic", got a string "filmic\0")"},
+      {R"(return sphere{["radius\0"] = 1})",
+       "scene.lua:1: sphere: unknown field 'radius '; did you mean 'radius'?"},
+      {R"(return sphere(1):paint("#fff\0"))",
+       R"(scene.lua:1: paint: the material or its colour must be a colour like "#ff8800", got "#fff\0")"},
+      {R"(error("a\0b"))", "scene.lua:1: a b"},
+      {R"(return sphere("1\0"))", R"(scene.lua:1: sphere: 'radius' must be a number, got a string "1\0")"},
+      {R"(local t = {["k\0b"] = 1, ["k\0a"] = 2} local s = "" for k, v in pairs(t) do s = s .. v end error(s))",
+       "scene.lua:1: 21"},
+  });
+}
+
 TEST(Errors, UnknownNamesComeWithTheNearestOne) {
   expectMessages({
       {"\n\nreturn spere(1)", "scene.lua:3: unknown name 'spere'; did you mean 'sphere'?"},

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 
 #include "script/run.h"
 
@@ -48,6 +50,55 @@ TEST(Sandbox, EndlessLoopsEnd) {
 TEST(Sandbox, TheMessageNamesTheLineOfTheLoop) {
   EXPECT_EQ(errorOf("local n = 0\n\nwhile true do n = n + 1 end", fewInstructions()),
             "scene.lua:3: ran more than 1 million instructions; look for an endless loop near line 3");
+}
+
+// Work on it grows as the square of its length, and what compiles it for a graphics card goes down by
+// recursion.
+TEST(Sandbox, ChainsOfOperatorsHaveAnEnd) {
+  const std::string most =
+      "scene.lua:2: the shape has 4097 operations upon one another, and up to 4096 can be drawn "
+      "and meshed; give all shapes to one union(list), intersection or difference, and each "
+      "operator once";
+  for (const char* one : {"s:round(1e-6)", "s - sphere(0.01)", "s & sphere(9)"})
+    EXPECT_EQ(errorOf("local s = box(1)\nfor i = 1, 100000 do s = " + std::string(one) + " end return s"),
+              most)
+        << one;
+  EXPECT_EQ(errorOf("return field(function(x)\nfor i = 1, 100000 do x = sin(x) end return x end)"),
+            "scene.lua:2: the formula has 4097 operations upon one another, and up to 4096 can be drawn and "
+            "meshed; "
+            "look for a loop that can be shorter");
+  sceneOf("local s = box(1) for i = 1, 500 do s = s:round(1e-6) - sphere(0.01) end return s");
+}
+
+// However many, given at once they stand side by side.
+TEST(Sandbox, ListsOfShapesAreNoChains) {
+  sceneOf(
+      "local all = {} for i = 1, 10000 do all[i] = sphere(0.1):translate(i, 0, 0) end "
+      "return union(all), difference(box(1), union(all))");
+}
+
+// Names are looked up, not gone through: the square of so many would be 20,000,000,000 comparisons.
+TEST(Sandbox, ManyPartsTakeTheirNumberOnly) {
+  const Scene named = sceneOf(
+      "local s = sphere(1) for i = 1, 100000 do part('a long name that all parts share ' .. i, s) end");
+  EXPECT_EQ(named.parts.size(), 100'000u);
+  EXPECT_EQ(errorOf("part('part 2', sphere(1)) part('part 2', sphere(2))"),
+            "scene.lua:1: part 'part 2' exists already; give each part a name of its own");
+  const Scene returned = sceneOf("part('part 2', sphere(1)) return sphere(1), sphere(2)");
+  ASSERT_EQ(returned.parts.size(), 3u);
+  EXPECT_EQ(returned.parts[1].name, "part 3");
+  EXPECT_EQ(returned.parts[2].name, "part 4");
+}
+
+TEST(Sandbox, AFileOfGigabytesIsNotRead) {
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "sparse.lua";
+  std::ofstream(file) << "return sphere(1)";
+  std::filesystem::resize_file(file, std::uintmax_t{4} << 30);
+  const Result<Scene> scene = loadScene(file);
+  std::filesystem::remove(file);
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().message,
+            file.string() + ": it has 4096 MiB, and a scene may use 256 MiB of memory; name a scene file");
 }
 
 TEST(Sandbox, ALimitCannotBeCaught) {
@@ -96,10 +147,10 @@ TEST(Sandbox, GraphsCountAsMemory) {
            "local s = sphere(1) for i = 1, 40 do s = union{s, s} end return s",
            "local s = sphere(1) for i = 1, 12 do s = union{s, s} end local t = {} for i = 1, 1e9 do t[i] = "
            "s:paint{color = {1, 0, 0}} end return s",
-           "local e = time for i = 1, 1e9 do e = sin(e) * e end return sphere(e)",
-           "local function f(x, n) for i = 1, n do x = sin(x) + cos(x) * i end return x end "
-           "field(function(x) return f(x, "
-           "1e9) end)",
+           "local e = {} for i = 1, 1e9 do e[i] = sin(i * time) * time end return sphere(e[1])",
+           "local function f(x, n) local all = {} for i = 1, n do all[i] = sin(x * i) + cos(x) end return "
+           "all[1] end "
+           "field(function(x) return f(x, 1e9) end)",
        }) {
     const std::string message = errorOf(text, littleMemory());
     EXPECT_TRUE(message.find("16 MiB of memory") != std::string::npos) << message << "\n" << text;

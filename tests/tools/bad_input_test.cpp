@@ -161,6 +161,12 @@ TEST_F(BadInput, WhatCannotBeProvenIsSaidWithItsPlace) {
       {"no distance below 1.87083 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
 }
 
+TEST_F(BadInput, WhatStoodInTheWayOfAProofIsNamedWithItsLine) {
+  expectBadScene("local tip = cone(0.5, 1)\nreturn tip:translate(1, 0, 0)",
+                 {". There the cone at ", ".lua:1 stood in the way: intervals do not tell if it rises. "},
+                 kLimits, {"--certify", "--voxel-size", "0.1"});
+}
+
 TEST_F(BadInput, BakedOcclusionNeedsAKnownSlope) {
   expectBadScene(
       "ambient_occlusion { kind = 'taps' } bounds({-1, -1, -1}, {1, 1, 1})"
@@ -271,7 +277,7 @@ TEST_F(BadInput, FoldersThatMayNotBeWrittenToAreRefused) {
   command.asNobody = true;
   std::filesystem::permissions(
       folder / "out", perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec);
-  const Outcome outcome = command.run();
+  const Outcome outcome = runCommand(command);
   std::filesystem::permissions(folder / "out", perms::owner_all);
   expectRefusal(outcome, kFiles, {"Permission denied", "choose a folder that you may write to"});
 }
@@ -317,7 +323,7 @@ TEST_F(BadInput, AFullDiskLeavesNothing) {
 TEST_F(BadInput, AFileBeyondTheSizeLimitLeavesNothing) {
   Command command = BadInput::command({scene(kSphere), "-o", out("a.glb")});
   command.fileSizeLimit = 10'000;
-  expectRefusal(command.run(), kFiles, {"a.glb", "File too large", "ulimit"});
+  expectRefusal(runCommand(command), kFiles, {"a.glb", "File too large", "ulimit"});
 }
 
 }  // namespace bad_input_test

@@ -4,6 +4,7 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cfloat>
+#include <csignal>
 #include <numbers>
 
 #include "exported.h"
@@ -459,7 +460,18 @@ TEST_F(Export, FramesTakeTheirPlaceInAPattern) {
   EXPECT_EQ(written(), (std::vector<std::string>{"1.ply", "b_001_%x.ply", "b_002_%x.ply"}));
 }
 
-TEST_F(Export, ShowsItsProgressOnATerminalOnly) {
+TEST_F(Export, TellsOfItsProgressInLinesElsewhere) {
+  Command command = Export::command({scene("return gyroid(0.5, 0.1) & sphere(3)"), "-o", out("a.glb"),
+                                     "--voxel-size", "0.02", "--threads", "1"});
+  command.signal = SIGINT;
+  command.signalAfter = 0.0;  // once there is a line
+  const Outcome outcome = command.run();
+  ASSERT_FALSE(outcome.endedBeforeSignal) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("sdf2gltf: after 1 s: part 'part 1' (1 of 1): ")) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with("\nsdf2gltf: interrupted\n")) << outcome.err;
+}
+
+TEST_F(Export, ShowsItsProgressInPlaceOnATerminal) {
   const std::string file = scene(kTwoParts);
   Command command = Export::command({file, "-o", out("a.glb"), "--voxel-size", "0.01"});
   command.terminal = true;

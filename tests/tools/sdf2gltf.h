@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,21 @@ class Sdf2gltf : public testing::Test {
     command.words.insert(command.words.end(), arguments.begin(), arguments.end());
     return command;
   }
-  static Outcome run(std::vector<std::string> arguments) { return command(std::move(arguments)).run(); }
+  static Outcome run(std::vector<std::string> arguments) { return runCommand(command(std::move(arguments))); }
+  static Outcome runCommand(const Command& command) {
+    Outcome outcome = command.run();
+    outcome.err = withoutProgress(outcome.err);
+    return outcome;
+  }
+
+  /// What is said of progress where stderr is no terminal depends on how fast the machine is.
+  static std::string withoutProgress(const std::string& said) {
+    std::istringstream lines(said);
+    std::string rest;
+    for (std::string line; std::getline(lines, line);)
+      if (!line.starts_with("sdf2gltf: after ")) rest += line + "\n";
+    return rest;
+  }
 
   /// Names in the `out` folder, sorted.
   std::vector<std::string> written() const {

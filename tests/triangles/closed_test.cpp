@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 
+#include "sdf/triangles/polygon.h"
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
@@ -93,6 +97,112 @@ TEST(Closed, NothingIsLeftOfATriangleWithoutAnArea) {
   mesh.triangles = {{0, 1, 2}};
   EXPECT_TRUE(closed(mesh).triangles.empty());
   EXPECT_TRUE(closed(TriangleMesh()).triangles.empty());
+}
+
+TriangleMesh overAndOver(const TriangleMesh& mesh, int times) {
+  TriangleMesh all;
+  all.positions = mesh.positions;
+  for (int i = 0; i < times; ++i)
+    all.triangles.insert(all.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  return all;
+}
+
+// As many as a file may hold: the work grows as their number does.
+TEST(Closed, TrianglesThatAreThereAgainAreLeftOut) {
+  const ClosedTriangles all = closed(overAndOver(kBox, 20000));
+  EXPECT_EQ(all.triangles, kBox.triangles);
+  EXPECT_EQ(all.repeated, 12u * 19999u);
+  EXPECT_EQ(all.holes + all.films, 0u);
+  EXPECT_TRUE(all.manifold);
+}
+
+// Two pyramids on one base, on the same side of it: the base belongs to both.
+TEST(Closed, ATriangleThatTwoSolidsShareIsNoHole) {
+  TriangleMesh mesh;
+  mesh.positions = {
+      {0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {0.2f, 0.2f, 2.0f}};
+  for (const std::uint32_t tip : {3u, 4u})
+    mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {0, 1, tip}, {1, 2, tip}, {2, 0, tip}});
+  const ClosedTriangles all = closed(mesh);
+  EXPECT_EQ(all.triangles.size(), 8u);
+  EXPECT_EQ(all.holes + all.repeated + all.films, 0u);
+}
+
+TEST(Closed, WhatHasNothingBehindItIsLeftOut) {
+  TriangleMesh mesh = kBox;
+  mesh.positions.emplace_back(5.0f, 5.0f, 5.0f);
+  mesh.triangles.emplace_back(0, 1, 8);
+  const ClosedTriangles all = closed(mesh);
+  EXPECT_EQ(all.triangles, kBox.triangles);
+  EXPECT_EQ(all.films, 1u);
+  EXPECT_EQ(all.holes, 0u);
+}
+
+// A wall between two boxes is no border of what they make together.
+TEST(Closed, AWallBetweenSolidsIsLeftOut) {
+  const TriangleMesh beside = boxOf(glm::vec3(1.0f, -1.0f, -1.0f), glm::vec3(4.0f, 2.0f, 3.0f));
+  const ClosedTriangles all = closed(together(kBox, beside));
+  EXPECT_EQ(all.films + all.triangles.size(), 24u);
+  EXPECT_GE(all.films, 2u);
+  EXPECT_TRUE(hasNoBorder(all));
+  EXPECT_NEAR(volumeOf(all), 2.5 * kVolume, 1e-12);
+}
+
+// All on one edge, as the leaves of a book.
+TEST(Closed, ABookOfManyLeavesIsNothing) {
+  TriangleMesh book;
+  book.positions = {{0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+  constexpr std::uint32_t kLeaves = 40000;
+  for (std::uint32_t i = 0; i < kLeaves; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kLeaves;
+    book.positions.emplace_back(std::cos(angle), 0.5, std::sin(angle));
+    book.triangles.emplace_back(0, 1, i + 2);
+  }
+  const ClosedTriangles all = closed(book);
+  EXPECT_TRUE(all.triangles.empty());
+  EXPECT_EQ(all.films, kLeaves);
+}
+
+std::vector<std::uint32_t> ring(std::uint32_t count, TriangleMesh& mesh) {
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / count;
+    corners.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  return corners;
+}
+
+double areaOf(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const glm::uvec3& t : mesh.triangles)
+    sum += 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t.y] - mesh.positions[t.x]),
+                                        glm::dvec3(mesh.positions[t.z] - mesh.positions[t.x])));
+  return sum;
+}
+
+TEST(CutPolygon, CutsARoundOneIntoTrianglesThatFillIt) {
+  TriangleMesh mesh;
+  constexpr std::uint32_t kCorners = 5000;
+  const std::vector<std::uint32_t> corners = ring(kCorners, mesh);
+  cutPolygon(mesh.positions, corners, mesh.triangles);
+  EXPECT_EQ(mesh.triangles.size(), kCorners - 2);
+  EXPECT_NEAR(areaOf(mesh), std::numbers::pi, 1e-5);
+  std::vector<int> around(kCorners, 0);
+  for (const glm::uvec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++around[t[k]];
+  EXPECT_LE(*std::ranges::max_element(around), 40);  // a fan's are kCorners - 2
+}
+
+// So what is before a polygon and what is behind it cancel out.
+TEST(CutPolygon, CutsThePolygonAlikeFromBehind) {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> corners = ring(3000, mesh);
+  cutPolygon(mesh.positions, corners, mesh.triangles);
+  std::ranges::reverse(corners);
+  std::ranges::rotate(corners, corners.begin() + 1000);
+  cutPolygon(mesh.positions, corners, mesh.triangles);
+  EXPECT_TRUE(closed(mesh).triangles.empty());
 }
 
 // Any heap of triangles: borders that meet in points, edges of many triangles, holes within holes.

@@ -30,7 +30,8 @@ int run(const Options& options) {
   if (options.threads) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(*options.threads));
   }
-  ProgressLine progress(!options.quiet && ::isatty(STDERR_FILENO) == 1);
+  using enum ProgressLine::Shown;
+  ProgressLine progress(options.quiet ? Nowhere : ::isatty(STDERR_FILENO) == 1 ? InPlace : InLines);
   Status status = okStatus();
   {
     const InterruptWatch watch(progress);

@@ -1,35 +1,48 @@
-// A line on the terminal that says what is being done and how long it will take.
+// A line that says what is being done and how long it will take.
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "sdf/base/progress.h"
 
 namespace sdf::exporter {
 
-/// Shows "part 'body' (2 of 5): sampling 43 %, 12 s left" on stderr, redrawn in place; silent unless `shown`.
+/// Says "part 'body' (2 of 5): sampling 43 %, 12 s left" on stderr. On a terminal the line is redrawn in
+/// place, elsewhere there is one after the first second and one every ten seconds then. Where a stage's share
+/// is not known, it says for how long it has been going on.
 class ProgressLine : public Progress {
  public:
-  explicit ProgressLine(bool shown) : shown_(shown) {}
+  enum class Shown { Nowhere, InPlace, InLines };
+
+  explicit ProgressLine(Shown shown) : shown_(shown) {}
+  ~ProgressLine() override;
 
   /// What the coming stages belong to, e.g. "part 'body' (2 of 5)"; may be empty.
   void setSubject(std::string subject);
+  /// From the first stage on a thread of its own draws, too: make what watches signals before.
   void beginStage(std::string_view name) override;
   void update(double fraction) override;
-  /// Empties the line, so that other output can follow.
+  /// Empties the line and says nothing until the next stage, so that other output can follow.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void draw(double fraction);
+  void watch();
+  void draw();
 
-  const bool shown_;
+  const Shown shown_;
   std::mutex mutex_;
   std::string subject_, stage_;
-  Clock::time_point stageBegan_ = Clock::now();
+  Clock::time_point began_ = Clock::now(), stageBegan_ = began_;
+  std::atomic<double> share_{0.0};
   std::atomic<Clock::rep> nextDraw_{0};
+  bool ended_ = false;
+  std::condition_variable end_;
+  std::thread watcher_;
 };
 
 }  // namespace sdf::exporter

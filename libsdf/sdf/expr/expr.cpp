@@ -5,9 +5,12 @@
 #include <bit>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -15,6 +18,8 @@
 #include "sdf/base/box.h"
 #include "sdf/base/flat_map.h"
 #include "sdf/expr/apply-inl.h"
+#include "sdf/expr/depth.h"
+#include "sdf/expr/origin.h"
 
 namespace sdf {
 
@@ -29,6 +34,7 @@ class Node {
   std::unique_ptr<PayloadPart> payload;
   std::array<Expr, kMaxGraphArity> args{Expr(nullptr), Expr(nullptr), Expr(nullptr)};
   std::size_t hash = 0;
+  std::uint32_t depth = 0, origin = 0;
   Interval range;
   double lipschitz = 0.0;
   std::array<Interval, 3> partials{};
@@ -104,6 +110,36 @@ void setFacts(Node& n) {
   }
 }
 
+// Of the nodes that this thread makes; 0: unknown.
+thread_local std::uint32_t originNow = 0;
+
+/// Places in scenes, by number. They are few: as many as lines of scenes that make something.
+class Origins {
+ public:
+  static Origins& instance() {
+    static auto* all = new Origins;
+    return *all;
+  }
+  std::uint32_t numberOf(const char* what, const std::string& file, int line) {
+    std::lock_guard lock(mutex_);
+    const auto [place, fresh] = numbers_.try_emplace({what, line, file}, 0);
+    if (fresh) {
+      texts_.push_back(std::string("the ") + what + " at " + file + ":" + std::to_string(line));
+      place->second = static_cast<std::uint32_t>(texts_.size());
+    }
+    return place->second;
+  }
+  std::string text(std::uint32_t number) {
+    std::lock_guard lock(mutex_);
+    return number == 0 ? "" : texts_[number - 1];
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::tuple<std::string_view, int, std::string>, std::uint32_t> numbers_;
+  std::vector<std::string> texts_;
+};
+
 // Nodes made less nodes deleted by this thread, and how many there may be (see NodeLimit).
 thread_local std::int64_t nodesHeld = 0;
 thread_local std::int64_t nodesAllowed = std::numeric_limits<std::int64_t>::max();
@@ -113,6 +149,10 @@ thread_local std::int64_t nodesAllowed = std::numeric_limits<std::int64_t>::max(
 NodeLimit::NodeLimit(std::int64_t count) : before_(nodesHeld) { nodesAllowed = before_ + count; }
 NodeLimit::~NodeLimit() { nodesAllowed = std::numeric_limits<std::int64_t>::max(); }
 std::int64_t NodeLimit::held() const { return nodesHeld - before_; }
+
+Origin::Origin(const char* what, const std::string& file, int line)
+    : before_(std::exchange(originNow, Origins::instance().numberOf(what, file, line))) {}
+Origin::~Origin() { originNow = before_; }
 
 CountedAsNodes::CountedAsNodes(std::int64_t nodes) : nodes_(nodes) {
   if (nodesHeld + nodes > nodesAllowed) throw NodeLimitReached();
@@ -139,7 +179,10 @@ class NodeTable {
     }
     if (nodesHeld >= nodesAllowed) throw NodeLimitReached();
     if (!n->payload) setFacts(*n);  // a payload's own code does not run under the lock
+    for (const Expr& a : n->args)
+      if (a.node()) n->depth = std::max(n->depth, a.node()->depth + 1);
     Node* node = n.release();
+    node->origin = originNow;
     nodes_.insert(node);
     ++nodesHeld;
     return Expr(node);
@@ -264,6 +307,8 @@ const ParameterInfo& Expr::parameterInfo() const { return *node_->parameter; }
 const PayloadPart* Expr::payloadPart() const { return node_->payload.get(); }
 const Interval& Expr::range() const { return node_->range; }
 double Expr::lipschitz() const { return node_->lipschitz; }
+std::string originOf(const Expr& e) { return Origins::instance().text(e.node()->origin); }
+std::uint32_t depthOf(const Expr& e) { return e.node()->depth; }
 const std::array<Interval, 3>& Expr::partials() const { return node_->partials; }
 Expr Expr::claimLipschitz(double bound) const {
   if (!(bound < lipschitz())) return *this;
@@ -334,9 +379,24 @@ double uniformValue(const Expr& e) {
 
 namespace {
 
+/// Gives a variable another value, and its own at the end.
+class Restored {
+ public:
+  Restored(std::uint32_t& variable, std::uint32_t value)
+      : variable_(variable), before_(std::exchange(variable, value)) {}
+  ~Restored() { variable_ = before_; }
+  Restored(const Restored&) = delete;
+  Restored& operator=(const Restored&) = delete;
+
+ private:
+  std::uint32_t& variable_;
+  std::uint32_t before_;
+};
+
 // The node's operation, or payload, over other arguments, as many as it has; a leaf is itself.
 Expr remade(const Expr& node, std::span<const Expr> args) {
   if (args.empty()) return node;
+  const Restored origin(originNow, node.node()->origin);
   if (node.op() == Op::Payload) return Expr::payload(*node.payloadPart(), {args[0], args[1], args[2]});
   return Expr::make(node.op(), args);
 }

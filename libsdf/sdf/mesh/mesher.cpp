@@ -28,6 +28,7 @@
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/project.h"
 #include "sdf/proof/certify.h"
+#include "sdf/proof/obstacle.h"
 #include "sdf/shape/catalog.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/place.h"
@@ -125,6 +126,7 @@ class Mesher {
     const bool thins = options_.tolerance > 0.0;
     painted_ = isPainted(shape);
     const ModelTapes model = Model(shape).at(options_.values);
+    distance_ = shape.distance;
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
       if (!sampled) return sampled.error();
@@ -412,6 +414,8 @@ class Mesher {
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     stats.provenDistance = proof.bound();
     if (proof.proven()) return okStatus();
+    const Box cell = Box{proof.firstUnproven, proof.firstUnproven}.grown(0.5 * proof.unprovenSize);
+    const std::string obstacle = obstacleIn(distance_, cell, options_.values);
     return Error{
         ErrorKind::Limits,
         "part '" + name_ + "': no distance below " + shown(limit) +
@@ -419,7 +423,7 @@ class Mesher {
             " cells, the first of side " + shown(proof.unprovenSize) + " around " +
             place(proof.firstUnproven) +
             (proof.bound() > 0.0 ? "; elsewhere it is " + shown(proof.bound()) + " at most" : "") +
-            "; measured " + shown(stats.maxDistance) +
+            "; measured " + shown(stats.maxDistance) + (obstacle.empty() ? "" : ". There " + obstacle) +
             ". The mesh may lack something there; or proofs fail: at tips, where surfaces touch, and "
             "where the slope is not known. Take a smaller voxel size, or leave --certify out"};
   }
@@ -441,6 +445,7 @@ class Mesher {
   using Clock = std::chrono::steady_clock;
   const std::string& name_;
   const MeshOptions& options_;
+  Expr distance_;  // of the shape
   Progress& progress_;
   MeshedShape result_;
   bool painted_ = false;

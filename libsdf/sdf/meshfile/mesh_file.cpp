@@ -18,6 +18,14 @@ Error noReading(const fs::path& file, int reason) {
   return unreadable(file, std::generic_category().message(reason) + "; " + advice);
 }
 
+Error tooLarge(const fs::path& file, std::uintmax_t bytes) {
+  const auto megabytes = [](std::uintmax_t b) { return std::to_string(b / 1'000'000) + " MB"; };
+  return {ErrorKind::Limits,
+          unreadable(file, "it has " + megabytes(bytes) + ", and files of up to " +
+                               megabytes(kMostReadBytes) + " are read; simplify it or split it up")
+              .message};
+}
+
 /// Is `inner` below `folder`? Both are canonical.
 bool isBelow(const fs::path& folder, const fs::path& inner) {
   return std::mismatch(folder.begin(), folder.end(), inner.begin(), inner.end()).first == folder.end();
@@ -65,6 +73,7 @@ Result<MeshFile> readWhole(const fs::path& file) {
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) return noReading(file, error.value());
   if (size == 0) return unreadable(file, "it is empty");
+  if (size > kMostReadBytes) return tooLarge(file, size);
   whole.bytes.resize(size);
   in.read(whole.bytes.data(), static_cast<std::streamsize>(size));
   if (in.gcount() != static_cast<std::streamsize>(size)) return noReading(file, EIO);

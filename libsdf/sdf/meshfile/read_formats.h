@@ -20,7 +20,8 @@ Result<ReadMesh> readStl(const MeshFile& file);
 /// arrays of one length each.
 Status tidy(const std::filesystem::path& file, ReadMesh& read);
 
-/// Cuts a polygon into a fan of triangles. False where there are too many triangles then.
+/// Cuts a polygon into a fan of triangles, one of more than 1,000 corners as cutPolygon does; the mesh has
+/// its vertices, and a material for each triangle so far. False where there are too many triangles then.
 bool addPolygon(const std::vector<std::uint32_t>& corners, std::uint32_t material, TriangleMesh& mesh);
 
 }  // namespace sdf

@@ -1,6 +1,7 @@
 // Reading triangle meshes: .glb and .gltf with their materials and pictures; .obj, .stl and .ply.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@ namespace sdf {
 
 /// More triangles than these are refused: they would take gigabytes.
 inline constexpr std::size_t kMostReadTriangles = 50'000'000;
+/// Larger files are refused before they are read: no binary STL of so many triangles is.
+inline constexpr std::uintmax_t kMostReadBytes = 84 + 50 * std::uintmax_t{kMostReadTriangles};
 /// Vertices farther than this from the origin along an axis are refused: products of three such lengths
 /// leave the range of floats.
 inline constexpr float kFarthestCoordinate = 1e15f;
@@ -21,7 +24,8 @@ inline constexpr float kFarthestCoordinate = 1e15f;
 Status checkReadable(const std::filesystem::path& file);
 
 /// Reads the triangles of a file, whose extension says what it holds. Triangles of zero area are dropped, and
-/// counted in a warning; polygons are cut into triangles, as a fan; no other triangle is lost, however many
+/// counted in a warning; polygons are cut into triangles, those of up
+/// to 1,000 corners as a fan, larger ones from their border inward; no other triangle is lost, however many
 /// meet at an edge. Normals are unit: where some vertices have none that is usable, it is the mean of the
 /// triangles' around them, by area. Vertices that no triangle has are dropped.
 /// - .glb, .gltf (Khronos, glTF 2.0 Specification, 2021): the default scene, else the first, else all nodes;
@@ -38,8 +42,8 @@ Status checkReadable(const std::filesystem::path& file);
 /// A picture or .mtl that cannot be read is a warning. Pictures are PNG or JPEG.
 /// Errors: Usage (unknown extension); Files (cannot be read, is cut off, contradicts its format or itself,
 /// has no triangles, has coordinates that are not finite or beyond kFarthestCoordinate, requires an extension
-/// that is unknown here, names a file outside its folder); Limits (more than kMostReadTriangles, out of
-/// memory). Any bytes give a mesh or an error.
+/// that is unknown here, names a file outside its folder); Limits (more than kMostReadTriangles or
+/// kMostReadBytes, out of memory). Any bytes give a mesh or an error.
 Result<ReadMesh> readMesh(const std::filesystem::path& file);
 
 }  // namespace sdf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "sdf/expr/origin.h"
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/script/meshes.h"
@@ -34,6 +35,7 @@ class Call {
                     "; write " + usageOf(entry_));
     for (Argument& value : values)
       if (const auto missing = leaveOut(value)) return *missing;
+    const Origin origin(entry_.name.c_str(), contextOf(L_).file, currentLine(L_));
     Shape result = build(entry_, std::move(values));
     if (!result.ok()) raise(L_, *result.error);
     if (result.formulaAt.empty()) result.formulaAt = formulaAt_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <unordered_set>
 
 #include "sdf/expr/expr.h"
 #include "sdf/scene/scene.h"
@@ -26,7 +27,8 @@ struct ScriptContext {
   Scene scene;
   std::map<std::string, int> settingLines;  ///< settings made so far, and where
   std::map<std::string, double> parameterDefaults;
-  int materials = 0;  ///< made so far
+  std::unordered_set<std::string> partNames;  ///< of those made so far
+  int materials = 0;                          ///< made so far
 
   NodeLimit nodes;
   std::int64_t nodesAtCollection = 0;

@@ -144,8 +144,7 @@ Expr chosen(const Expr& condition, const Expr& a, const Expr& b) {
 
 int selectValue(lua_State* L) {
   const int count = lua_gettop(L);
-  if (lua_type(L, 1) == LUA_TSTRING && std::string(lua_tostring(L, 1)) == "#")
-    return lua_pushinteger(L, count - 1), 1;
+  if (lua_type(L, 1) == LUA_TSTRING && textAt(L, 1) == "#") return lua_pushinteger(L, count - 1), 1;
   if (count != 3)
     raise(L,
           "select takes a condition and two values, select(less(x, 0), a, b); the n-th of ... is ({...})[n]");

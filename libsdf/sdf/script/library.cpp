@@ -36,7 +36,7 @@ void checkNames(lua_State* L, int index, const std::string& function, const std:
   for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
     const bool named = lua_type(L, -2) == LUA_TSTRING;
     if (!named && !usage.empty()) raise(L, function + ": every field needs a name; write " + usage);
-    const std::string name = named ? lua_tostring(L, -2) : "";
+    const std::string name = named ? textAt(L, -2) : "";
     if (!named || std::ranges::find(known, name) != known.end()) continue;
     const std::string near = suggestion(name, known);
     raise(L, function + ": unknown field '" + name + "'" +

@@ -38,6 +38,11 @@ std::string noteOf(const MeshField& field, const std::vector<std::string>& warni
   std::string note;
   const auto say = [&](const std::string& what) { note += (note.empty() ? "" : "; ") + what; };
   for (const std::string& warning : warnings) say(warning);
+  if (all.repeated > 0)
+    say(counted(all.repeated, "triangle was", "triangles were") + " there more than once and left out");
+  if (all.films > 0)
+    say(counted(all.films, "triangle bounds", "triangles bound") + " no solid and " +
+        (all.films == 1 ? "is" : "are") + " left out of the distance");
   if (all.holes > 0) say(counted(all.holes, "hole was", "holes were") + " closed");
   if (all.turned > 0)
     say(counted(all.turned, "triangle was", "triangles were") + " turned to agree with its neighbours");

@@ -79,7 +79,7 @@ std::string placeOf(const std::string& file, int line) {
 // Runs where the error arose: gives it a place if it has none.
 int addPlace(lua_State* L) {
   const bool text = lua_type(L, 1) == LUA_TSTRING;
-  std::string message = text ? lua_tostring(L, 1) : "error was given " + describe(L, 1) + "; give it a text";
+  std::string message = text ? textAt(L, 1) : "error was given " + describe(L, 1) + "; give it a text";
   if (message.ends_with("stack overflow")) message += "; look for a function that calls itself without end";
   if (message.find("a formula value") != std::string::npos || message.ends_with("got formula)"))
     message += "; value(k) gives the present value of a parameter k";
@@ -99,7 +99,12 @@ int addReturned(lua_State* L) {
     if (!shape && count == 1 && lua_isnil(L, i)) return 0;
     if (!shape) raise(L, "the script must return shapes, returned " + describe(L, i));
     if (shape->dimension != 3) raise(L, "the shape that the script returns is flat; extrude or revolve it");
-    if (!isMissing(*shape)) c.scene.add("", *shape);
+    if (isMissing(*shape)) continue;
+    std::string name;
+    for (std::size_t number = c.scene.parts.size() + 1; name.empty(); ++number)
+      if (std::string free = "part " + std::to_string(number); c.partNames.insert(free).second)
+        name = std::move(free);
+    c.scene.add(std::move(name), *shape);
   }
   return 0;
 }
@@ -163,8 +168,8 @@ class Sandbox {
   // The message on the top of the stack, or what is known better.
   Error failure(int status) const {
     if (!context_.exceeded.empty()) return error(context_.exceededLine, context_.exceeded);
-    const char* raw = lua_type(state_, -1) == LUA_TSTRING ? lua_tostring(state_, -1) : "the script failed";
-    const std::string message = raw;
+    const std::string message =
+        lua_type(state_, -1) == LUA_TSTRING ? textAt(state_, -1) : "the script failed";
     if (status == LUA_ERRMEM || (context_.refused && message.ends_with("not enough memory")))
       return outOfMemory();
     const std::string& name = context_.shortName;

@@ -70,6 +70,10 @@ Result<Scene> loadScene(const std::filesystem::path& file, const ScriptOptions& 
   std::error_code code;
   if (std::filesystem::is_directory(file, code))
     return Error{ErrorKind::Files, file.string() + ": this is a folder; name a scene file"};
+  if (const std::uintmax_t size = std::filesystem::file_size(file, code); !code && size > options.memoryLimit)
+    return Error{ErrorKind::Scene,
+                 file.string() + ": it has " + std::to_string(size >> 20) + " MiB, and a scene may use " +
+                     std::to_string(options.memoryLimit >> 20) + " MiB of memory; name a scene file"};
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (in) text << in.rdbuf();

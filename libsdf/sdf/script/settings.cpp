@@ -81,7 +81,7 @@ int addPart(lua_State* L) {
   if (shape.dimension != 3) raise(L, "part '" + name + "' is flat; extrude or revolve it");
   Scene& scene = contextOf(L).scene;
   if (name.empty()) raise(L, "part: the name must not be empty");
-  if (std::ranges::find(scene.parts, name, &Part::name) != scene.parts.end())
+  if (!contextOf(L).partNames.insert(name).second)
     raise(L, "part '" + name + "' exists already; give each part a name of its own");
   if (!isMissing(shape)) scene.add(name, shape);
   lua_settop(L, 2);
@@ -94,7 +94,7 @@ int newParameter(lua_State* L) {
   ParameterInfo p;
   p.name = readText(L, 1, "param: the name");
   if (p.name.empty() || p.name.find('=') != std::string::npos)
-    raise(L, "param: the name must be a word without '=', got \"" + p.name + "\"");
+    raise(L, "param: the name must be a word without '=', got " + inLuaQuotes(p.name));
   if (p.name == "time") raise(L, "param: 'time' is the scene's clock; give the parameter another name");
   const std::string what = "param '" + p.name + "'";
   const double usual = readPlainNumber(L, 2, what + ": the default");

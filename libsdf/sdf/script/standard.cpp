@@ -2,7 +2,6 @@
 // scene language.
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <lua.hpp>
 #include <numbers>
 #include <numeric>
@@ -31,7 +30,7 @@ int sortedPairs(lua_State* L) {
     const int ra = rank(lua_rawgeti(L, 2, a)), rb = rank(lua_rawgeti(L, 2, b));
     bool before = ra < rb;
     if (ra == rb && ra == 0) before = lua_compare(L, -2, -1, LUA_OPLT);
-    if (ra == rb && ra == 1) before = std::strcmp(lua_tostring(L, -2), lua_tostring(L, -1)) < 0;
+    if (ra == rb && ra == 1) before = textAt(L, -2) < textAt(L, -1);
     lua_pop(L, 2);
     return before;
   });
@@ -67,7 +66,8 @@ int printToStderr(lua_State* L) {
     line.append(i > 1 ? "\t" : "").append(text, size);
     lua_pop(L, 1);
   }
-  std::fprintf(stderr, "%s\n", line.c_str());
+  line += '\n';
+  std::fwrite(line.data(), 1, line.size(), stderr);
   return 0;
 }
 
@@ -141,13 +141,13 @@ constexpr const char* kOutside[] = {"io",     "os",      "require",   "load",   
 std::vector<std::string> textKeys(lua_State* L, int table) {
   std::vector<std::string> keys;
   for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1))
-    if (lua_type(L, -2) == LUA_TSTRING) keys.emplace_back(lua_tostring(L, -2));
+    if (lua_type(L, -2) == LUA_TSTRING) keys.push_back(textAt(L, -2));
   std::ranges::sort(keys);
   return keys;
 }
 
 std::string keyText(lua_State* L, int index) {
-  return lua_type(L, index) == LUA_TSTRING ? lua_tostring(L, index) : describe(L, index);
+  return lua_type(L, index) == LUA_TSTRING ? textAt(L, index) : describe(L, index);
 }
 
 // `time` becomes a parameter of the scene when it is first named.
@@ -177,7 +177,7 @@ int unknownGlobal(lua_State* L) {
 
 // For the tables of the standard library; upvalue: their name.
 int unknownMember(lua_State* L) {
-  const std::string library = lua_tostring(L, lua_upvalueindex(1)), name = keyText(L, 2);
+  const std::string library = textAt(L, lua_upvalueindex(1)), name = keyText(L, 2);
   lua_pushvalue(L, lua_upvalueindex(2));
   const std::string near = nearest(name, textKeys(L, lua_gettop(L)));
   raise(L,

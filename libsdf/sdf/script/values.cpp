@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "sdf/base/srgb.h"
+#include "sdf/expr/depth.h"
+#include "sdf/expr/origin.h"
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/shape/catalog.h"
@@ -46,7 +48,7 @@ void makeType(lua_State* L, const char* type, lua_CFunction finish, lua_CFunctio
 
 // Fields of values that have none.
 int noField(lua_State* L) {
-  const char* key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+  const std::string key = lua_type(L, 2) == LUA_TSTRING ? textAt(L, 2) : "?";
   const std::string what = isFormula(L, 1) ? "formula" : "material";
   raise(L, "a " + what + " has no field '" + key + "'; it is one value");
 }
@@ -56,8 +58,8 @@ int shapeField(lua_State* L) {
   lua_pushvalue(L, 2);
   if (lua_rawget(L, -2) != LUA_TNIL) return 1;
   std::vector<std::string> known;
-  for (lua_pushnil(L); lua_next(L, -3); lua_pop(L, 1)) known.emplace_back(lua_tostring(L, -2));
-  const std::string word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+  for (lua_pushnil(L); lua_next(L, -3); lua_pop(L, 1)) known.push_back(textAt(L, -2));
+  const std::string word = lua_type(L, 2) == LUA_TSTRING ? textAt(L, 2) : "?";
   raise(L, "a shape has no '" + word + "'" + suggestion(word, known));
 }
 
@@ -81,6 +83,7 @@ void raise(lua_State* L, const std::string& message) {
 int callGuarded(lua_State* L, LibraryFunction f) {
   try {
     checkLimits(L);
+    const Origin origin("formula", contextOf(L).file, currentLine(L));
     return f(L);
   } catch (const NodeLimitReached&) {
     lua_gc(L, LUA_GCCOLLECT);
@@ -126,8 +129,27 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near.empty() ? near : "; did you mean '" + near + "'?";
 }
 
-std::string describe(lua_State* L, int index) {
+std::string textAt(lua_State* L, int index) {
+  std::size_t size = 0;
+  const char* text = lua_tolstring(L, index, &size);
+  return {text, size};
+}
+
+namespace {
+
+bool isControl(char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }
+
+}  // namespace
+
+std::string inLuaQuotes(const std::string& text) {
   constexpr std::size_t kShown = 40;
+  std::string shown;
+  for (const char c : text.substr(0, kShown))
+    shown += isControl(c) ? "\\" + std::to_string(static_cast<int>(c)) : std::string(1, c);
+  return "\"" + shown + (text.size() > kShown ? "…\"" : "\"");
+}
+
+std::string describe(lua_State* L, int index) {
   switch (lua_type(L, index)) {
     case LUA_TNONE:
     case LUA_TNIL:
@@ -136,14 +158,12 @@ std::string describe(lua_State* L, int index) {
       return lua_toboolean(L, index) ? "true" : "false";
     case LUA_TNUMBER: {
       lua_pushvalue(L, index);  // lua_tostring would change the value in place
-      const std::string text = lua_tostring(L, -1);
+      const std::string text = textAt(L, -1);
       lua_pop(L, 1);
       return "the number " + text;
     }
-    case LUA_TSTRING: {
-      const std::string text = lua_tostring(L, index);
-      return "a string \"" + (text.size() > kShown ? text.substr(0, kShown) + "…" : text) + "\"";
-    }
+    case LUA_TSTRING:
+      return "a string " + inLuaQuotes(textAt(L, index));
     case LUA_TUSERDATA:
       return isFormula(L, index) ? "a formula" : testShape(L, index) ? "a shape" : "a material";
     default:
@@ -182,7 +202,25 @@ void setOperator(lua_State* L, const char* type, const char* event) {
 void setShapeOperator(lua_State* L, const char* event) { setOperator(L, kShape, event); }
 void setFormulaOperator(lua_State* L, const char* event) { setOperator(L, kFormula, event); }
 
-void pushFormula(lua_State* L, const Expr& e) { pushValue(L, kFormula, e); }
+namespace {
+
+// Graphics drivers compile expressions by recursion: 20,000 operations upon one another end Mesa's, 8,000 do
+// not, and gradients stand some times as deep. And each operator goes through all that a shape is made of, so
+// that n of them take n^2: some seconds for as many as these.
+constexpr std::uint32_t kDeepestFormula = 4096;
+
+void checkDepth(lua_State* L, const Expr& e, const std::string& what, const std::string& advice) {
+  if (depthOf(e) <= kDeepestFormula) return;
+  raise(L, what + " has " + std::to_string(depthOf(e)) + " operations upon one another, and up to " +
+               std::to_string(kDeepestFormula) + " can be drawn and meshed; " + advice);
+}
+
+}  // namespace
+
+void pushFormula(lua_State* L, const Expr& e) {
+  checkDepth(L, e, "the formula", "look for a loop that can be shorter");
+  pushValue(L, kFormula, e);
+}
 
 namespace {
 
@@ -220,7 +258,13 @@ void pushResult(lua_State* L, const Vec3E& v) {
     lua_rawseti(L, -2, ++i);
   }
 }
-void pushShape(lua_State* L, Shape shape) { pushValue(L, kShape, std::move(shape)); }
+// A hard union is read by its operands, however many there are.
+void pushShape(lua_State* L, Shape shape) {
+  if (!shape.outer || shape.outer->blend.kind != Blend::Kind::Hard)
+    checkDepth(L, shape.distance, "the shape",
+               "give all shapes to one union(list), intersection or difference, and each operator once");
+  pushValue(L, kShape, std::move(shape));
+}
 void pushMaterial(lua_State* L, MaterialPtr material) { pushValue(L, kMaterial, std::move(material)); }
 
 bool isFormula(lua_State* L, int index) { return luaL_testudata(L, index, kFormula); }
@@ -285,12 +329,15 @@ bool readFlag(lua_State* L, int index, const std::string& what) {
 
 std::string readText(lua_State* L, int index, const std::string& what) {
   if (lua_type(L, index) != LUA_TSTRING) wrongType(L, index, what, "a text");
-  return lua_tostring(L, index);
+  const std::string text = textAt(L, index);
+  if (std::ranges::any_of(text, isControl))
+    raise(L, what + " must be without control characters, got " + inLuaQuotes(text));
+  return text;
 }
 
 int readChoice(lua_State* L, int index, const std::string& what, const std::vector<std::string>& choices) {
   if (lua_type(L, index) == LUA_TSTRING) {
-    const auto it = std::ranges::find(choices, lua_tostring(L, index));
+    const auto it = std::ranges::find(choices, textAt(L, index));
     if (it != choices.end()) return static_cast<int>(it - choices.begin());
   }
   wrongType(L, index, what, "one of " + shown(choices));
@@ -355,7 +402,7 @@ std::string alongEachAxis(lua_State* L, int index, int size) {
 Vec3E colorFromText(lua_State* L, const std::string& text, const std::string& what) {
   const bool valid = (text.size() == 4 || text.size() == 7) && text[0] == '#' &&
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-  if (!valid) raise(L, what + " must be a colour like \"#ff8800\", got \"" + text.substr(0, 40) + "\"");
+  if (!valid) raise(L, what + " must be a colour like \"#ff8800\", got " + inLuaQuotes(text));
   const std::size_t digits = text.size() / 3;
   std::array<Expr, 3> c;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -430,7 +477,7 @@ glm::dvec3 readPoint(lua_State* L, int index, const std::string& what, int size)
 
 Vec3E readColor(lua_State* L, int index, const std::string& what, Depends depends) {
   if (isNumeric(L, index)) return readNumber(L, index, what, depends);
-  if (lua_type(L, index) == LUA_TSTRING) return colorFromText(L, lua_tostring(L, index), what);
+  if (lua_type(L, index) == LUA_TSTRING) return colorFromText(L, textAt(L, index), what);
   if (isList(L, index, 3)) return readVector(L, index, what, 3, depends);
   if (!lua_isfunction(L, index)) wrongType(L, index, what, kColorForms);
   if (depends == Depends::OnParameters)

@@ -23,6 +23,10 @@ int currentLine(lua_State* L);
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 /// "; did you mean 'sphere'?" or "" when none is near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
+/// All of the string at this place of the stack, zeros too.
+std::string textAt(lua_State* L, int index);
+/// Text as Lua writes it in quotes: control characters by their codes, "a\\0b"; what is long is cut.
+std::string inLuaQuotes(const std::string& text);
 /// What stands at this place of the stack, in words: `a string "big"`, "nothing".
 std::string describe(lua_State* L, int index);
 /// "1, 2 and 3".
@@ -74,6 +78,7 @@ Expr readNumber(lua_State* L, int index, const std::string& what, Depends depend
 double readPlainNumber(lua_State* L, int index, const std::string& what);
 int readInteger(lua_State* L, int index, const std::string& what);
 bool readFlag(lua_State* L, int index, const std::string& what);
+/// A text without control characters, as names of all kinds are.
 std::string readText(lua_State* L, int index, const std::string& what);
 int readChoice(lua_State* L, int index, const std::string& what, const std::vector<std::string>& choices);
 const Shape& readShape(lua_State* L, int index, const std::string& what);

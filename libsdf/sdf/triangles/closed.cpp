@@ -6,11 +6,11 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <queue>
 #include <unordered_map>
 
 #include "sdf/base/flat_map.h"
 #include "sdf/triangles/incidence.h"
+#include "sdf/triangles/polygon.h"
 #include "sdf/triangles/triangle_pairs.h"
 
 namespace sdf {
@@ -61,6 +61,57 @@ void join(const TriangleMesh& mesh, ClosedTriangles& out) {
   out.source.resize(mesh.triangles.size());
   std::iota(out.source.begin(), out.source.end(), 0u);
   renumber(pointOf, out);
+}
+
+enum class Left : char { Gone, Alone, Alike };
+
+/// Of triangles with the same corners takes out as many that are turned one way as are turned the other way,
+/// for nothing lies between them; and of the others it leaves so many at most. Returns which are left, alone
+/// or with others alike.
+std::vector<Left> mergeAlike(ClosedTriangles& out, std::size_t most) {
+  struct Place {
+    glm::uvec3 corners;  // the least first
+    std::uint32_t triangle;
+    int way;
+  };
+  std::vector<Place> places;
+  places.reserve(out.triangles.size());
+  for (std::uint32_t i = 0; i < out.triangles.size(); ++i) {
+    glm::uvec3 t = out.triangles[i];
+    while (t.x > t.y || t.x > t.z) t = {t.y, t.z, t.x};
+    places.push_back({{t.x, std::min(t.y, t.z), std::max(t.y, t.z)}, i, t.y < t.z ? 1 : -1});
+  }
+  const auto key = [](const Place& p) {
+    return std::array{p.corners.x, p.corners.y, p.corners.z, p.triangle};
+  };
+  std::ranges::sort(places, {}, key);
+  std::vector<Left> left(out.triangles.size(), Left::Gone);
+  for (auto first = places.begin(), end = first; first != places.end(); first = end) {
+    int sum = 0;
+    std::size_t fromMesh = 0;
+    for (; end != places.end() && end->corners == first->corners; ++end) {
+      sum += end->way;
+      fromMesh += end->triangle < out.source.size();
+    }
+    const std::size_t count = std::min(static_cast<std::size_t>(std::abs(sum)), most);
+    std::size_t some = 0;
+    for (auto p = first; p != end && some < count; ++p) {
+      if (p->way * sum < 0) continue;
+      left[p->triangle] = count > 1 ? Left::Alike : Left::Alone;
+      fromMesh -= p->triangle < out.source.size();
+      ++some;
+    }
+    (count > 0 ? out.repeated : out.films) += fromMesh;
+  }
+  std::size_t kept = 0, keptOfMesh = 0;
+  for (std::size_t i = 0; i < out.triangles.size(); ++i) {
+    if (left[i] == Left::Gone) continue;
+    out.triangles[kept++] = out.triangles[i];
+    if (i < out.source.size()) out.source[keptOfMesh++] = out.source[i];
+  }
+  out.triangles.resize(kept);
+  out.source.resize(keptOfMesh);
+  return left;
 }
 
 /// Calls f(a, b) for each edge of each triangle, the way that it runs.
@@ -191,7 +242,7 @@ std::vector<std::vector<std::uint32_t>> loopsOf(std::vector<std::array<std::uint
       return edge < edges.size() && edges[edge][0] == point;
     };
     std::vector<std::uint32_t> path{from};
-    placeOf = {{from, 0}};
+    placeOf.emplace(from, 0);
     while (open(path.back())) {
       const std::uint32_t to = edges[next[firstOf(path.back())]++][1];
       const auto [place, fresh] = placeOf.try_emplace(to, path.size());
@@ -204,36 +255,28 @@ std::vector<std::vector<std::uint32_t>> loopsOf(std::vector<std::array<std::uint
       for (auto point = begin + 1; point != path.end(); ++point) placeOf.erase(*point);
       path.erase(begin + 1, path.end());
     }
+    for (const std::uint32_t point : path) placeOf.erase(point);
   }
   return loops;
 }
 
-/// Closes a loop: cuts the corner with the shortest diagonal off, again and again.
-void close(const std::vector<std::uint32_t>& loop, ClosedTriangles& out) {
-  const std::size_t count = loop.size();
-  std::vector<std::size_t> before(count), after(count), age(count, 0);
-  for (std::size_t i = 0; i < count; ++i) before[i] = (i + count - 1) % count, after[i] = (i + 1) % count;
-  struct Corner {
-    float diagonal;
-    std::size_t place, age;
-    bool operator>(const Corner& other) const {
-      return diagonal != other.diagonal ? diagonal > other.diagonal : place > other.place;
-    }
-  };
-  std::priority_queue<Corner, std::vector<Corner>, std::greater<>> corners;
-  const auto offer = [&](std::size_t i) {
-    corners.push({glm::distance(out.points[loop[before[i]]], out.points[loop[after[i]]]), i, ++age[i]});
-  };
-  for (std::size_t i = 0; i < count; ++i) offer(i);
-  for (std::size_t left = count; left > 2; --left) {
-    while (corners.top().age != age[corners.top().place]) corners.pop();
-    const std::size_t i = corners.top().place, a = before[i], b = after[i];
-    out.triangles.emplace_back(loop[a], loop[i], loop[b]);
-    age[i] = 0;
-    after[a] = b;
-    before[b] = a;
-    if (left > 4) offer(a), offer(b);
+/// Closes the loops that the borders form. One that is closed by what was left out before is no hole, and
+/// what only closes a triangle from behind is a film.
+void closeLoops(ClosedTriangles& out) {
+  const auto loops = loopsOf(missingEdges(out.triangles));
+  if (loops.empty()) return;
+  std::vector<std::size_t> begins{out.triangles.size()};
+  for (const auto& loop : loops) {
+    cutPolygon(out.points, loop, out.triangles);
+    begins.push_back(out.triangles.size());
   }
+  const std::vector<Left> left = mergeAlike(out, out.triangles.size());
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    out.holes += std::any_of(left.begin() + static_cast<std::ptrdiff_t>(begins[i]),
+                             left.begin() + static_cast<std::ptrdiff_t>(begins[i + 1]),
+                             [](Left one) { return one == Left::Alone; });
+  out.repeated -= static_cast<std::size_t>(
+      std::count(left.begin() + static_cast<std::ptrdiff_t>(begins.front()), left.end(), Left::Alike));
 }
 
 /// Has every edge two triangles, one each way, and every point one fan?
@@ -267,12 +310,11 @@ bool isManifold(const ClosedTriangles& all) {
 ClosedTriangles closed(const TriangleMesh& mesh) {
   ClosedTriangles out;
   join(mesh, out);
+  mergeAlike(out, 1);
   if (out.triangles.empty()) return out;
   joinBorders(out);
   orient(out);
-  const auto loops = loopsOf(missingEdges(out.triangles));
-  out.holes = loops.size();
-  for (const auto& loop : loops) close(loop, out);
+  closeLoops(out);
   out.manifold = isManifold(out);
   return out;
 }

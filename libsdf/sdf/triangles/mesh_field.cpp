@@ -31,10 +31,11 @@ Result<std::shared_ptr<const MeshField>> MeshField::make(TriangleMesh mesh, int 
   const auto start = std::chrono::steady_clock::now();
   const auto error = [](const std::string& what) { return Error{ErrorKind::Scene, what}; };
   ClosedTriangles triangles = closed(mesh);
-  if (triangles.triangles.empty()) return error("no triangle of this mesh has an area");
+  const Error hollow = error("the triangles of this mesh enclose nothing: it is no solid");
+  if (triangles.triangles.empty())
+    return triangles.films > 0 ? hollow : error("no triangle of this mesh has an area");
   std::shared_ptr<const MeshField> field(new MeshField(std::move(mesh), std::move(triangles), voxels, cache));
-  if (!field->distance().hasInside())
-    return error("the triangles of this mesh enclose nothing: it is no solid");
+  if (!field->distance().hasInside()) return hollow;
   field->seconds_ = secondsSince(start);
   return field;
 }
