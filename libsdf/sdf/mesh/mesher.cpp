@@ -73,6 +73,9 @@ constexpr double kLeastTolerance = 0x1p-20;
 constexpr double kLargest = 0x1p63;
 // Of a coordinate: what lies between it and the next float at most. A voxel has to have some of them.
 constexpr double kBetweenFloats = 0x1p-23, kFloatsInAVoxel = 4.0;
+// Voxels: where rounding to floats moves the surface by more, distances are read in double. Figures of an
+// ordinary mesh are a hundredth of a voxel and more.
+constexpr double kReadWithin = 0.01;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
@@ -123,7 +126,8 @@ class Mesher {
     if (Status s = checkFloats(*bounds, h); !s) return s.error();
     const bool thins = options_.tolerance > 0.0;
     painted_ = isPainted(shape);
-    const ModelTapes model = Model(shape).at(options_.values);
+    const double finest = thins ? std::ldexp(h, -kHalvings) : h;
+    const ModelTapes model = Model(shape).at(options_.values, Accuracy{*bounds, kReadWithin * finest});
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
       if (!sampled) return sampled.error();
