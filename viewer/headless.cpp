@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "command_line/frames.h"
 #include "sdf/base/file.h"
+#include "sdf/scene/relative.h"
 #include "sdf/script/script.h"
 #include "sdf/triangles/mesh_field.h"
 #include "viewer/comparison.h"
@@ -47,11 +49,13 @@ class Headless {
         if (auto s = keep(loadAt(time, options_), scene_); !s) return s;
         look_ = LookFunction(scene_, look_.inView());
       }
-      if (i > 0 && (scriptReadsTheClock || meshMoves)) {
+      const Frame f = frame(time);
+      const bool isFar = originFor(f.look.eye, renderer->origin()) != renderer->origin();
+      if (i > 0 && (scriptReadsTheClock || meshMoves || isFar)) {
         renderer = rendererAt(time, options_.shader);
         if (!renderer) return renderer.error();
       }
-      if (auto s = draw(*renderer, frame(time), *target, nameOf(i)); !s) return s;
+      if (auto s = draw(*renderer, f, *target, nameOf(i)); !s) return s;
       if (auto s = write(*target, nameOf(i)); !s) return s;
     }
     return okStatus();
@@ -139,7 +143,10 @@ class Headless {
     auto target =
         Target::create(options_.width, options_.height, std::vector(kLayers, PixelFormat::Rgba32f), true);
     if (!target) return target.error();
-    const Shot shot(f, options_.width, options_.height, Extent(scene_));
+    Frame near = f;
+    near.look = relativeTo(f.look, shaders.plan.options.origin);
+    const Shot shot(near, options_.width, options_.height,
+                    Extent(relativeTo(scene_, shaders.plan.options.origin)));
     meshes->prepare(f);
     std::vector<double> times;
     for (int i = 0; i <= *options_.bench; ++i) {
@@ -171,7 +178,12 @@ class Headless {
 
   // With the mesh of that moment, if its view shows one.
   Result<Renderer> rendererAt(double time, const ShaderOptions& shader) {
-    auto renderer = Renderer::make(scene_, shader);
+    ShaderOptions near = shader;
+    near.origin = originFor(frame(time).look.eye);
+    auto renderer = Renderer::make(scene_, near);
+    if (renderer)
+      for (const std::string& why : renderer->shaders().plan.doubtful)
+        if (told_.insert(why).second) std::cerr << "sdfview: warning: " << why << '\n';
     if (!renderer || !showsMesh(shader.view)) return renderer;
     auto fixed = options_.scene.load({.values = options_.parameters, .time = time, .fixed = true});
     if (!fixed) return fixed.error();
@@ -293,6 +305,7 @@ class Headless {
   Scene scene_;
   LookFunction look_;
   std::optional<Box> fitTo_;
+  std::set<std::string> told_;           // warnings
   std::optional<ErrorFigures> figures_;  // of the mesh, if its errors are shown
 };
 

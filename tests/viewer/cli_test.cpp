@@ -97,6 +97,22 @@ TEST_F(Sdfview, SaysWhatItCanDo) {
   EXPECT_EQ(help.err + version.err, "");
 }
 
+// As sdf2gltf says it.
+TEST_F(Sdfview, RefusesWhatFloatsCannotHold) {
+  const struct {
+    const char* scene;
+    const char* words;
+  } cases[] = {
+      {"part('far', sphere(1):translate(1e308, 0, 0))", "part 'far': it reaches 1e+308 from the origin"},
+      {"part('small', sphere(5e-324))", "part 'small': its bounds are 9.88"},
+      {"part('small', sphere(1):scale(5e-324))", "part 'small': its bounds are 9.88"},
+      {"camera{from = {0, 1, 3}, to = {0, 0, 0}} part('floor', plane({0, 1, 0}, 1e40))",
+       "part 'floor': the number 1e+40 in its formulas is none of the floats"}};
+  for (const auto& c : cases)
+    for (const auto& [option, name] : {std::pair("--render", "a.png"), std::pair("--glsl", "a.glsl")})
+      expectRefused(kScene, c.words, {scene(c.scene), option, at(name)});
+}
+
 TEST_F(Sdfview, NamesWhatIsWrongWithAnOption) {
   const std::string s = scene(kBall), png = at("a.png");
   const struct {

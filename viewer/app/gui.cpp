@@ -83,7 +83,7 @@ bool lightControls(LookLight& light, float speed) {
       ImGui::DragFloat3(point ? "position" : "towards it", glm::value_ptr(vector), point ? speed : 0.01f);
   const float length = glm::length(vector);
   if (moved && (point || length > 0.0f))
-    light.vector = glm::vec4(point ? vector : vector / length, light.vector.w);
+    light.vector = glm::dvec4(point ? vector : vector / length, light.vector.w);
   moved |= coloredLight(light.color);
   bool shadow = light.color.w > 0.0f;
   moved |= ImGui::Checkbox("casts a shadow", &shadow);

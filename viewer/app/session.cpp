@@ -40,7 +40,10 @@ Result<Session> Session::open(const SceneFile& file, Controls controls) {
   auto scene = file.load({.values = controls.parameters, .time = controls.time});
   if (!scene) return scene.error();
   LookFunction look = lookOf(*scene, file, controls.parameters);
+  Values values = controls.parameters;
+  values["time"] = controls.time;
   Built built{controls.shader, {}};
+  built.shader.origin = originFor(controls.eye.value_or(look.at(values, kPictureAspect).eye));
   if (showsMesh(built.shader.view)) built.shader.view = View::Picture;  // until there is a mesh
   auto renderer = build(*scene, built);
   if (!renderer) return renderer.error();
@@ -102,9 +105,9 @@ Status Session::load(const Built& wanted) {
 
   scene_ = std::move(*scene);
   watchFiles();
-  tellMissing();
   look_ = std::move(look);
   renderer_ = std::move(*made);
+  tellMissing();
   built_ = wanted;
   buildMessage_.clear();
   ++compilations_;
@@ -131,6 +134,8 @@ void Session::watchFiles() {
 void Session::tellMissing() {
   missingMessage_.clear();
   for (const std::string& why : scene_.missing)
+    missingMessage_ += (missingMessage_.empty() ? "" : "\n") + why;
+  for (const std::string& why : renderer_.shaders().plan.doubtful)
     missingMessage_ += (missingMessage_.empty() ? "" : "\n") + why;
 }
 

@@ -10,6 +10,7 @@ Session::Built Session::wanted(const std::set<std::string>& materials) const {
   Built built{controls.shader, materials};
   const bool hasMesh = mesh_ && (built.shader.view != View::Error || mesh_->errors);
   if (showsMesh(built.shader.view) && !hasMesh) built.shader.view = View::Picture;
+  built.shader.origin = originFor(eye(), renderer_.origin());
   return built;
 }
 

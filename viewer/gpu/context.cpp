@@ -258,6 +258,8 @@ bool contextIsLost() {
   return false;
 }
 
+bool hasDoubles() { return epoxy_has_gl_extension("GL_ARB_gpu_shader_fp64"); }
+
 void finish() { glFinish(); }
 
 Status statusOf(unsigned glError, const std::string& doing) {

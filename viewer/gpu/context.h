@@ -64,6 +64,9 @@ Status check(const std::string& doing);
 /// driver that cannot tell never has.
 bool contextIsLost();
 
+/// Returns whether shaders of the present context can compute in double.
+bool hasDoubles();
+
 /// Waits until all is drawn that OpenGL was told to draw.
 void finish();
 

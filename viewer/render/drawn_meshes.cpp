@@ -36,6 +36,7 @@ Result<DrawnMeshes> DrawnMeshes::make(const SceneShaders& shaders) {
   DrawnMeshes made(std::move(*program));
   constexpr double kEdges = 1.25;  // pixels
   made.meshed_ = shaders.plan.meshed;
+  made.sceneOrigin_ = shaders.plan.options.origin;
   made.edges_ = shaders.plan.options.view == View::Wire ? kEdges : 0.0;
   for (const DrawnMesh& mesh : shaders.plan.drawn)
     if (auto s = made.add(mesh); !s) return s.error();
@@ -82,7 +83,7 @@ Status DrawnMeshes::show(const ShownMesh& mesh) {
   models_.clear();
   models_.push_back(std::move(*model));
   const bool own = !mesh.materials.empty();
-  drawn_ = {Drawn{0.0, own ? Looks::Meshed : Looks::Drawn, {}, glm::dmat3(1.0), glm::dvec3(0.0), 0}};
+  drawn_ = {Drawn{0.0, own ? Looks::Meshed : Looks::Drawn, {}, glm::dmat3(1.0), -sceneOrigin_, 0}};
   materials_.fill(own ? mesh.materials : std::vector<glm::vec4>(kMaterialTexels));
   return okStatus();
 }

@@ -56,6 +56,7 @@ class DrawnMeshes {
   static constexpr int kMaterialTexels = 3;
   Program program_;
   bool meshed_ = false;
+  glm::dvec3 sceneOrigin_{0.0};        // what the shot's positions are relative to
   double edges_ = 0.0;                 // pixels
   Texels materials_{kMaterialTexels};  // a row each
   std::vector<Model> models_;

@@ -1,7 +1,9 @@
 #include "viewer/render/look.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
@@ -58,6 +60,23 @@ Axes axesOf(const Eye& eye) {
   return {eye.mirrored ? -right : right, glm::cross(right, forward), forward};
 }
 
+Look relativeTo(Look look, const glm::dvec3& origin) {
+  look.eye.from -= origin;
+  look.eye.to -= origin;
+  for (LookLight& light : look.lights)
+    if (light.vector.w > 0.0) light.vector -= glm::dvec4(origin, 0.0);
+  return look;
+}
+
+// At 2^9 ways to what is looked at floats are up to 2^-14 of this way apart, a tenth of a pixel in pictures
+// of a thousand rows at the usual field of view.
+glm::dvec3 originFor(const Eye& eye, const glm::dvec3& present) {
+  constexpr double kFar = 0x1p9;
+  const glm::dvec3 reach = glm::max(glm::abs(eye.from - present), glm::abs(eye.to - present));
+  if (std::max({reach.x, reach.y, reach.z}) <= kFar * glm::length(eye.to - eye.from)) return present;
+  return eye.to;
+}
+
 LookFunction::LookFunction(const Scene& scene, const std::optional<Box>& inView)
     : numbers_(numbersOf(scene)),
       lights_(scene.lights),
@@ -87,7 +106,7 @@ Look LookFunction::at(const Values& values, double aspect) const {
   for (const Light& light : lights_) {
     const bool point = light.kind == Light::Kind::Point;
     const glm::dvec3 place = vector(), color = vector();
-    look.lights.push_back({glm::vec4(point ? place : glm::normalize(place), point ? 1.0 : 0.0),
+    look.lights.push_back({glm::dvec4(point ? place : glm::normalize(place), point ? 1.0 : 0.0),
                            glm::vec4(color * number(), light.castsShadow ? 1.0 : 0.0)});
     const double radius = number();
     look.lights.back().size = static_cast<float>(point ? radius : std::sin(glm::radians(radius)));

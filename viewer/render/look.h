@@ -38,7 +38,7 @@ Axes axesOf(const Eye& eye);
 
 /// A LookLight is a light at one moment.
 struct LookLight {
-  glm::vec4 vector;   ///< xyz: towards the light, of length 1, w 0; or its position, w 1
+  glm::dvec4 vector;  ///< xyz: towards the light, of length 1, w 0; or its position, w 1
   glm::vec4 color;    ///< times its intensity; w: 1 if it casts shadows
   float size = 0.0f;  ///< its radius; of one far away, the sine of half the angle that it is seen under
   bool operator==(const LookLight&) const = default;
@@ -51,6 +51,13 @@ struct Look {
   glm::vec3 ambient, fogColor;
   float fogDensity, sharpness, occlusionStrength;
 };
+
+/// The look with the eye and the lights that have a place moved by -origin.
+Look relativeTo(Look look, const glm::dvec3& origin);
+
+/// Returns what the positions of an eye's pictures are to be relative to: the present origin where floats
+/// tell them apart so closely that it is not seen, else what the eye looks at.
+glm::dvec3 originFor(const Eye& eye, const glm::dvec3& present = glm::dvec3(0.0));
 
 /// A LookFunction is a scene's own look as a function of its inputs, compiled once.
 class LookFunction {

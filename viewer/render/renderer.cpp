@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "sdf/scene/relative.h"
 #include "viewer/gpu/context.h"
 #include "viewer/shaders/error_colors.h"
 
@@ -57,9 +58,16 @@ std::size_t pixelsOutOfShadowSteps(const Picture& picture) {
 
 Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  auto shaders = assemble(scene, options);
+  if (options.origin != glm::dvec3(0.0)) {  // there numbers that are too large may cancel
+    if (const auto sound = checked(scene); !sound) return sound.error();
+    if (const Status s = checkNumbers(scene); !s) return s.error();
+  }
+  const Scene near = relativeTo(scene, options.origin);
+  ShaderOptions available = options;
+  available.doubles = options.doubles && hasDoubles();
+  auto shaders = assemble(near, available);
   if (!shaders) return shaders.error();
-  Renderer renderer(scene, std::move(*shaders));
+  Renderer renderer(near, std::move(*shaders));
   if (auto s = renderer.compile(); !s) return s.error();
   if (options.view == View::Split) {
     ShaderOptions picture = options;
@@ -104,7 +112,7 @@ void Renderer::setLook(const Program& program, const Frame& frame, const Shot& s
   if (plan.lights) {
     std::vector<glm::vec4> vectors, colors;
     for (const LookLight& light : look.lights) {
-      vectors.push_back(light.vector);
+      vectors.emplace_back(light.vector);
       colors.push_back(light.color);
     }
     program.set("lightVector", vectors);

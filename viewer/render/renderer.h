@@ -35,7 +35,8 @@ struct Rows {
 /// A Renderer draws one scene; in View::Split its picture left of Frame::split, and its mesh from there on.
 class Renderer {
  public:
-  /// Compiles the scene's shaders. Errors: Scene as assemble; Graphics with the driver's log.
+  /// Compiles the scene's shaders, for frames whose eyes are not far from the options' origin (originFor).
+  /// Frames are the scene's own, wherever that is. Errors: Scene as assemble; Graphics with the driver's log.
   static Result<Renderer> make(const Scene& scene, const ShaderOptions& options = {});
 
   /// Hands over the mesh that a view of one shows (showsMesh); before there is none in its pictures. Colours
@@ -62,6 +63,8 @@ class Renderer {
   Result<Readings> readings(const Target& target) const;
 
   const SceneShaders& shaders() const { return shaders_; }
+  /// Returns what the shaders' positions are relative to.
+  const glm::dvec3& origin() const { return shaders_.plan.options.origin; }
   double compileSeconds() const { return compileSeconds_; }
 
  private:

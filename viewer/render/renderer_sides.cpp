@@ -1,6 +1,7 @@
 // The sides of a split view, which are pictures of two renderers.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "viewer/render/renderer.h"
 
@@ -17,13 +18,24 @@ Status Renderer::drawSides(const Frame& frame, const Target& target, const Draw&
   return left < width ? draw(*this, Columns{left, width - left}) : okStatus();
 }
 
-Status Renderer::draw(const Frame& frame, const Target& target, std::optional<Rows> rows) {
+namespace {
+
+Frame relativeTo(Frame frame, const glm::dvec3& origin) {
+  frame.look = relativeTo(std::move(frame.look), origin);
+  return frame;
+}
+
+}  // namespace
+
+Status Renderer::draw(const Frame& there, const Target& target, std::optional<Rows> rows) {
+  const Frame frame = relativeTo(there, origin());
   return drawSides(frame, target, [&](Renderer& side, const Columns& columns) {
     return side.drawColumns(frame, target, rows.value_or(Rows{0, target.height()}), columns);
   });
 }
 
-Status Renderer::refine(const Frame& frame, int drawn, const Target& target, std::optional<Rows> rows) {
+Status Renderer::refine(const Frame& there, int drawn, const Target& target, std::optional<Rows> rows) {
+  const Frame frame = relativeTo(there, origin());
   return drawSides(frame, target, [&](Renderer& side, const Columns& columns) {
     return side.refineColumns(frame, drawn, target, rows.value_or(Rows{0, target.height()}), columns);
   });

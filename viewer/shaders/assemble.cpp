@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sdf/model/float_range.h"
 #include "viewer/shaders/error_colors.h"
 #include "viewer/shaders/filter.h"
 #include "viewer/shaders/hit_shaders.h"
@@ -10,6 +11,7 @@
 #include "viewer/shaders/sharing.h"
 #include "viewer/shaders/source.h"
 #include "viewer/shaders/triangle_parts.h"
+#include "viewer/shaders/unsteady.h"
 #include "viewer/shaders/view_parts.h"
 
 namespace sdf::viewer {
@@ -26,14 +28,26 @@ constexpr const char* kAttributeNames[kAttributeCount - 1] = {
 using ShadowKind = Shadow::Kind;
 using OcclusionKind = AmbientOcclusion::Kind;
 
-GlslWriter labelled(const Scene& scene) {
+GlslWriter labelled(const Scene& scene, const Plan& plan) {
   GlslWriter writer;
+  writer.computeExactly(plan.exact);
   for (const Part& part : scene.parts) {
     std::vector<Expr> own{part.shape.distance};
     own.insert(own.end(), part.shape.surface.begin(), part.shape.surface.end());
     for (const Expr& e : withoutClaims(own)) writer.label(e, "part '" + part.name + "'");
   }
   return writer;
+}
+
+void takeUnsteady(const Unsteady& unsteady, Plan& plan) {
+  const bool doubles = plan.options.doubles && !plan.options.es;
+  if (doubles) plan.exact.insert(plan.exact.end(), unsteady.nodes.begin(), unsteady.nodes.end());
+  if (doubles && std::ranges::all_of(unsteady.nodes, canBeExact)) return;
+  plan.doubtful.push_back(
+      "part '" + unsteady.part->name +
+      "': its formula needs more digits than the graphics card's floats have, as a hash by "
+      "fract(sin(…) * 43758.5) does; the picture differs from the mesh, which is made in "
+      "double. Take a hash of smaller numbers");
 }
 
 // What is shown of a linear colour c, by debug views as it is.
@@ -237,10 +251,25 @@ std::size_t SceneShaders::bytes() const {
   return sum;
 }
 
+Status checkNumbers(const Scene& scene) {
+  for (const Part& part : scene.parts)
+    if (const auto why = beyondFloats(part.shape))
+      return Error{ErrorKind::Scene, "part '" + part.name + "': " + *why};
+  return okStatus();
+}
+
 Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) {
   if (const auto sound = checked(scene); !sound) return sound.error();
+  if (const Status s = checkNumbers(scene); !s) return s.error();
+  const std::vector<Unsteady> unsteady = unsteadyOf(scene);
+  if (!unsteady.empty() && options.sharing) {  // their nodes are to be found as they are
+    ShaderOptions apart = options;
+    apart.sharing = false;
+    return assemble(scene, apart);
+  }
   auto plan = planOf(scene, options);
   if (!plan) return plan.error();
+  for (const Unsteady& part : unsteady) takeUnsteady(part, *plan);
   const RowWriter rows = rowsOf(*plan);
   if (!rows.fits()) {
     ShaderOptions apart = options;
@@ -256,7 +285,7 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   if (plan->hull) hull = hullShader(*plan);
   const Obstacles obstacles = obstaclesOf(*plan);
   if (startsHere(*plan)) hits = {startShaders(obstacles, *plan, rows)};
-  Shader shown = picture(scene, *plan, obstacles, rows, labelled(scene));
+  Shader shown = picture(scene, *plan, obstacles, rows, labelled(scene, *plan));
   std::optional<Shader> tiles;
   if (plan->tiled) tiles = background(scene, *plan);
   Composer resolve(options.es, {{"ENCODE(c)", encoding(scene, *plan)}}, {}, {});

@@ -67,6 +67,9 @@ struct SceneShaders {
   std::size_t bytes() const;
 };
 
+/// Refuses scenes whose numbers shaders cannot hold. Errors: Scene.
+Status checkNumbers(const Scene& scene);
+
 /// Writes the shaders of a scene. Errors (Scene): what `checked` finds, and a shape whose distance has no
 /// known slope.
 Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options);

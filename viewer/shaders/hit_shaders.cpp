@@ -100,7 +100,9 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
   macros["TAKE_ROW"] = wanted.row.count > 0 ? "sdfTake();" : "";
   Functions functions = meetingFunctions(obstacles);
   if (!wanted.sharing.empty()) functions.merge(sharedFunctions(plan));
-  Composer composer(plan.options.es, macros, functions, wanted.writer, wanted.rows);
+  GlslWriter writer = wanted.writer;
+  writer.computeExactly(plan.exact);
+  Composer composer(plan.options.es, macros, functions, std::move(writer), wanted.rows);
   const std::string camera = parts::kCamera;
   HitShaders pass;
   if (wanted.cones)

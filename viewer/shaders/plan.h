@@ -23,6 +23,8 @@ struct ShaderOptions {
   bool sharing = true;         ///< like operands may share their code; else all of it is written out
   bool culling = true;  ///< many operands may be read by lists of those that are near; else all are looked at
   bool drawing = true;  ///< meshes from files may be drawn as triangles; else they are marched
+  bool doubles = true;  ///< what floats cannot hold may be computed in double; not in ES
+  glm::dvec3 origin{0.0};  ///< what positions in shaders are relative to: see originFor (render/look.h)
   bool operator==(const ShaderOptions&) const = default;
 };
 
@@ -58,21 +60,23 @@ struct Plan {
   /// What names the groups that can be the nearest at a place, if there are so many that the loops are over
   /// these alone.
   std::optional<CellSorter> cells;
-  std::vector<Expr> surface;  ///< the attributes of a hit, if they are shown
-  NumberRows surfaceRows;     ///< the numbers in them, by operand; without parameters if there are none
-  bool looks = false;         ///< what is shown may look as the triangles of a drawn mesh do
-  bool meshed = false;        ///< primary rays meet triangles that the renderer is given, and nothing else
-  bool grouped = false;       ///< hits are in layers: that mesh's, or those of each group of the kinds
-  bool plain = false;         ///< rays take plain steps
-  bool cones = false;         ///< rays start where the cone pass says
-  bool hull = false;          ///< or where they enter the rest's hull
-  bool tiled = false;         ///< where the cones saw nothing there is only background
-  bool lights = false;        ///< light is shown, and there is some
-  bool around = false;        ///< the background lights surfaces
-  bool filters = false;       ///< the surface has patterns that are averaged over what a pixel covers
-  int bounces = 0;            ///< reflections that are followed
-  bool glossy = false;        ///< and spread over the lobe of the highlight
-  bool lens = false;          ///< primary rays start all over a lens; there are no cones then
+  std::vector<std::string> doubtful;  ///< what is wrong with the picture, a line each, for want of doubles
+  std::vector<Expr> exact;            ///< nodes that floats cannot hold, which are computed in double
+  std::vector<Expr> surface;          ///< the attributes of a hit, if they are shown
+  NumberRows surfaceRows;  ///< the numbers in them, by operand; without parameters if there are none
+  bool looks = false;      ///< what is shown may look as the triangles of a drawn mesh do
+  bool meshed = false;     ///< primary rays meet triangles that the renderer is given, and nothing else
+  bool grouped = false;    ///< hits are in layers: that mesh's, or those of each group of the kinds
+  bool plain = false;      ///< rays take plain steps
+  bool cones = false;      ///< rays start where the cone pass says
+  bool hull = false;       ///< or where they enter the rest's hull
+  bool tiled = false;      ///< where the cones saw nothing there is only background
+  bool lights = false;     ///< light is shown, and there is some
+  bool around = false;     ///< the background lights surfaces
+  bool filters = false;    ///< the surface has patterns that are averaged over what a pixel covers
+  int bounces = 0;         ///< reflections that are followed
+  bool glossy = false;     ///< and spread over the lobe of the highlight
+  bool lens = false;       ///< primary rays start all over a lens; there are no cones then
   Shadow::Kind shadow = Shadow::Kind::None;  ///< of lights without a size
   bool sized = false;                        ///< lights that have one cast shadows, too
   AmbientOcclusion::Kind occlusion = AmbientOcclusion::Kind::None;

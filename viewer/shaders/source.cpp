@@ -157,7 +157,10 @@ std::string Composer::compose(const std::string& body) {
     if (const auto function = functions_.find(std::string(word));
         function != functions_.end() && written_.insert(function->first).second)
       writer_.add(function->first, function->second());
-  std::string shader = start_ + definitions + writer_.source() + body;
+  const std::string functions = writer_.source();
+  std::string shader = start_ + definitions + functions + body;
+  if (functions.find("double ") != std::string::npos)
+    shader.insert(shader.find('\n') + 1, "#extension GL_ARB_gpu_shader_fp64 : require\n");
   if (!strict) return shader;
   if (const auto faults = macroFaults(shader); !faults.empty()) throw std::logic_error(faults.front());
   return shader;

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "sdf/eval/exact_batch.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sdf/eval/batch.cpp"
 #include <hwy/aligned_allocator.h>
@@ -240,6 +242,7 @@ std::size_t passLength(std::size_t rows) {
 }  // namespace
 
 struct BatchEvaluator::Scratch {
+  ExactBatch exact;
   hwy::AlignedFreeUniquePtr<float[]> memory;
   std::size_t capacity = 0;
   std::vector<float*> registers;
@@ -294,6 +297,7 @@ void copyInputs(const Rows& in, std::size_t first, std::size_t count, float* con
 void BatchEvaluator::evaluate(const Tape& tape, const Rows& in, std::size_t count,
                               std::span<float* const> out) {
   assert(out.size() <= tape.outputs().size());
+  if (tape.isExact()) return scratch_->exact.evaluate(tape, in, count, out);
   const std::size_t length = std::min(passLength(tape.registerCount()), wholeVectors(count));
   scratch_->layOut(tape, 1, length);
   float** registers = scratch_->registers.data();
@@ -307,6 +311,7 @@ void BatchEvaluator::evaluate(const Tape& tape, const Rows& in, std::size_t coun
 
 void BatchEvaluator::evaluateGradient(const Tape& tape, const Rows& in, std::size_t count, float* value,
                                       float* dx, float* dy, float* dz) {
+  if (tape.isExact()) return scratch_->exact.evaluateGradient(tape, in, count, {value, dx, dy, dz});
   const std::size_t length = std::min(passLength(4 * tape.registerCount()), wholeVectors(count));
   scratch_->layOut(tape, 4, length);
   float** registers = scratch_->registers.data();
@@ -322,14 +327,25 @@ void BatchEvaluator::evaluateGradient(const Tape& tape, const Rows& in, std::siz
   }
 }
 
+void BatchEvaluator::evaluateExactly(const Tape& tape, std::span<const glm::dvec3> points, float* out) {
+  scratch_->exact.evaluate(tape, points, out);
+}
+
+void BatchEvaluator::evaluateGradientExactly(const Tape& tape, std::span<const glm::dvec3> points,
+                                             float* value, float* dx, float* dy, float* dz) {
+  scratch_->exact.evaluateGradient(tape, points, {value, dx, dy, dz});
+}
+
 void BatchEvaluator::evaluateBalls(const Tape& tape, const Rows& in, std::size_t count, float radius,
                                    float slack, float* value, std::vector<Decision>& decisions) {
   assert(count <= kBatchPoints);
+  decisions.resize(tape.decisionCount() * count);
+  if (tape.isExact())
+    return scratch_->exact.evaluateBalls(tape, in, count, radius, slack, value, decisions.data());
   const std::size_t padded = wholeVectors(count);
   scratch_->layOut(tape, 1, padded);
   float** registers = scratch_->registers.data();
   copyInputs(in, 0, count, registers);
-  decisions.resize(tape.decisionCount() * count);
   HWY_DYNAMIC_DISPATCH(RunBalls)({{&tape, registers, padded, 0}, radius, slack, count, decisions.data()});
   copyOutput(tape, 0, registers, count, value);
 }

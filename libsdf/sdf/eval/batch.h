@@ -1,5 +1,6 @@
 // The batch readings: float, SIMD, hundreds of points a call, with the best instruction set that the machine
-// has. eval/promise.h says how accurate they are.
+// has. eval/promise.h says how accurate they are. A tape that floats do not do for (Tape::isExact) is read in
+// double instead, at the same points: then they give what evaluate(tape, p) gives, rounded once.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -61,6 +62,12 @@ class BatchEvaluator {
 
   /// Name of the instruction set in use, e.g. "AVX3".
   static const char* targetName();
+
+  /// Values of output 0 at points in double, read in double whatever the tape: where the distance of the
+  /// floats around a point matters.
+  void evaluateExactly(const Tape& tape, std::span<const glm::dvec3> points, float* out);
+  void evaluateGradientExactly(const Tape& tape, std::span<const glm::dvec3> points, float* value, float* dx,
+                               float* dy, float* dz);
 
  private:
   struct Scratch;

@@ -43,6 +43,60 @@ const std::map<std::string, std::string> kHelpers = {
 )"},
 };
 
+// Doubles have no sine in GLSL. Less whole half turns, of which an odd one changes the sign; then Taylor's
+// series, which is 4e-18 off at pi / 2.
+constexpr const char* kExactSine = R"(double sdfSin(double a) {
+  double turns = roundEven(a * 0.31830988618379067lf);
+  double x = (a - turns * 3.1415926535897931lf) - turns * 1.2246467991473532e-16lf, s = x * x;
+  double sum = 1.0lf;
+  for (double k = 22.0lf; k > 1.0lf; k -= 2.0lf) sum = 1.0lf - s / (k * (k + 1.0lf)) * sum;
+  return mod(turns, 2.0lf) == 0.0lf ? x * sum : -x * sum;
+}
+double sdfCos(double a) { return sdfSin(a + 1.5707963267948966lf); }
+
+)";
+
+// How the operation is written for doubles; empty where it takes floats only.
+std::string exactTerm(Op op) {
+  switch (op) {
+    case Op::Sin:
+      return "sdfSin($0)";
+    case Op::Cos:
+      return "sdfCos($0)";
+    case Op::Less:
+      return "double($0 < $1)";
+    case Op::LessEqual:
+      return "double($0 <= $1)";
+    case Op::Equal:
+      return "double($0 == $1)";
+    case Op::Tan:
+    case Op::Asin:
+    case Op::Acos:
+    case Op::Atan:
+    case Op::Atan2:
+    case Op::Exp:
+    case Op::Log:
+    case Op::Pow:
+      return "";
+    default:
+      return isOperation(op) ? std::string(info(op).glsl) : "";
+  }
+}
+
+std::string exactLiteral(double value) {
+  if (!std::isfinite(value))
+    return "double(" +
+           (std::isnan(value) ? std::string("0.0/0.0")
+            : value > 0       ? "1.0/0.0"
+                              : "-1.0/0.0") +
+           ")";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  std::string s = text;
+  if (s.find_first_of(".e") == std::string::npos) s += ".0";
+  return "(" + s + "lf)";
+}
+
 std::string literal(double value) {
   const auto v = static_cast<float>(value);
   if (std::isnan(v)) return "uintBitsToFloat(0x7fc00000u)";
@@ -55,6 +109,8 @@ std::string literal(double value) {
 }
 
 }  // namespace
+
+bool canBeExact(const Expr& e) { return !exactTerm(e.op()).empty(); }
 
 /// Writes the body of one function: a line for each node that depends on space, those that are used once
 /// within the line that uses them.
@@ -78,6 +134,11 @@ class GlslWriter::Body {
         names_[e] = name(e.arg(0));
       } else if (e.op() == Op::Parameter) {
         names_[e] = writer_.terms_.at(e.parameterInfo().name);
+      } else if (isExact(e)) {
+        std::string name = "d" + std::to_string(lines_++);
+        body_ += "  double " + name + " = " + exactOperation(e) + ";" + writer_.commentOf(e) + "\n";
+        names_[e] = "float(" + name + ")";
+        exactNames_[e] = std::move(name);
       } else {
         std::string term = e.payloadPart() ? payload(e, *e.payloadPart()) : operation(e);
         if (uses_.at(e) == 1 && !e.payloadPart() && term.size() < kLongLine &&
@@ -116,6 +177,27 @@ class GlslWriter::Body {
     return false;
   }
 
+  // Is it one of those, or does it use one?
+  bool isExact(const Expr& e) const {
+    if (exactTerm(e.op()).empty()) return false;
+    bool exact = writer_.exact_.contains(e);
+    for (int i = 0; i < arity(e.op()); ++i) exact = exact || writer_.exact_.contains(e.arg(i).unclaimed());
+    return exact;
+  }
+
+  std::string exactOperation(const Expr& e) {
+    std::string term = exactTerm(e.op());
+    for (std::size_t at; (at = term.rfind('$')) != std::string::npos;) {
+      const Expr& argument = e.arg(term[at + 1] - '0').unclaimed();
+      const auto exact = exactNames_.find(argument);
+      term.replace(at, 2,
+                   argument.isConstant()        ? exactLiteral(argument.constantValue())
+                   : exact != exactNames_.end() ? exact->second
+                                                : "double(" + name(argument) + ")");
+    }
+    return term;
+  }
+
   std::string operation(const Expr& e) {
     std::string term(info(e.op()).glsl);
     for (std::size_t at; (at = term.rfind('$')) != std::string::npos;)
@@ -136,6 +218,7 @@ class GlslWriter::Body {
   GlslWriter& writer_;
   std::unordered_map<std::string, std::string> slopes_;  // by the call for the value
   std::unordered_map<Expr, std::string> names_;
+  std::unordered_map<Expr, std::string> exactNames_;  // of doubles
   std::unordered_map<Expr, int> uses_;
   std::string body_;
   int lines_ = 0;
@@ -201,6 +284,8 @@ std::string GlslWriter::source() const {
              ";\n";
   }
   text += (uniforms_.empty() ? "" : ";\n") + ("void sdfTakeValues() {\n" + takes + "}\n\n");
+  if (functions_.find("sdfSin(") != std::string::npos || functions_.find("sdfCos(") != std::string::npos)
+    text += kExactSine;
   for (const auto& [name, code] : kHelpers)
     if (functions_.find(name + "(") != std::string::npos) text += code + "\n";
   for (const auto& [name, payload] : payloads()) text += payload->glsl(name) + "\n";

@@ -13,6 +13,9 @@
 
 namespace sdf {
 
+/// Can the node be computed in double in a shader?
+bool canBeExact(const Expr& e);
+
 /// Gathers functions over one set of uniforms. What depends on parameters alone is left to the CPU: a shader
 /// reads it as a number, so that a new value of a parameter compiles nothing and costs nothing a pixel.
 class GlslWriter {
@@ -35,6 +38,11 @@ class GlslWriter {
   /// printable ones become question marks. Cost: linear in the size of its graph.
   void label(const Expr& e, const std::string& comment);
 
+  /// From now on these nodes are computed in double, with what uses them, which GL_ARB_gpu_shader_fp64
+  /// allows; the header has to ask for it if source() contains "double". Uniforms are floats all the same,
+  /// and so is what tan, arcs, powers, exp, log and payloads take and give.
+  void computeExactly(std::span<const Expr> nodes) { exact_.insert(nodes.begin(), nodes.end()); }
+
   /// Declarations and functions, without `#version` and precision. `main` must call sdfTakeValues() before
   /// any of them.
   std::string source() const;
@@ -54,6 +62,7 @@ class GlslWriter {
   std::unordered_map<std::string, std::string> terms_;
   std::vector<std::string> comments_;
   std::unordered_map<Expr, std::size_t> labels_;  // index of the comment
+  std::unordered_set<Expr> exact_;
   std::unordered_set<Expr> labelled_;  // the expressions that were given, each on a line of its own
   std::vector<Expr> uniforms_;
   std::unordered_map<Expr, std::size_t> slots_;

@@ -26,7 +26,9 @@ float Tape::Code::inheritedSlope(const Instruction& n) const {
 void Tape::Code::finish() {
   decisionCount = 0;
   hasSlopes = true;
+  isExact = false;
   for (const Instruction& i : instructions) {
+    isExact = isExact || i.exact;
     if (!isDecidable(i.op)) continue;
     ++decisionCount;
     if (choiceOf(i.op) != Choice::Selected)
@@ -143,6 +145,13 @@ std::shared_ptr<const Tape> Tape::firstOutputOnly() const {
   std::vector<Operand> known(instructions().size());
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = Operand::value(i);
   return reduced(known, {outputs().data(), 1});
+}
+
+std::shared_ptr<const Tape> Tape::readExactly(const std::vector<bool>& marked) const {
+  auto code = std::make_shared<Code>(*code_);
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (marked[i]) code->instructions[i].exact = code->isExact = true;
+  return std::shared_ptr<const Tape>(new Tape(std::move(code), pool_));
 }
 
 std::uint64_t Tape::hash() const {

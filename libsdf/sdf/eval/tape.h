@@ -41,6 +41,7 @@ class Operand {
 /// at this place of the tape's list.
 struct Instruction {
   Op op;
+  bool exact = false;  ///< floats do not do for it: a tape that has it is read in double
   std::array<Operand, 3> in;
   std::uint32_t constants = 0;
   float lipschitz = 0.0f;  ///< proven global bound of the value's slope, rounded up; infinite where unknown
@@ -100,6 +101,8 @@ class Tape {
   /// True where every decision can be taken from slopes alone (all min, max and comparisons have finite slope
   /// bounds).
   bool hasSlopes() const { return code_->hasSlopes; }
+  /// True where the batch readings are in double, for one of its instructions is Instruction::exact.
+  bool isExact() const { return code_->isExact; }
 
   /// The tape with decided branches dropped, and all that only they needed. Values are unchanged wherever the
   /// decisions hold (the batch reading's up to its rounding, as other operations may be fused). nullptr where
@@ -107,6 +110,9 @@ class Tape {
   std::shared_ptr<const Tape> specialised(const Decision* decisions, std::size_t stride) const;
   /// The tape of output 0 alone.
   std::shared_ptr<const Tape> firstOutputOnly() const;
+
+  /// The same tape with these instructions marked as Instruction::exact, by their places.
+  std::shared_ptr<const Tape> readExactly(const std::vector<bool>& instructions) const;
 
   /// Do both come from one compilation and consist of the same instructions? Then all readings of both agree
   /// to the bit.
@@ -134,6 +140,7 @@ class Tape {
     std::uint32_t registerCount = 0;
     std::size_t decisionCount = 0;
     bool hasSlopes = true;
+    bool isExact = false;
 
     float slope(Operand operand) const;
     // Slope bound that follows from the arguments alone, for the operations that join branches: a branch

@@ -21,7 +21,7 @@ float roundedUp(double slope) {
 
 std::size_t tapesCompiled() { return compiled; }
 
-TapeCompiler::TapeCompiler(std::span<const Expr> outputs) {
+TapeCompiler::TapeCompiler(std::span<const Expr> outputs, bool fuses) : fuses_(fuses) {
   ++compiled;
   literal(0.0);  // at kZero
   literal(1.0);  // at kOne
@@ -111,6 +111,7 @@ TapeCompiler::Shifted TapeCompiler::shifted(Index i) const {
 }
 
 TapeCompiler::Match TapeCompiler::match(Index i) const {
+  if (!fuses_) return {op(i), nodes_[i].args, {}};
   if (const Match m = matchLength(i, {})) return m;
   if (const Shifted s = shifted(i); s.offset && nodes_[s.base].uses == 1) {
     if (const Match m = matchLength(s.base, s.offset)) return m;
@@ -167,7 +168,8 @@ void TapeCompiler::emit(Index i) {
   const Match& m = matches_[i];
   NodeInfo& node = nodes_[i];
   const double slope = node.e.lipschitz();
-  Instruction instruction{m.op, {}, 0, roundedUp(node.unclaimed ? slope : std::min(slope, node.claimed))};
+  Instruction instruction{
+      .op = m.op, .in = {}, .lipschitz = roundedUp(node.unclaimed ? slope : std::min(slope, node.claimed))};
   for (int k = 0; k < rowArguments(m.op); ++k) instruction.in[k] = place(m.args[k]);
   const int numbers = info(m.op).constants;
   if (numbers > 0) instruction.constants = static_cast<std::uint32_t>(pool_->doubles.size());
@@ -178,6 +180,7 @@ void TapeCompiler::emit(Index i) {
   }
   node.place = static_cast<Index>(code_->instructions.size());
   code_->instructions.push_back(instruction);
+  emitted_.push_back(node.e);
 }
 
 }  // namespace sdf

@@ -34,12 +34,15 @@ struct InputPlace {
 /// instruction: where a node is used through claims alone, its value has the slope that they state.
 class TapeCompiler {
  public:
-  explicit TapeCompiler(std::span<const Expr> outputs);
+  /// `fuses`: may operations be fused? Else each instruction is one node.
+  explicit TapeCompiler(std::span<const Expr> outputs, bool fuses = true);
 
   /// The tape with inputs at their defaults.
   Tape take() { return Tape(std::move(code_), std::move(pool_)); }
   std::vector<UniformStep> takeSteps() { return std::move(steps_); }
   std::vector<InputPlace> takeInputs() { return std::move(inputs_); }
+  /// The node of each instruction.
+  std::vector<Expr> takeNodes() { return std::move(emitted_); }
 
  private:
   using Index = std::uint32_t;
@@ -92,6 +95,8 @@ class TapeCompiler {
   Index arg(Index i, int k) const { return nodes_[i].args[k]; }
   Index indexOf(const Expr& e) const { return indices_.at(e.unclaimed().node()); }
 
+  bool fuses_;
+  std::vector<Expr> emitted_;
   std::vector<NodeInfo> nodes_;  // without claims, arguments before their users
   FlatMap<Index> indices_;
   std::vector<Match> matches_;  // by node

@@ -53,15 +53,15 @@ class UnionTapes::Linker {
     const Outputs a = joined(operands.first(half));
     const Outputs b = joined(operands.subspan(half));
     const float steeper = std::max(code_->slope(a[0]), code_->slope(b[0]));
-    Outputs least{append({Op::Min, {a[0], b[0]}, 0, steeper})};
+    Outputs least{append({.op = Op::Min, .in = {a[0], b[0]}, .lipschitz = steeper})};
     std::optional<Operand> second;
     for (std::size_t k = 1; k < a.size(); ++k) {
       if (same(a[k], b[k])) {
         least.push_back(a[k]);
         continue;
       }
-      if (!second) second = append({Op::LessEqual, {b[0], a[0]}, 0, kUnknown});
-      least.push_back(append({Op::Select, {*second, b[k], a[k]}, 0, kUnknown}));
+      if (!second) second = append({.op = Op::LessEqual, .in = {b[0], a[0]}, .lipschitz = kUnknown});
+      least.push_back(append({.op = Op::Select, .in = {*second, b[k], a[k]}, .lipschitz = kUnknown}));
     }
     return least;
   }
@@ -75,11 +75,11 @@ class UnionTapes::Linker {
       for (std::size_t k = 1; k < all.size(); ++k) {
         if (same(all[k], next[k])) continue;
         if (k + 1 == all.size()) {
-          all[k] = append({Op::Select, {join[2], next[k], all[k]}, 0, kUnknown});
+          all[k] = append({.op = Op::Select, .in = {join[2], next[k], all[k]}, .lipschitz = kUnknown});
           continue;
         }
-        const Operand apart = append({Op::Sub, {next[k], all[k]}, 0, kUnknown});
-        all[k] = append({Op::MulAdd, {apart, join[1], all[k]}, 0, kUnknown});
+        const Operand apart = append({.op = Op::Sub, .in = {next[k], all[k]}, .lipschitz = kUnknown});
+        all[k] = append({.op = Op::MulAdd, .in = {apart, join[1], all[k]}, .lipschitz = kUnknown});
       }
     }
     return all;

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "sdf/eval/promise.h"
+#include "sdf/eval/rounding.h"
 #include "sdf/model/model.h"
 
 namespace sdf {
@@ -17,8 +20,15 @@ bool sameLength(const Vectors& v, std::size_t count) {
   return v.x.size() == count && v.y.size() == count && v.z.size() == count;
 }
 
-MarchField fieldOf(const Expr& distance, const Expr& step, double lipschitz) {
-  return {std::make_shared<const Tape>(std::array{distance, step}), lipschitz};
+// Where a shape is looked at, at most, if it has no bounds: as far as views see by themselves.
+constexpr double kSeen = 80.0;
+
+// Read in double where floats are farther off than the readings near 0 are looked at again for (sampler.cpp).
+MarchField fieldOf(const Expr& distance, const Expr& step, double lipschitz, const Box& bounds) {
+  const Box seen = bounds.finite() ? bounds : intersect(bounds, Box::centred(glm::dvec3(kSeen)));
+  const double off = distanceRounding(glm::max(glm::abs(seen.min), glm::abs(seen.max)));
+  const TapePtr tape = std::make_shared<const Tape>(std::array{distance, step});
+  return {withAccuracy(tape, {seen, off, kInfinity}), lipschitz};
 }
 
 // What is wrong with ray i; "" where nothing is.
@@ -37,11 +47,11 @@ Result<MarchField> marchField(const Shape& shape) {
   if (!shape.ok()) return Error{ErrorKind::Scene, *shape.error};
   if (shape.dimension != 3) return Error{ErrorKind::Scene, "the shape is flat; extrude or revolve it"};
   const Marchable field = marchable(shape);
-  return fieldOf(field.distance, field.step, field.slope);
+  return fieldOf(field.distance, field.step, field.slope, shape.bounds);
 }
 
 MarchField marchField(const Expr& distance, double lipschitz) {
-  return fieldOf(distance, lipschitz == 1.0 ? distance : distance / lipschitz, lipschitz);
+  return fieldOf(distance, lipschitz == 1.0 ? distance : distance / lipschitz, lipschitz, Box::everything());
 }
 
 Status checkSlope(const MarchField& field, const char* user) {

@@ -27,6 +27,7 @@
 #include "sdf/mesh/refine/thin.h"
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/project.h"
+#include "sdf/model/float_range.h"
 #include "sdf/proof/certify.h"
 #include "sdf/proof/obstacle.h"
 #include "sdf/shape/catalog.h"
@@ -71,10 +72,14 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
 
 // Of the longest side of the bounds: below it positions, which are floats, cannot keep a tolerance.
 constexpr double kLeastTolerance = 0x1p-20;
-// Lengths whose squares are floats end here, and begin with its inverse.
-constexpr double kLargest = 0x1p63;
 // Of a coordinate: what lies between it and the next float at most. A voxel has to have some of them.
 constexpr double kBetweenFloats = 0x1p-23, kFloatsInAVoxel = 4.0;
+// Voxels: where floats are farther apart, their rounding would be seen in figures of a thousandth of a voxel,
+// which is what the best meshes are off by.
+constexpr double kSeen = 0x1p-10;
+// Voxels: where rounding to floats moves the surface by more, distances are read in double. Figures of an
+// ordinary mesh are a hundredth of a voxel and more.
+constexpr double kReadWithin = 0.01;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
@@ -109,12 +114,12 @@ struct Lattice {
 class Mesher {
  public:
   Mesher(const std::string& name, const MeshOptions& options, Progress& progress)
-      : name_(name), options_(options), progress_(progress) {}
+      : name_(name), options_(options), progress_(progress), clip_(options.bounds) {}
 
   Result<MeshedShape> run(Shape shape) {
     if (!shape.ok()) return sceneError(name_, *shape.error);
     begin("bounds");
-    const Result<Box> bounds = boundsOf(shape);
+    Result<Box> bounds = boundsOf(shape);
     if (!bounds) return bounds.error();
     double h = options_.voxelSize > 0.0 ? options_.voxelSize : bounds->longestSide() / kDefaultResolution;
     if (const double least = kLeastTolerance * bounds->longestSide();
@@ -123,9 +128,11 @@ class Mesher {
                    "part '" + name_ + "': a tolerance of " + shown(options_.tolerance) +
                        " is below the rounding of coordinates at this size; take at least " + shown(least)};
     if (Status s = checkFloats(*bounds, h); !s) return s.error();
+    if (isFar(*bounds, h)) goNear(shape, *bounds, h);
     const bool thins = options_.tolerance > 0.0;
     painted_ = isPainted(shape);
-    const ModelTapes model = Model(shape).at(options_.values);
+    const double finest = thins ? std::ldexp(h, -kHalvings) : h;
+    const ModelTapes model = Model(shape).at(options_.values, Accuracy{*bounds, kReadWithin * finest});
     distance_ = shape.distance;
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
@@ -171,14 +178,8 @@ class Mesher {
   // Positions and readings are floats: what they cannot tell apart is refused before any work.
   Status checkFloats(const Box& bounds, double voxel) const {
     const glm::dvec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-    const double farthest = std::max({reach.x, reach.y, reach.z}), size = bounds.longestSide();
-    if (farthest > kLargest)
-      return sceneError(name_, "it reaches " + shown(farthest) +
-                                   " from the origin; squares of lengths over " + shown(kLargest) +
-                                   " are no floats: move it to the origin, or scale it down");
-    if (size > 0.0 && size < 1.0 / kLargest)
-      return sceneError(name_, "its bounds are " + shown(size) + " long; squares of lengths below " +
-                                   shown(1.0 / kLargest) + " are no floats: scale it up");
+    const double farthest = std::max({reach.x, reach.y, reach.z});
+    if (const auto why = beyondFloats(bounds)) return sceneError(name_, *why);
     const double apart = farthest * kBetweenFloats;
     if (voxel >= kFloatsInAVoxel * apart) return okStatus();
     return sceneError(name_, "positions, which are floats, are up to " + shown(apart) +
@@ -187,6 +188,44 @@ class Mesher {
                                  "; move it nearer to the origin, or take one of at least " +
                                  shown(kFloatsInAVoxel * apart));
   }
+
+  // Does it lie where the rounding of positions shows in figures, and would not about its middle?
+  static bool isFar(const Box& bounds, double voxel) {
+    const glm::dvec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    const double farthest = std::max({reach.x, reach.y, reach.z});
+    return farthest * kBetweenFloats > kSeen * voxel && glm::length(bounds.centre()) > bounds.longestSide();
+  }
+
+  // All is done about a place near the middle, which is at the origin until the mesh is. It is a multiple of
+  // a power of two, a float that the positions' floats differ from by floats.
+  void goNear(Shape& shape, Box& bounds, double voxel) {
+    const double step = std::exp2(std::floor(std::log2(voxel)));
+    origin_ = glm::round(bounds.centre() / step) * step;
+    shape = relativeTo(shape, origin_);
+    bounds = {bounds.min - origin_, bounds.max - origin_};
+    if (clip_) clip_ = Box{clip_->min - origin_, clip_->max - origin_};
+  }
+
+  // Moves vertices to where floats far from the origin can be, so that what is measured is what is written.
+  // The differences of these floats are floats, too.
+  void round(FeatureMesh& mesh) const {
+    if (origin_ == glm::dvec3(0.0)) return;
+    for (glm::vec3& p : mesh.positions) {
+      const glm::vec3 there(glm::dvec3(p) + origin_);
+      p = there - glm::vec3(origin_);
+    }
+  }
+
+  void goBack() {
+    const auto move = [&](glm::vec3& p) { p = glm::dvec3(p) + origin_; };
+    for (glm::vec3& p : result_.mesh.positions) move(p);
+    MeshStats& stats = result_.stats;
+    for (glm::vec3* p :
+         {&stats.farthest, &stats.firstCrossing, &stats.firstUnresolved, &stats.firstNotNumber})
+      move(*p);
+  }
+
+  std::string placeOf(const glm::dvec3& p) const { return place(p + origin_); }
 
   Result<std::unique_ptr<Lattice>> sample(const ModelTapes& model, const Box& bounds, double voxel) {
     begin("sampling");
@@ -216,9 +255,8 @@ class Mesher {
       begin("balancing");
       const std::vector<glm::vec3> before = mesh.positions;
       balanceVertices(mesh, normals);
-      if (options_.bounds)
-        for (glm::vec3& p : mesh.positions)
-          p = glm::clamp(glm::dvec3(p), options_.bounds->min, options_.bounds->max);
+      if (clip_)
+        for (glm::vec3& p : mesh.positions) p = glm::clamp(glm::dvec3(p), clip_->min, clip_->max);
       uncrossMoved(mesh, doubtful, before);
     }
     if (painted_) {
@@ -285,7 +323,8 @@ class Mesher {
 
   // Measures, checks and colours what was made.
   Result<MeshedShape> finish(const Shape& shape, const ModelTapes& model, const Box& bounds,
-                             const Lattice& lattice) {
+                             Lattice& lattice) {
+    round(lattice.mesh);
     const FeatureMesh& features = lattice.mesh;
     const BandField& field = lattice.field;
     const double voxel = result_.stats.voxelSize;
@@ -306,6 +345,7 @@ class Mesher {
     splitAtCreases(features, field, static_cast<float>(far), progress_, mesh);
     begin("colouring");
     colorMesh(shape, features.materials, options_.values, field, progress_, mesh);
+    goBack();
     end();
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     return std::move(result_);
@@ -339,7 +379,7 @@ class Mesher {
     return Error{ErrorKind::Limits,
                  "part '" + name_ + "': a tolerance of " + shown(stats.tolerance) +
                      " could not be kept; the best that was reached is " + shown(stats.maxDistance) +
-                     ", at " + place(stats.farthest) +
+                     ", at " + placeOf(stats.farthest) +
                      ". Take a larger tolerance, a smaller voxel size, or leave the tolerance out"};
   }
 
@@ -383,20 +423,20 @@ class Mesher {
       if (const double d = beyond(bounds, mesh.positions[i]); d > farthest && distances[i] < near)
         farthest = d, outside = &mesh.positions[i];
     if (outside)
-      return sceneError(name_, "the surface leaves the bounds " + place(bounds.min) + " to " +
-                                   place(bounds.max) + " that are stated for it, at " + place(*outside) +
+      return sceneError(name_, "the surface leaves the bounds " + placeOf(bounds.min) + " to " +
+                                   placeOf(bounds.max) + " that are stated for it, at " + placeOf(*outside) +
                                    "; enlarge the bounds of its field, or leave them out");
     const std::string advice =
         ": what is stated of the shape does not hold there. Enlarge the lipschitz and the bounds of its "
         "field, or leave them out; a shape without a field has to be made in another way";
     if (!stats.watertight) {
       const std::uint32_t open = *openVertex(mesh.triangles, mesh.positions.size());
-      return sceneError(name_, "the mesh is torn open at " + place(mesh.positions[open]) + advice);
+      return sceneError(name_, "the mesh is torn open at " + placeOf(mesh.positions[open]) + advice);
     }
     if (stats.maxDistance > std::max(kFarthestVoxels * voxel, stats.tolerance))
       return sceneError(name_, "the mesh is off by about " + shown(stats.maxDistance) + ", " +
-                                   shown(stats.maxDistance / voxel) + " voxels, at " + place(stats.farthest) +
-                                   advice);
+                                   shown(stats.maxDistance / voxel) + " voxels, at " +
+                                   placeOf(stats.farthest) + advice);
     return okStatus();
   }
 
@@ -421,7 +461,7 @@ class Mesher {
         "part '" + name_ + "': no distance below " + shown(limit) +
             " is proven between mesh and surface in " + std::to_string(proof.unproven) +
             " cells, the first of side " + shown(proof.unprovenSize) + " around " +
-            place(proof.firstUnproven) +
+            placeOf(proof.firstUnproven) +
             (proof.bound() > 0.0 ? "; elsewhere it is " + shown(proof.bound()) + " at most" : "") +
             "; measured " + shown(stats.maxDistance) + (obstacle.empty() ? "" : ". There " + obstacle) +
             ". The mesh may lack something there; or proofs fail: at tips, where surfaces touch, and "
@@ -447,6 +487,8 @@ class Mesher {
   const MeshOptions& options_;
   Expr distance_;  // of the shape
   Progress& progress_;
+  std::optional<Box> clip_;  // as the options have it
+  glm::dvec3 origin_{0.0};   // of the coordinates in use
   MeshedShape result_;
   bool painted_ = false;
   std::vector<glm::vec3> surface_;  // points of it

@@ -45,13 +45,18 @@ std::span<const Shape> Model::operands() const {
   return s.outer ? std::span<const Shape>(s.outer->operands) : std::span(&s, 1);
 }
 
-ModelTapes Model::at(const Values& values) const {
+ModelTapes Model::at(const Values& values, const std::optional<Accuracy>& accuracy) const {
   ModelTapes result;
   std::vector<TapePtr> tapes;
   for (const Function& f : functions()) tapes.push_back(f.at(values));
   const bool covered =
       std::ranges::all_of(functions(), [&](const Function& f) { return f.covers(values); }) &&
       (!compiled_->blend || compiled_->blend->covers(values));
+  for (std::size_t i = 0; accuracy && i < tapes.size(); ++i) {
+    Accuracy own = *accuracy;
+    if (covered) own.region = intersect(own.region, operands()[i].bounds);
+    tapes[i] = withAccuracy(tapes[i], own);
+  }
   result.slope_ = covered ? slopeOf(shape()) : kInfinity;
   for (std::uint32_t i = 0; i < tapes.size(); ++i) result.all_.push_back(i);
   if (!shape().outer) {

@@ -7,6 +7,7 @@
 
 #include "sdf/base/box.h"
 #include "sdf/eval/function.h"
+#include "sdf/eval/rounding.h"
 #include "sdf/eval/union_tapes.h"
 #include "sdf/shape/shape.h"
 
@@ -79,8 +80,10 @@ class Model {
   const std::vector<Function>& functions() const { return compiled_->functions; }
 
   /// The tapes where inputs have these values; no bounds and slopes are known where one lies out of its
-  /// range. Cost: linear in the number of constants.
-  ModelTapes at(const Values& values = {}) const;
+  /// range. Where an accuracy is given, operands that floats cannot read that accurately are read in double:
+  /// each is looked at where it lies. Cost: linear in the number of constants, and with an accuracy in that
+  /// of operations.
+  ModelTapes at(const Values& values = {}, const std::optional<Accuracy>& accuracy = {}) const;
 
  private:
   struct Compiled {

@@ -73,6 +73,28 @@ class SessionTest : public HeadlessTest {
   int writes = 0;
 };
 using CanvasTest = SessionTest;
+
+// Shaders are relative to a place that the camera stays near to, and follow it when it does not.
+TEST_F(SessionTest, FollowsTheCameraToFarPlaces) {
+  write(R"(local x = param("x", 6455808, {min = 0, max = 1e7})
+part("ball", sphere(1):translate(x, 0, 0):paint{color = {0.5, 0, 0}, emission = {1, 0, 0}})
+background(0) directional_light{direction = {0, 0, 1}} gamma(1))");
+  Session session = open();
+  const int red = middle(session).x;
+  EXPECT_GE(red, 250);
+  EXPECT_EQ(session.renderer().origin(), glm::dvec3(6455808.0, 0.0, 0.0));
+  Eye eye = session.eye();
+  eye.from.x += 10.0, eye.to.x += 10.0;
+  session.controls.eye = eye;
+  session.controls.parameters["x"] = 6455818.0;
+  EXPECT_EQ(middle(session).x, red);
+  EXPECT_EQ(session.compilations(), 1);
+  session.controls.parameters["x"] = 3.0;
+  session.controls.eye = Eye{.from = {3.0, 0.0, 6.0}, .to = {3.0, 0.0, 0.0}};
+  EXPECT_EQ(middle(session).x, red);
+  EXPECT_EQ(session.compilations(), 2);
+}
+
 using MaterialsTest = SessionTest;
 using WatchTest = SessionTest;
 

@@ -30,11 +30,13 @@ struct Drawn {
 
 Drawn draw(const Scene& scene, const GpuRenderOptions& options) {
   makeContextCurrent();
-  auto renderer = take(viewer::Renderer::make(scene, options.shader));
   auto target = take(
       viewer::Target::create(options.width, options.height, {options.format, viewer::PixelFormat::Rgba32f}));
   viewer::Frame frame = viewer::frameOf(viewer::LookFunction(scene), options.parameters,
                                         static_cast<double>(options.width) / options.height);
+  viewer::ShaderOptions shader = options.shader;
+  shader.origin = viewer::originFor(frame.look.eye);
+  auto renderer = take(viewer::Renderer::make(scene, shader));
   frame.samples = options.samples;
   frame.filter = options.filter;
   frame.maxSteps = options.maxSteps;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "sdf/expr/offsets.h"
 #include "sdf/shape/calibrate/calibrate.h"
 #include "sdf/shape/formula.h"
 #include "sdf/shape/operand.h"
@@ -156,6 +157,19 @@ Shape translate(const Shape& shape, const Vec3E& offset) {
   }
   result = settled(std::move(result));
   result.outer = mappedUnion(shape, [&](const Shape& operand) { return translate(operand, offset); });
+  return result;
+}
+
+Shape relativeTo(const Shape& shape, const glm::dvec3& origin) {
+  if (!shape.ok()) return shape;
+  std::vector<Expr> graphs{shape.distance};
+  graphs.insert(graphs.end(), shape.surface.begin(), shape.surface.end());
+  graphs = relativeTo(graphs, origin);
+  Shape result = shape;
+  result.distance = graphs[0].claimLipschitz(shape.claim.lipschitz);
+  std::copy(graphs.begin() + 1, graphs.end(), result.surface.begin());
+  result.bounds = {shape.bounds.min - origin, shape.bounds.max - origin};
+  result.outer = mappedUnion(shape, [&](const Shape& operand) { return relativeTo(operand, origin); });
   return result;
 }
 

@@ -3,12 +3,17 @@
 // refused where they would tilt it. A failed operand is passed on; numbers must be finite and must not depend
 // on the position.
 #pragma once
+#include <glm/vec3.hpp>
+
 #include "sdf/shape/shape.h"
 
 namespace sdf {
 
 /// Moved by `offset`. The claim stays.
 Shape translate(const Shape& shape, const Vec3E& offset);
+/// Moved by -origin, finite, and written so that a large origin and the shape's own shifts cancel in double
+/// (expr/offsets.h): what lies far from the origin is read in floats as well as at it. The claim stays.
+Shape relativeTo(const Shape& shape, const glm::dvec3& origin);
 
 /// Turned about the x axis, then about y, then about z (the axes stay fixed). The claim stays. A rotation
 /// matrix entry within 1e-15 of 0 or 1 is taken as that number, so that quarter turns cost nothing.
