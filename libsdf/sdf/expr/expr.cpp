@@ -78,6 +78,12 @@ void setSlopes(Node& n, double bound, const Interval* partials) {
   for (int i = 0; i < 3; ++i) n.partials[i] = {kept(partials[i].lo), kept(partials[i].hi)};
 }
 
+bool hasKnownArguments(const Node& n) {
+  for (int i = 0; i < arity(n.op); ++i)
+    if (!n.args[i].node()->range.isPoint()) return false;
+  return true;
+}
+
 void setFacts(Node& n) {
   if (n.op == Op::Constant) {
     n.range = Interval(n.value);
@@ -100,6 +106,9 @@ void setFacts(Node& n) {
     const Fact fact =
         evaluateOp<Fact>(n.op, n.payload.get(), [&](int i) { return factOf(*n.args[i].node()); });
     n.range = fact.v;
+    // What is made of known numbers is the number that constants would be folded to.
+    if (hasKnownArguments(n))
+      n.range = evaluateOp<double>(n.op, n.payload.get(), [&](int i) { return n.args[i].node()->range.lo; });
     setSlopes(n, fact.d[0].magnitude(), fact.d + 1);
   }
 }
