@@ -141,7 +141,9 @@ class GlslWriter::Body {
   int lines_ = 0;
 };
 
-void GlslWriter::add(const std::string& name, std::span<const Expr> outputs) {
+void GlslWriter::add(const std::string& name, std::span<const Expr> given) {
+  const std::vector<Expr> outputs =
+      numbers_ ? numbers_->take(given) : std::vector<Expr>(given.begin(), given.end());
   Body function(*this);
   function.write(outputs);
   const std::size_t count = outputs.size();
@@ -172,9 +174,15 @@ std::string GlslWriter::commentOf(const Expr& e) const {
   return found == labels_.end() ? "" : comments_[found->second];
 }
 
+std::string GlslWriter::changingTerm(double v) {
+  if (!numbers_) return literal(v);
+  uniforms_.emplace_back(v);
+  return "u" + std::to_string(uniforms_.size() - 1);
+}
+
 std::string GlslWriter::uniform(const Expr& e) {
   const std::size_t slot = slots_.try_emplace(e, uniforms_.size()).first->second;
-  if (slot == uniforms_.size()) uniforms_.push_back(e);
+  if (slot == uniforms_.size()) uniforms_.push_back(numbers_ ? numbers_->now(e) : e);
   return "u" + std::to_string(slot);
 }
 
