@@ -15,6 +15,7 @@
 #include "viewer/render/in_view.h"
 #include "viewer/render/legend.h"
 #include "viewer/render/mesh_view.h"
+#include "viewer/render/present_scene.h"
 
 namespace sdf::viewer {
 namespace {
@@ -29,7 +30,11 @@ class Headless {
  public:
   /// The eye is fitted to the box, if there is one.
   Headless(const Options& options, Scene scene, LookFunction look, const std::optional<Box>& fitTo)
-      : options_(options), scene_(std::move(scene)), look_(std::move(look)), fitTo_(fitTo) {}
+      : options_(options),
+        scene_(std::move(scene)),
+        present_(options.scene, scene_, options.parameters, options.time),
+        look_(std::move(look)),
+        fitTo_(fitTo) {}
 
   Status pictures() {
     const int count = options_.frames.value_or(1);
@@ -50,6 +55,8 @@ class Headless {
       if (i > 0 && (scriptReadsTheClock || meshMoves)) {
         renderer = rendererAt(time, options_.shader);
         if (!renderer) return renderer.error();
+      } else if (auto s = moveTo(time, *renderer); !s) {
+        return s;
       }
       if (auto s = draw(*renderer, frame(time), *target, nameOf(i)); !s) return s;
       if (auto s = write(*target, nameOf(i)); !s) return s;
@@ -70,7 +77,8 @@ class Headless {
       if (auto s = target->picture(); !s) return s.error();  // waits until all is drawn
       times.push_back(millisecondsSince(start));
     }
-    const double cpu = millisecondsBeforeDrawing(*renderer);
+    const auto cpu = millisecondsBeforeDrawing(*renderer);
+    if (!cpu) return cpu.error();
     const auto readings = readingsOn(*target);
     if (!readings) return readings.error();
     const auto drawn = target->picture();
@@ -85,7 +93,7 @@ class Headless {
                                   {"compile_ms", renderer->compileSeconds() * 1e3},
                                   {"first_frame_ms", first},
                                   {"frame_ms", median(times)},
-                                  {"cpu_ms", cpu},
+                                  {"cpu_ms", *cpu},
                                   {"shader_bytes", renderer->shaders().bytes()},
                                   {"lists", renderer->shaders().plan.cells.has_value()},
                                   {"readings_a_ray", *readings},
@@ -103,7 +111,7 @@ class Headless {
   Status shader() const {
     ShaderOptions whole = options_.shader;
     whole.sharing = false;
-    const auto shaders = assemble(scene_, whole);
+    const auto shaders = assemble(sceneAt(options_.time), whole);
     if (!shaders) return shaders.error();
     if (auto s = checkTarget(*options_.glsl); !s) return s;
     return writeFile(*options_.glsl, [&](std::ostream& out) {
@@ -139,7 +147,7 @@ class Headless {
     auto target =
         Target::create(options_.width, options_.height, std::vector(kLayers, PixelFormat::Rgba32f), true);
     if (!target) return target.error();
-    const Shot shot(f, options_.width, options_.height, Extent(scene_));
+    const Shot shot(f, options_.width, options_.height, Extent(sceneAt(options_.time)));
     meshes->prepare(f);
     std::vector<double> times;
     for (int i = 0; i <= *options_.bench; ++i) {
@@ -169,9 +177,11 @@ class Headless {
     return options_.frames ? command_line::frameName(*options_.picture, i + 1) : *options_.picture;
   }
 
+  Scene sceneAt(double time) const { return present_.at(scene_, options_.parameters, time); }
+
   // With the mesh of that moment, if its view shows one.
   Result<Renderer> rendererAt(double time, const ShaderOptions& shader) {
-    auto renderer = Renderer::make(scene_, shader);
+    auto renderer = Renderer::make(sceneAt(time), shader, present_.other());
     if (!renderer || !showsMesh(shader.view)) return renderer;
     auto fixed = options_.scene.load({.values = options_.parameters, .time = time, .fixed = true});
     if (!fixed) return fixed.error();
@@ -238,15 +248,25 @@ class Headless {
     return options_.frame(std::move(parameters), std::move(look));
   }
 
+  // Lets a renderer of the scene draw it with the slopes of this time.
+  Status moveTo(double time, Renderer& renderer) {
+    if (!present_.move(options_.parameters, time)) return okStatus();
+    const auto followed = renderer.follow(sceneAt(time));
+    return followed ? okStatus() : Status(followed.error());
+  }
+
   // The median time that a frame of another moment takes on the CPU before anything is drawn.
-  double millisecondsBeforeDrawing(Renderer& renderer) const {
-    constexpr int kFrames = 101;
+  Result<double> millisecondsBeforeDrawing(Renderer& renderer) {
+    const int frames = present_.inputs().contains("time") ? 11 : 101;
     std::vector<double> times;
-    for (int i = 1; i <= kFrames; ++i) {
+    for (int i = 1; i <= frames; ++i) {
+      const double time = options_.time + i / options_.framesPerSecond;
       const auto start = Clock::now();
-      renderer.prepare(frame(options_.time + i / options_.framesPerSecond));
+      if (auto s = moveTo(time, renderer); !s) return s.error();
+      renderer.prepare(frame(time));
       times.push_back(millisecondsSince(start));
     }
+    if (auto s = moveTo(options_.time, renderer); !s) return s.error();
     return median(std::move(times));
   }
 
@@ -291,6 +311,7 @@ class Headless {
 
   const Options& options_;
   Scene scene_;
+  PresentScene present_;
   LookFunction look_;
   std::optional<Box> fitTo_;
   std::optional<ErrorFigures> figures_;  // of the mesh, if its errors are shown
