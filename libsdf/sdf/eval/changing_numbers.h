@@ -21,6 +21,7 @@ class ChangingNumbers {
   /// Keeps the form that is written: what differs from now on differs from this, too.
   void keep();
 
+  bool isSettled() const { return settled_; }
   /// Returns the outputs of a function in the form to be written; before settle() as they are.
   std::vector<Expr> take(std::span<const Expr> outputs);
   /// Returns what stands at present for a part of that form which does not depend on space.
