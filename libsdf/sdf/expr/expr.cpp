@@ -78,9 +78,10 @@ void setSlopes(Node& n, double bound, const Interval* partials) {
   for (int i = 0; i < 3; ++i) n.partials[i] = {kept(partials[i].lo), kept(partials[i].hi)};
 }
 
+// Are they numbers? What depends on space and has one value may have that as 0 or -0.
 bool hasKnownArguments(const Node& n) {
   for (int i = 0; i < arity(n.op); ++i)
-    if (!n.args[i].node()->range.isPoint()) return false;
+    if (const Node& a = *n.args[i].node(); !a.range.isPoint() || a.lipschitz != 0.0) return false;
   return true;
 }
 
