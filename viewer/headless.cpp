@@ -17,6 +17,7 @@
 #include "viewer/render/in_view.h"
 #include "viewer/render/legend.h"
 #include "viewer/render/mesh_view.h"
+#include "viewer/render/present_scene.h"
 
 namespace sdf::viewer {
 namespace {
@@ -31,7 +32,11 @@ class Headless {
  public:
   /// The eye is fitted to the box, if there is one.
   Headless(const Options& options, Scene scene, LookFunction look, const std::optional<Box>& fitTo)
-      : options_(options), scene_(std::move(scene)), look_(std::move(look)), fitTo_(fitTo) {}
+      : options_(options),
+        scene_(std::move(scene)),
+        present_(options.scene, scene_, options.parameters, options.time),
+        look_(std::move(look)),
+        fitTo_(fitTo) {}
 
   Status pictures() {
     const int count = options_.frames.value_or(1);
@@ -54,6 +59,8 @@ class Headless {
       if (i > 0 && (scriptReadsTheClock || meshMoves || isFar)) {
         renderer = rendererAt(time, options_.shader);
         if (!renderer) return renderer.error();
+      } else if (auto s = moveTo(time, *renderer); !s) {
+        return s;
       }
       if (auto s = draw(*renderer, f, *target, nameOf(i)); !s) return s;
       if (auto s = write(*target, nameOf(i)); !s) return s;
@@ -74,7 +81,8 @@ class Headless {
       if (auto s = target->picture(); !s) return s.error();  // waits until all is drawn
       times.push_back(millisecondsSince(start));
     }
-    const double cpu = millisecondsBeforeDrawing(*renderer);
+    const auto cpu = millisecondsBeforeDrawing(*renderer);
+    if (!cpu) return cpu.error();
     const auto readings = readingsOn(*target);
     if (!readings) return readings.error();
     const auto drawn = target->picture();
@@ -89,7 +97,7 @@ class Headless {
                                   {"compile_ms", renderer->compileSeconds() * 1e3},
                                   {"first_frame_ms", first},
                                   {"frame_ms", median(times)},
-                                  {"cpu_ms", cpu},
+                                  {"cpu_ms", *cpu},
                                   {"shader_bytes", renderer->shaders().bytes()},
                                   {"lists", renderer->shaders().plan.cells.has_value()},
                                   {"readings_a_ray", *readings},
@@ -107,7 +115,7 @@ class Headless {
   Status shader() const {
     ShaderOptions whole = options_.shader;
     whole.sharing = false;
-    const auto shaders = assemble(scene_, whole);
+    const auto shaders = assemble(sceneAt(options_.time), whole);
     if (!shaders) return shaders.error();
     if (auto s = checkTarget(*options_.glsl); !s) return s;
     return writeFile(*options_.glsl, [&](std::ostream& out) {
@@ -143,10 +151,11 @@ class Headless {
     auto target =
         Target::create(options_.width, options_.height, std::vector(kLayers, PixelFormat::Rgba32f), true);
     if (!target) return target.error();
+    const glm::dvec3& origin = shaders.plan.options.origin;
     Frame near = f;
-    near.look = relativeTo(f.look, shaders.plan.options.origin);
+    near.look = relativeTo(f.look, origin);
     const Shot shot(near, options_.width, options_.height,
-                    Extent(relativeTo(scene_, shaders.plan.options.origin)));
+                    Extent(relativeTo(sceneAt(options_.time), origin)));
     meshes->prepare(f);
     std::vector<double> times;
     for (int i = 0; i <= *options_.bench; ++i) {
@@ -176,11 +185,13 @@ class Headless {
     return options_.frames ? command_line::frameName(*options_.picture, i + 1) : *options_.picture;
   }
 
+  Scene sceneAt(double time) const { return present_.at(scene_, options_.parameters, time); }
+
   // With the mesh of that moment, if its view shows one.
   Result<Renderer> rendererAt(double time, const ShaderOptions& shader) {
     ShaderOptions near = shader;
     near.origin = originFor(frame(time).look.eye);
-    auto renderer = Renderer::make(scene_, near);
+    auto renderer = Renderer::make(sceneAt(time), near, present_.other());
     if (renderer)
       for (const std::string& why : renderer->shaders().plan.doubtful)
         if (told_.insert(why).second) std::cerr << "sdfview: warning: " << why << '\n';
@@ -250,15 +261,25 @@ class Headless {
     return options_.frame(std::move(parameters), std::move(look));
   }
 
+  // Lets a renderer of the scene draw it with the slopes of this time.
+  Status moveTo(double time, Renderer& renderer) {
+    if (!present_.move(options_.parameters, time)) return okStatus();
+    const auto followed = renderer.follow(sceneAt(time));
+    return followed ? okStatus() : Status(followed.error());
+  }
+
   // The median time that a frame of another moment takes on the CPU before anything is drawn.
-  double millisecondsBeforeDrawing(Renderer& renderer) const {
-    constexpr int kFrames = 101;
+  Result<double> millisecondsBeforeDrawing(Renderer& renderer) {
+    const int frames = present_.inputs().contains("time") ? 11 : 101;
     std::vector<double> times;
-    for (int i = 1; i <= kFrames; ++i) {
+    for (int i = 1; i <= frames; ++i) {
+      const double time = options_.time + i / options_.framesPerSecond;
       const auto start = Clock::now();
-      renderer.prepare(frame(options_.time + i / options_.framesPerSecond));
+      if (auto s = moveTo(time, renderer); !s) return s.error();
+      renderer.prepare(frame(time));
       times.push_back(millisecondsSince(start));
     }
+    if (auto s = moveTo(options_.time, renderer); !s) return s.error();
     return median(std::move(times));
   }
 
@@ -303,6 +324,7 @@ class Headless {
 
   const Options& options_;
   Scene scene_;
+  PresentScene present_;
   LookFunction look_;
   std::optional<Box> fitTo_;
   std::set<std::string> told_;           // warnings

@@ -82,6 +82,27 @@ TEST(Alike, NameTheirParametersApart) {
   EXPECT_NE(sorts[0].parameters[0].parameterInfo().name, sorts[1].parameters[0].parameterInfo().name);
 }
 
+// A parameter of a reading's own has another value at each place.
+TEST(Alike, LeavesParametersThatNoSceneHas) {
+  const auto list = [](double most, double number) {
+    const Expr own = Expr::parameter({kOwnName + std::string("row"), 0.0, 0.0, most});
+    return std::vector{(own * number + 1.0) * position().x};
+  };
+  const auto sorts = groupByStructure(Lists{list(1.0, 2.0), list(5.0, 3.0)}, "n");
+  ASSERT_EQ(sorts.size(), 1u);
+  EXPECT_EQ(sorts[0].rows, (Lists{{Expr(2.0)}, {Expr(3.0)}}));
+  const Expr other = Expr::parameter({kOwnName + std::string("other"), 0.0, 0.0, 1.0});
+  EXPECT_EQ(groupByStructure(Lists{list(1.0, 2.0), {(other * 2.0 + 1.0) * position().x}}, "n").size(), 2u);
+}
+
+TEST(Alike, TakesConstantsForOneThatFloatsDoNotTellApart) {
+  const Lists lists{{position().x + 0.1}, {position().x + (0.1 + 1e-12)}, {position().x + 0.2}};
+  const std::span<const std::vector<Expr>> all(lists);
+  EXPECT_TRUE(groupByStructure(all.first(2), "n", true)[0].parameters.empty());
+  EXPECT_EQ(groupByStructure(all.first(2), "n")[0].parameters.size(), 1u);
+  EXPECT_EQ(groupByStructure(all, "n", true)[0].parameters.size(), 1u);
+}
+
 TEST(Alike, CountsOperationsOnce) {
   const Expr x = position().x, twice = x * 2.0;
   EXPECT_EQ(operationsOf(std::vector{twice + twice, twice}), 2u);

@@ -242,6 +242,19 @@ TEST(Expr, UniformValueTakesParametersAtTheirPresentValues) {
   EXPECT_TRUE(dependsOnSpace(normal().y));
 }
 
+// What constants are folded to is known of parameters of one value, too, to the bit.
+TEST(Expr, FormulasOfKnownParametersHaveOneValue) {
+  constexpr double kValue = 14.3, kTurn = 0.017453292519943295;
+  const auto formula = [](const Expr& e) { return sin(e * kTurn) / sqrt(e) + max(e, 3.0); };
+  const Expr known = Expr::parameter({"k", kValue, kValue, kValue});
+  EXPECT_FALSE(formula(known).isConstant());
+  ASSERT_TRUE(formula(known).range().isPoint());
+  EXPECT_EQ(formula(known).range().lo, formula(Expr(kValue)).constantValue());
+  EXPECT_FALSE(formula(Expr::parameter({"k", kValue, 14.0, 15.0})).range().isPoint());
+  EXPECT_FALSE((known * kX).range().isPoint());
+  EXPECT_TRUE(sqrt(-known).range().nan);
+}
+
 TEST(Expr, MixAndClampMeanWhatTheySay) {
   EXPECT_EQ(evaluateGraph(mix(kX, kY, Expr(0.25)), 1.0, 5.0), 2.0);
   EXPECT_EQ(evaluateGraph(clamp(kX, 0.0, 1.0), 3.0), 1.0);

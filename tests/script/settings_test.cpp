@@ -155,6 +155,27 @@ TEST(Settings, WithoutSettingsTheScenesDefaultsStand) {
 }
 
 // The defaults that the reference gives, written out, change nothing.
+// They stay inputs, but the scene is made for their present values.
+TEST(Settings, NarrowedParametersHaveTheirPresentValueAlone) {
+  const std::string text = R"(
+local b, r = param("b", 10, {min = 0, max = 40}), param("r", 1, {min = 0.5, max = 2})
+return box(1, 0.2, 0.5):bend(b + 5 * sin(time)), sphere(r))";
+  const auto slope = [](const Scene& scene) { return scene.parts.front().shape.claim.lipschitz; };
+  const auto reach = [](const Scene& scene) { return scene.parts.back().shape.bounds.max.x; };
+  const ScriptOptions now{.values = {{"b", 12.0}}, .time = 0.5};
+  ScriptOptions fixed = now, narrowed = now;
+  fixed.fixed = true;
+  narrowed.narrowed = {"b", "time"};
+  const Scene wide = sceneOf(text, now), number = sceneOf(text, fixed), known = sceneOf(text, narrowed);
+  EXPECT_GT(wide.parts.front().shape.bounds.max.x, 1.1 * number.parts.front().shape.bounds.max.x);
+  EXPECT_NEAR(slope(known), slope(number), 1e-9 * slope(number));
+  EXPECT_EQ(known.parts.front().shape.bounds.max.x, number.parts.front().shape.bounds.max.x);
+  EXPECT_EQ(reach(known), 2.0) << "another parameter has its range";
+  EXPECT_EQ(known.parameters, wide.parameters) << "as sliders have them";
+  const Function distance(known.parts.front().shape.distance);
+  EXPECT_NE(std::ranges::find(distance.inputs(), "b", &ParameterInfo::name), distance.inputs().end());
+}
+
 TEST(Settings, DefaultsCanBeWrittenOut) {
   int count = 0;
   for (const Setting<Scene>& setting : sceneSettings())

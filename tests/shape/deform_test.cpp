@@ -16,6 +16,9 @@ constexpr double kPi = std::numbers::pi;
 const Expr kX = Expr::variable(Variable::X), kY = Expr::variable(Variable::Y),
            kZ = Expr::variable(Variable::Z);
 
+// A parameter that is known to have this value.
+Expr known(double v) { return Expr::parameter({"known", v, v, v}); }
+
 Shape bar() { return box(Vec3E(1.0, 0.2, 0.3)); }
 Shape post() { return box(Vec3E(0.3, 1.0, 0.2)); }
 
@@ -395,6 +398,29 @@ double operationsOfEach(int count) {
 TEST(Warp, DozensOfBallsAreAsCheapAsTheirLengths) {
   EXPECT_GT(operationsOfEach(8), 40.0) << "each is divided by its own slope";
   EXPECT_LT(operationsOfEach(64), 20.0) << "a length, a radius, and what is taken of all";
+}
+
+// Slopes, bounds and distances are those of the number.
+TEST(Deform, OfKnownParametersIsThatOfNumbers) {
+  const auto shapes = [](const auto& of) {
+    return std::vector{bend(bar(), of(0.6)), twist(post(), of(0.9)), taper(post(), of(-0.3)),
+                       bend(rotate(bar() | sphere(0.4), Vec3E(of(0.4), 0.0, of(0.2))), of(0.3)),
+                       shell(twist(round(post(), of(0.1)), of(1.3)), of(0.05))};
+  };
+  const std::vector<Shape> numbers = shapes([](double v) { return Expr(v); }), same = shapes(known);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    SCOPED_TRACE(i);
+    ASSERT_TRUE(same[i].ok());
+    EXPECT_NEAR(slopeOf(same[i]), slopeOf(numbers[i]), 1e-9 * slopeOf(numbers[i]));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(same[i].bounds.min[axis], numbers[i].bounds.min[axis], 1e-12);
+      EXPECT_NEAR(same[i].bounds.max[axis], numbers[i].bounds.max[axis], 1e-12);
+    }
+    const Tape a(same[i].distance), b(numbers[i].distance);
+    for (const glm::dvec3& p :
+         {glm::dvec3(0.1, 0.2, 0.3), glm::dvec3(1.1, 0.6, -0.4), glm::dvec3(-0.8, 0.9, 2.0)})
+      EXPECT_NEAR(evaluate(a, p), evaluate(b, p), 1e-9);
+  }
 }
 
 }  // namespace deform_test

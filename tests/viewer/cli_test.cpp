@@ -518,6 +518,25 @@ TEST_F(Sdfview, RunsAScriptThatReadsTheClockForEveryFrame) {
   EXPECT_NE(read(at("a_0001.png")).bytes, read(at("a_0002.png")).bytes);
 }
 
+// Over an hour's range of the clock the slope of a twist has no end.
+TEST_F(Sdfview, DrawsEveryFrameWithTheSlopesOfItsMoment) {
+  const char* twisting =
+      "camera{from = {2, 2, 4}, to = {0, 0, 0}, fov = 34}\n"
+      "part('bar', box(0.3, 0.8, 0.3):twist(param('rate', 30, {min = 0, max = 90}) * time))";
+  const Outcome outcome = run({scene(twisting), "--render", at("a.png"), "--size", "32x24", "--frames", "2",
+                               "--fps", "1", "--time", "1", "-D", "rate=40"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "") << "no ray runs out of steps";
+  EXPECT_EQ(read(at("a_0002.png")).bytes, drawn(twisting, {"--time", "2", "-D", "rate=40"}).bytes);
+  const Outcome bench =
+      run({scene(twisting), "--bench", "1", "--size", "32x24", "--time", "2", "--compare", "rate=80"});
+  ASSERT_EQ(bench.status, 0) << bench.err;
+  const auto report = nlohmann::json::parse(bench.out);
+  EXPECT_EQ(report["pixels_out_of_steps"], 0);
+  EXPECT_LT(report["readings_a_ray"]["primary"], 20.0);
+  EXPECT_LT(report["compared"][0]["other_readings_a_ray"]["primary"], 40.0);
+}
+
 TEST_F(Sdfview, TakesAPicturesEndingInUpperCaseToo) {
   ASSERT_EQ(run({scene(kBall), "--render", at("A.PNG"), "--size", "8x8"}).status, 0);
   EXPECT_EQ(read(at("A.PNG")).width, 8);

@@ -45,28 +45,41 @@ Result<Session> Session::open(const SceneFile& file, Controls controls) {
   Built built{controls.shader, {}};
   built.shader.origin = originFor(controls.eye.value_or(look.at(values, kPictureAspect).eye));
   if (showsMesh(built.shader.view)) built.shader.view = View::Picture;  // until there is a mesh
-  auto renderer = build(*scene, built);
-  if (!renderer) return renderer.error();
-  return Session(file, std::move(controls), std::move(*scene), std::move(look), std::move(*renderer),
-                 std::move(built));
+  auto made = loaded(file, std::move(*scene), controls.parameters, controls.time, built);
+  if (!made) return made.error();
+  return Session(file, std::move(controls), std::move(*made), std::move(built));
 }
 
-Session::Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer,
-                 Built built)
+Result<Session::Loaded> Session::loaded(const SceneFile& file, Scene scene, const Values& parameters,
+                                        double time, const Built& wanted) {
+  LookFunction look = lookOf(scene, file, parameters);
+  PresentScene present(file, scene, parameters, time);
+  Scene now = present.at(scene, parameters, time);
+  auto made = build(now, present, wanted);
+  if (!made) return made.error();
+  return Loaded{std::move(scene), std::move(present), std::move(now), std::move(look), std::move(*made)};
+}
+
+Session::Session(SceneFile file, Controls start, Loaded loaded, Built built)
     : controls(std::move(start)),
       file_(std::move(file)),
       watch_(file_.path),
-      scene_(std::move(scene)),
-      look_(std::move(look)),
-      renderer_(std::move(renderer)),
+      scene_(std::move(loaded.scene)),
+      present_(std::move(loaded.present)),
+      now_(std::move(loaded.now)),
+      look_(std::move(loaded.look)),
+      renderer_(std::move(loaded.renderer)),
       built_(std::move(built)),
       ran_(read()) {
   watchFiles();
   tellMissing();
 }
 
-Result<Renderer> Session::build(const Scene& scene, const Built& wanted) {
-  return Renderer::make(withSurfaceParameters(scene, wanted.materials), wanted.shader);
+Result<Renderer> Session::build(const Scene& now, const PresentScene& present, const Built& wanted) {
+  std::optional<Scene> other;
+  if (present.other()) other = withSurfaceParameters(*present.other(), wanted.materials);
+  return Renderer::make(withSurfaceParameters(now, wanted.materials), wanted.shader,
+                        other ? &*other : nullptr);
 }
 
 Status Session::fit() {
@@ -78,9 +91,10 @@ Status Session::fit() {
 
 void Session::settle() {
   if (read() != ran_) run(controls.editedMaterials);
+  followValues();
   followMesh();
   if (wanted() == built_) return;
-  auto made = build(scene_, wanted());
+  auto made = build(wanted());
   const Status shown = made ? showMesh(*made) : okStatus();
   if (made && !shown) made = shown.error();
   if (!made) {
@@ -95,23 +109,36 @@ void Session::settle() {
   ++compilations_;
 }
 
+void Session::followValues() {
+  if (!present_.move(controls.parameters, controls.time)) return;
+  Scene now = present_.at(scene_, controls.parameters, controls.time);
+  const auto compiled = renderer_.follow(withSurfaceParameters(now, built_.materials));
+  const Status shown = compiled && *compiled ? showMesh(renderer_) : okStatus();
+  buildMessage_ = !compiled ? compiled.error().message : !shown ? shown.error().message : "";
+  if (!compiled) return;
+  now_ = std::move(now);
+  compilations_ += *compiled;
+}
+
 Status Session::load(const Built& wanted) {
   auto scene = file_.load({.values = controls.parameters, .tolerant = true, .time = controls.time});
   if (!scene) return scene.error();
-  LookFunction look = lookOf(*scene, file_, controls.parameters);
-  auto made = build(*scene, wanted);
+  Values parameters = taken(controls.parameters, *scene);
+  auto made = loaded(file_, std::move(*scene), parameters, controls.time, wanted);
   if (!made) return made.error();
-  if (auto s = showMesh(*made); !s) return s;
+  if (auto s = showMesh(made->renderer); !s) return s;
 
-  scene_ = std::move(*scene);
+  scene_ = std::move(made->scene);
+  present_ = std::move(made->present);
+  now_ = std::move(made->now);
   watchFiles();
-  look_ = std::move(look);
-  renderer_ = std::move(*made);
   tellMissing();
+  look_ = std::move(made->look);
+  renderer_ = std::move(made->renderer);
   built_ = wanted;
   buildMessage_.clear();
   ++compilations_;
-  controls.parameters = taken(controls.parameters, scene_);
+  controls.parameters = std::move(parameters);
   return okStatus();
 }
 
@@ -197,7 +224,7 @@ Look Session::look() const {
 Result<Readings> Session::measure(int width, int height) const {
   Built counts = built_;
   counts.shader.countReadings = true;
-  auto counting = build(scene_, counts);
+  auto counting = build(counts);
   if (!counting) return counting.error();
   if (auto s = showMesh(*counting); !s) return s.error();
   const auto target = Target::create(width, height, {PixelFormat::Rgba8, PixelFormat::Rgba32f});

@@ -10,6 +10,7 @@
 
 #include "viewer/app/mesh_job.h"
 #include "viewer/render/picture_options.h"
+#include "viewer/render/present_scene.h"
 #include "viewer/render/renderer.h"
 #include "viewer/render/scene_file.h"
 
@@ -145,14 +146,27 @@ class Session {
     std::set<std::string> materials;
     bool operator==(const Built&) const = default;
   };
-  Session(SceneFile file, Controls start, Scene scene, LookFunction look, Renderer renderer, Built built);
-  static Result<Renderer> build(const Scene& scene, const Built& wanted);
+  /// A scene for all values of its inputs, and as it is for the present ones, with its renderer.
+  struct Loaded {
+    Scene scene;
+    PresentScene present;
+    Scene now;
+    LookFunction look;
+    Renderer renderer;
+  };
+  Session(SceneFile file, Controls start, Loaded loaded, Built built);
+  static Result<Renderer> build(const Scene& now, const PresentScene& present, const Built& wanted);
+  Result<Renderer> build(const Built& wanted) const { return build(now_, present_, wanted); }
+  static Result<Loaded> loaded(const SceneFile& file, Scene scene, const Values& parameters, double time,
+                               const Built& wanted);
   /// Replaces scene and renderer by what the file says for the controls' values. On an error both stay.
   Status load(const Built& wanted);
   /// Loads the scene with these materials to edit and keeps the message; whether it could.
   bool run(const std::set<std::string>& editedMaterials);
   Built wanted() const { return wanted(controls.editedMaterials); }
   Built wanted(const std::set<std::string>& materials) const;
+  /// Draws the scene with the slopes of the present values, if they hang on those that have moved.
+  void followValues();
   /// Orders the mesh that is wanted, and takes the one that is done.
   void followMesh();
   /// Hands the renderer the mesh that its view shows.
@@ -170,6 +184,8 @@ class Session {
   Watch watch_;
   std::map<std::string, Watch> watched_;  ///< the files that its script has read
   Scene scene_;
+  PresentScene present_;
+  Scene now_;  // as it is drawn
   LookFunction look_;
   Renderer renderer_;
   Built built_;

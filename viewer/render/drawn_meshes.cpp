@@ -57,6 +57,13 @@ Status DrawnMeshes::add(const DrawnMesh& mesh) {
   return okStatus();
 }
 
+void DrawnMeshes::place(const std::vector<DrawnMesh>& meshes) {
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    drawn_[i].operand = meshes[i].operand.number;
+    drawn_[i].place = placeOf(meshes[i].placed);
+  }
+}
+
 Result<DrawnMeshes::Model> DrawnMeshes::modelOf(const MeshField* field, const ShownMesh& mesh) {
   auto buffer = MeshBuffer::make(mesh.vertices, mesh.triangles);
   if (!buffer) return buffer.error();

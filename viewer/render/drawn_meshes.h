@@ -20,6 +20,8 @@ class DrawnMeshes {
   /// Compiles the pass, and hands the triangles over. Errors: Graphics with the driver's log; Limits.
   static Result<DrawnMeshes> make(const SceneShaders& shaders);
 
+  /// Places the meshes as these are from now on: those of the same fields in the same order.
+  void place(const std::vector<DrawnMesh>& meshes);
   /// Shows this mesh alone, where it is, of a plan that is `meshed`. Errors: Limits.
   Status show(const ShownMesh& mesh);
   /// Lets the picture's program read its materials.

@@ -21,6 +21,12 @@ HullStarts::HullStarts(const Plan& plan, Program program)
       bounds_(plan.rest->bounds),
       program_(std::move(program)) {}
 
+void HullStarts::enclose(const Plan& plan) {
+  field_ = Function({plan.rest->distance, plan.rest->step});
+  inputs_ = OwnInputs(field_);
+  bounds_ = plan.rest->bounds;
+}
+
 Result<HullStarts> HullStarts::make(const SceneShaders& shaders) {
   auto program = Program::create(parts::kTrianglesVertex, shaders.hull);
   if (!program) return program.error();

@@ -18,6 +18,9 @@ class HullStarts {
   /// Errors: Graphics with the driver's log.
   static Result<HullStarts> make(const SceneShaders& shaders);
 
+  /// Keeps the hull of this plan's rest from now on.
+  void enclose(const Plan& plan);
+
   /// Makes the hull of the frame's values, unless it is that of the frame before: in some milliseconds, tens
   /// where a distance is a long formula. It calls no OpenGL.
   void prepare(const Frame& frame);

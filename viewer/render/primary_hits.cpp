@@ -40,20 +40,19 @@ constexpr int kMark = 2, kMaterialsUnit = kCounts + static_cast<int>(std::size(k
 Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders, Volumes& volumes) {
   PrimaryHits made;
   made.counted_ = shaders.plan.options.countReadings;
-  if (!shaders.boxCones.empty())
-    if (auto s = keep(Program::overScreen(shaders.boxCones), made.boxCones_); !s) return s.error();
+  if (shaders.boxCones)
+    if (auto s = keep(Program::overScreen(shaders.boxCones->text), made.boxCones_); !s) return s.error();
   for (const HitShaders& shader : shaders.hits) {
-    Pass pass{{}, {}, UniformValues(shader.uniforms), shader.takesRows, shader.rows, -1, shader.boxes};
+    Pass pass;
     if (!shader.cones.empty())
       if (auto s = keep(Program::overScreen(shader.cones), pass.cones); !s) return s.error();
-    const bool started = pass.cones || !pass.boxes.empty();
+    const bool started = pass.cones || !shader.boxes.empty();
     const auto drawn = started ? Program::overTiles : Program::overScreen;
     if (!shader.hits.empty())
       if (auto s = keep(drawn(shader.hits), pass.hits); !s) return s.error();
     for (const auto* program : {&pass.cones, &pass.hits})
       if (*program)
         if (auto s = volumes.giveTo(**program, shader.volumes); !s) return s.error();
-    if (started) pass.firstCell = std::exchange(made.cells_, made.cells_ + pass.draws());
     made.passes_.push_back(std::move(pass));
   }
   if (!shaders.triangles.empty())
@@ -63,8 +62,30 @@ Result<PrimaryHits> PrimaryHits::make(const SceneShaders& shaders, Volumes& volu
   made.looks_ = shaders.plan.looks;
   made.meshed_ = shaders.plan.meshed;
   made.grouped_ = shaders.plan.grouped;
-  made.columns_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(made.cells_))));
+  made.takeNumbers(shaders);
   return made;
+}
+
+void PrimaryHits::takeNumbers(const SceneShaders& shaders) {
+  cells_ = 0;
+  for (std::size_t i = 0; i < passes_.size(); ++i) {
+    const HitShaders& shader = shaders.hits[i];
+    Pass& pass = passes_[i];
+    pass.values = UniformValues(shader.uniforms);
+    pass.takesRows = shader.takesRows;
+    pass.rows = shader.rows;
+    pass.boxes = shader.boxes;
+    const bool started = pass.cones || !pass.boxes.empty();
+    pass.firstCell = started ? std::exchange(cells_, cells_ + pass.draws()) : -1;
+  }
+  columns_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cells_))));
+  if (shaders.boxCones) boxValues_ = UniformValues(shaders.boxCones->uniforms);
+}
+
+void PrimaryHits::follow(const SceneShaders& shaders) {
+  takeNumbers(shaders);
+  if (meshes_) meshes_->place(shaders.plan.drawn);
+  if (hull_) hull_->enclose(shaders.plan);
 }
 
 glm::ivec2 PrimaryHits::cornerOf(int cell, const Shot& shot) const {
@@ -99,7 +120,7 @@ void PrimaryHits::drawStarts(const Shot& shot) const {
     if (pass.firstCell < 0) continue;
     const bool byBoxes = !pass.boxes.empty();
     const Program& cones = byBoxes ? *boxCones_ : *pass.cones;
-    shot.set(cones, byBoxes ? std::vector<glm::vec4>() : pass.values.vectors());
+    shot.set(cones, (byBoxes ? boxValues_ : pass.values).vectors());
     cones.set("coarser", 0);
     cones.set("first", 1);
     cones.set("tile", static_cast<double>(kTile));
@@ -181,6 +202,7 @@ void PrimaryHits::drawHits(const Shot& shot) const {
 
 void PrimaryHits::prepare(const Frame& frame) {
   for (Pass& pass : passes_) pass.values.move(frame.parameters);
+  boxValues_.move(frame.parameters);
   if (meshes_) meshes_->prepare(frame);
   if (hull_) hull_->prepare(frame);
 }

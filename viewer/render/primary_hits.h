@@ -24,6 +24,9 @@ class PrimaryHits {
   /// Compiles the passes. Errors: Graphics with the driver's log; those of Volumes::giveTo.
   static Result<PrimaryHits> make(const SceneShaders& shaders, Volumes& volumes);
 
+  /// Draws from now on with other numbers: those of shaders of the same code (sameCode). It compiles nothing.
+  void follow(const SceneShaders& shaders);
+
   /// Shows this mesh in the place of what rays would hit, of a plan that is `meshed`. Errors: Limits.
   Status showMesh(const ShownMesh& mesh) { return meshes_->show(mesh); }
 
@@ -49,14 +52,15 @@ class PrimaryHits {
  private:
   struct Pass {
     std::optional<Program> cones, hits;
-    UniformValues values;
-    bool takesRows;
-    RowRange rows;  // that it is drawn with one by one; none: once, without that
-    int firstCell;  // of the starts, one for each time that it is drawn; -1 if all rays start at the eye
-    std::vector<Box> boxes;  // at which rays start instead of where the cones say
+    UniformValues values{Function(std::vector<Expr>{})};
+    bool takesRows = false;
+    RowRange rows{};     // that it is drawn with one by one; none: once, without that
+    int firstCell = -1;  // of the starts, one for each time that it is drawn; -1 if all rays start at the eye
+    std::vector<Box> boxes{};  // at which rays start instead of where the cones say
     int draws() const { return rows.count > 0 ? static_cast<int>(rows.count) : 1; }
   };
   PrimaryHits() = default;
+  void takeNumbers(const SceneShaders& shaders);
   Status makeTargets(const Shot& shot);
   void drawStarts(const Shot& shot) const;
   void drawHits(const Shot& shot) const;
@@ -78,7 +82,8 @@ class PrimaryHits {
   bool meshed_ = false;             // they are one that is shown as a whole
   bool grouped_ = false;            // the passes draw hits
   std::optional<Program> boxCones_;
-  int cells_ = 0, columns_ = 0;  // of the starts
+  UniformValues boxValues_{Function(std::vector<Expr>{})};  // of the cones at boxes
+  int cells_ = 0, columns_ = 0;                             // of the starts
   bool counted_ = false;
   double readings_ = 0.0;
   std::span<const glm::vec4> rows_;

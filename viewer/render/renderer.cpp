@@ -56,28 +56,69 @@ std::size_t pixelsOutOfShadowSteps(const Picture& picture) {
   return countAlphas(picture, [](unsigned char alpha) { return alpha >= 64 && alpha < 192; });
 }
 
-Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options) {
+Result<Renderer> Renderer::make(const Scene& scene, const ShaderOptions& options, const Scene* other) {
   const auto start = std::chrono::steady_clock::now();
   if (options.origin != glm::dvec3(0.0)) {  // there numbers that are too large may cancel
     if (const auto sound = checked(scene); !sound) return sound.error();
     if (const Status s = checkNumbers(scene); !s) return s.error();
   }
-  const Scene near = relativeTo(scene, options.origin);
   ShaderOptions available = options;
   available.doubles = options.doubles && hasDoubles();
-  auto shaders = assemble(near, available);
-  if (!shaders) return shaders.error();
-  Renderer renderer(near, std::move(*shaders));
-  if (auto s = renderer.compile(); !s) return s.error();
+  std::shared_ptr<ChangingNumbers> numbers;
+  if (other) {
+    numbers = std::make_shared<ChangingNumbers>();
+    if (assemble(relativeTo(*other, options.origin), available, numbers)) numbers->keep();
+  }
+  const Scene near = relativeTo(scene, options.origin);
+  auto renderer = compiled(near, assemble(near, available, numbers));
+  if (!renderer) return renderer;
   if (options.view == View::Split) {
     ShaderOptions picture = options;
     picture.view = View::Picture;
-    auto marched = make(scene, picture);
+    auto marched = make(scene, picture, other);
     if (!marched) return marched.error();
-    renderer.marched_ = std::make_unique<Renderer>(std::move(*marched));
+    renderer->marched_ = std::make_unique<Renderer>(std::move(*marched));
   }
-  renderer.compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  renderer->compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return renderer;
+}
+
+Result<Renderer> Renderer::compiled(const Scene& scene, Result<SceneShaders> shaders) {
+  if (!shaders) return shaders.error();
+  if (shaders->plan.numbers) shaders->plan.numbers->keep();
+  Renderer renderer(scene, std::move(*shaders));
+  if (auto s = renderer.compile(); !s) return s.error();
+  return renderer;
+}
+
+Result<bool> Renderer::follow(const Scene& scene) {
+  const Scene near = relativeTo(scene, shaders_.plan.options.origin);
+  auto shaders = assemble(near, shaders_.plan.options, shaders_.plan.numbers);
+  if (!shaders) return shaders.error();
+  const bool compiles = !sameCode(*shaders, shaders_);
+  if (compiles) {
+    auto made = compiled(near, std::move(shaders));
+    if (!made) return made.error();
+    made->marched_ = std::move(marched_);
+    made->compileSeconds_ = compileSeconds_;
+    *this = std::move(*made);
+  } else {
+    takeNumbers(near, std::move(*shaders));
+  }
+  if (!marched_) return compiles;
+  const auto marched = marched_->follow(scene);
+  return marched ? Result<bool>(compiles || *marched) : marched;
+}
+
+void Renderer::takeNumbers(const Scene& scene, SceneShaders shaders) {
+  shaders_ = std::move(shaders);
+  values_ = UniformValues(shaders_.picture.uniforms);
+  rowValues_ = UniformValues(shaders_.rows);
+  if (shaders_.background) backgroundValues_ = UniformValues(shaders_.background->uniforms);
+  extent_ = Extent(scene);
+  if (shaders_.plan.cells) cellValues_.emplace(*shaders_.plan.cells, shaders_.kindRows);
+  rowsMoved_ = true;
+  if (hits_) hits_->follow(shaders_);
 }
 
 Renderer::Renderer(const Scene& scene, SceneShaders shaders)

@@ -36,8 +36,16 @@ struct Rows {
 class Renderer {
  public:
   /// Compiles the scene's shaders, for frames whose eyes are not far from the options' origin (originFor).
-  /// Frames are the scene's own, wherever that is. Errors: Scene as assemble; Graphics with the driver's log.
-  static Result<Renderer> make(const Scene& scene, const ShaderOptions& options = {});
+  /// Frames are the scene's own, wherever that is. If follow() is to be called, it is told of the scene at
+  /// another moment, too: where both differ shaders read uniforms. Errors: Scene as assemble; Graphics with the
+  /// driver's log.
+  static Result<Renderer> make(const Scene& scene, const ShaderOptions& options = {},
+                               const Scene* other = nullptr);
+
+  /// Draws from now on this scene, the renderer's own at another moment. It compiles shaders only where their
+  /// code differs by more than numbers, and returns whether it did: then no mesh is shown. Errors: as make;
+  /// what is drawn stays then.
+  Result<bool> follow(const Scene& scene);
 
   /// Hands over the mesh that a view of one shows (showsMesh); before there is none in its pictures. Colours
   /// of errors are those of distances up to `limit` to either side, scene units, above 0. Errors: Limits.
@@ -73,6 +81,8 @@ class Renderer {
     int first, count;
   };
   Renderer(const Scene& scene, SceneShaders shaders);
+  static Result<Renderer> compiled(const Scene& scene, Result<SceneShaders> shaders);
+  void takeNumbers(const Scene& scene, SceneShaders shaders);
   template <class Draw>
   Status drawSides(const Frame& frame, const Target& target, const Draw& draw);
   Status drawColumns(const Frame& frame, const Target& target, const Rows& rows, const Columns& columns);

@@ -29,7 +29,7 @@ using ShadowKind = Shadow::Kind;
 using OcclusionKind = AmbientOcclusion::Kind;
 
 GlslWriter labelled(const Scene& scene, const Plan& plan) {
-  GlslWriter writer;
+  GlslWriter writer(plan.numbers);
   writer.computeExactly(plan.exact);
   for (const Part& part : scene.parts) {
     std::vector<Expr> own{part.shape.distance};
@@ -94,7 +94,6 @@ bool leavesBackground(const Plan& plan) {
 
 Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& takeSurface = "") {
   const bool taps = plan.occlusion == OcclusionKind::Taps, steps = plan.occlusion == OcclusionKind::Steps;
-  const Box& bounds = boundsOfRest(plan);
   const auto count = [&](const char* what) { return plan.options.countReadings ? what : ""; };
   Macros macros;
   macros["COUNT_MARCH"] = count("counted[bounce == 0 ? 0 : 3] += float(hit.readings);");
@@ -102,8 +101,6 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["COUNT_OCCLUSION"] = count("counted[2] += 1.0;");
   macros["STORE_COUNTS"] = count("counts = weight * counted;");
   macros["ENCODE(c)"] = encoding(scene, plan);
-  macros["BOX_MIN"] = vector(bounds.min);
-  macros["BOX_MAX"] = vector(bounds.max);
   macros["START_RAY"] = startsHere(plan) ? "startRay(ray);" : plan.lens ? "throughLens(ray);" : "";
   macros["FIND_HIT"] = !plan.grouped       ? "hit = meet(ray);"
                        : plan.bounces == 0 ? "hit = primaryHit();"
@@ -146,6 +143,13 @@ std::string shadowParts(const Plan& plan) {
          (plan.balls.empty() ? parts::kNoBallsLight : parts::kBallsLight) + shadow;
 }
 
+// Those of parts::kShadowSpan, which reads it.
+Macros spanMacros(const Plan& plan, GlslWriter& writer) {
+  const Box& bounds = boundsOfRest(plan);
+  if (plan.shadow == ShadowKind::None || !readsRest(plan) || !bounds.finite()) return {};
+  return {{"BOX_MIN", vector(bounds.min, writer)}, {"BOX_MAX", vector(bounds.max, writer)}};
+}
+
 // Those that define colorOf(ray, spent), beside what it calls.
 std::string colorParts(const Plan& plan) {
   if (isLit(plan.options.view))
@@ -166,7 +170,7 @@ std::string colorParts(const Plan& plan) {
 }
 
 std::string pictureBody(const Scene& scene, const Plan& plan, const Obstacles& obstacles,
-                        const RowWriter& rows) {
+                        const RowWriter& rows, GlslWriter& writer) {
   const bool meets = (!plan.grouped && plan.options.view != View::Slice) || plan.bounces > 0;
   const bool readsField = plan.occlusion == OcclusionKind::Taps || plan.shadow == ShadowKind::Improved ||
                           plan.shadow == ShadowKind::Signed || (plan.meshed && isLit(plan.options.view));
@@ -178,7 +182,7 @@ std::string pictureBody(const Scene& scene, const Plan& plan, const Obstacles& o
   if (plan.looks && plan.meshed) text += parts::kTakeMeshLook;
   if (plan.options.view == View::Wire) text += parts::kEdged;
   if (plan.kinds && (meets || readsRest(plan) || readsField || plan.options.view == View::Slice))
-    text += sharing(plan, rows);
+    text += sharing(plan, rows, writer);
   if (meets)
     text += meeting(obstacles);
   else if (readsRest(plan))
@@ -226,8 +230,10 @@ Shader picture(const Scene& scene, const Plan& plan, const Obstacles& obstacles,
     for (const std::string term : kFootprintTerms) writer.substitute(hidden(term), term);
   }
   if (taken > 0) globals += rows.taking(taken, writer);
+  macros.merge(spanMacros(plan, writer));
+  const std::string body = pictureBody(scene, plan, obstacles, rows, writer);
   Composer composer(plan.options.es, macros, functions, std::move(writer), globals);
-  std::string text = composer.compose(pictureBody(scene, plan, obstacles, rows));
+  std::string text = composer.compose(body);
   return {std::move(text), composer.uniforms(), taken > 0, composer.volumes()};
 }
 
@@ -236,7 +242,7 @@ Shader background(const Scene& scene, const Plan& plan) {
   Macros macros = pictureMacros(scene, plan);
   macros["START_RAY"] = "";
   macros["SHADOW_SPENT"] = "false";
-  Composer composer(plan.options.es, macros, functions, {});
+  Composer composer(plan.options.es, macros, functions, GlslWriter(plan.numbers));
   std::string text = composer.compose(
       std::string(parts::kCamera) + (plan.options.countReadings ? parts::kPictureCounts : "") +
       parts::kBackground + parts::kBayer + encoder(scene, plan) + parts::kPicture);
@@ -246,7 +252,7 @@ Shader background(const Scene& scene, const Plan& plan) {
 }  // namespace
 
 std::size_t SceneShaders::bytes() const {
-  std::size_t sum = picture.text.size() + boxCones.size();
+  std::size_t sum = picture.text.size() + (boxCones ? boxCones->text.size() : 0);
   for (const HitShaders& pass : hits) sum += pass.cones.size() + pass.hits.size();
   return sum;
 }
@@ -258,26 +264,47 @@ Status checkNumbers(const Scene& scene) {
   return okStatus();
 }
 
-Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) {
+bool sameCode(const SceneShaders& a, const SceneShaders& b) {
+  const auto text = [](const std::optional<Shader>& shader) { return shader ? shader->text : ""; };
+  const auto isSamePass = [](const HitShaders& p, const HitShaders& q) {
+    return p.cones == q.cones && p.hits == q.hits && p.boxes.empty() == q.boxes.empty() &&
+           p.volumes == q.volumes;
+  };
+  const auto isSameMesh = [](const DrawnMesh& m, const DrawnMesh& n) {
+    return m.placed.field == n.placed.field && m.own == n.own;
+  };
+  return a.picture.text == b.picture.text && a.picture.volumes == b.picture.volumes &&
+         text(a.background) == text(b.background) && text(a.boxCones) == text(b.boxCones) &&
+         a.triangles == b.triangles && a.hull == b.hull && a.resolve == b.resolve &&
+         std::ranges::equal(a.hits, b.hits, isSamePass) &&
+         std::ranges::equal(a.plan.drawn, b.plan.drawn, isSameMesh);
+}
+
+namespace {
+
+Result<SceneShaders> written(const Scene& scene, const ShaderOptions& options,
+                             std::shared_ptr<ChangingNumbers> numbers) {
   if (const auto sound = checked(scene); !sound) return sound.error();
   if (const Status s = checkNumbers(scene); !s) return s.error();
   const std::vector<Unsteady> unsteady = unsteadyOf(scene);
   if (!unsteady.empty() && options.sharing) {  // their nodes are to be found as they are
     ShaderOptions apart = options;
     apart.sharing = false;
-    return assemble(scene, apart);
+    return written(scene, apart, numbers);
   }
   auto plan = planOf(scene, options);
   if (!plan) return plan.error();
+  plan->numbers = numbers;
   for (const Unsteady& part : unsteady) takeUnsteady(part, *plan);
   const RowWriter rows = rowsOf(*plan);
   if (!rows.fits()) {
     ShaderOptions apart = options;
     apart.sharing = false;
-    return assemble(scene, apart);
+    return written(scene, apart, std::move(numbers));
   }
   std::vector<HitShaders> hits;
-  std::string boxes, triangles, hull;
+  std::optional<Shader> boxes;
+  std::string triangles, hull;
   if (plan->grouped && !plan->meshed) hits = groupShaders(*plan, rows);
   if (std::ranges::any_of(hits, [](const HitShaders& pass) { return !pass.boxes.empty(); }))
     boxes = boxCones(*plan);
@@ -297,6 +324,18 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options) 
   return SceneShaders{std::move(*plan), std::move(hits),    std::move(boxes),    std::move(triangles),
                       std::move(hull),  rows.numbers(),     std::move(kindRows), std::move(shown),
                       std::move(tiles), std::move(resolved)};
+}
+
+}  // namespace
+
+Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options,
+                              std::shared_ptr<ChangingNumbers> numbers) {
+  if (numbers) {
+    numbers->begin();
+    if (auto compared = written(scene, options, numbers); !compared) return compared;
+    numbers->settle();
+  }
+  return written(scene, options, std::move(numbers));
 }
 
 }  // namespace sdf::viewer

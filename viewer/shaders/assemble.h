@@ -54,7 +54,7 @@ struct SceneShaders {
   /// One for each kind of operands, for the others and for the half spaces, or one that has cones only, or
   /// none.
   std::vector<HitShaders> hits;
-  std::string boxCones;            ///< the starts at boxes, if a pass has some
+  std::optional<Shader> boxCones;  ///< the starts at boxes, if a pass has some
   std::string triangles;           ///< draws the plan's meshes, if there are some
   std::string hull;                ///< draws where rays enter the rest's hull, if the plan says so
   Function rows;                   ///< what the texture sdfRows holds first: four numbers a texel
@@ -70,8 +70,13 @@ struct SceneShaders {
 /// Refuses scenes whose numbers shaders cannot hold. Errors: Scene.
 Status checkNumbers(const Scene& scene);
 
-/// Writes the shaders of a scene. Errors (Scene): what `checked` finds, and a shape whose distance has no
-/// known slope.
-Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options);
+/// Writes the shaders of a scene, in a form that serves other moments of it if numbers change. Errors
+/// (Scene): what `checked` finds, and a shape whose distance has no known slope.
+Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options,
+                              std::shared_ptr<ChangingNumbers> numbers = {});
+
+/// Returns whether shaders of one scene at two moments are the same code: what they differ in are uniforms,
+/// rows and boxes.
+bool sameCode(const SceneShaders& a, const SceneShaders& b);
 
 }  // namespace sdf::viewer

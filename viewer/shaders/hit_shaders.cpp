@@ -50,13 +50,14 @@ Box boundsOf(const std::vector<NumberedOperand>& operands) {
 
 // Defines farEnd(ray, spread, widening): t where all rays of a cone leave a ball around the bounds, or the
 // end of sight where these are not finite.
-std::string farEnd(const Box& bounds) {
+std::string farEnd(const Box& bounds, GlslWriter& writer) {
   const std::string head = "float farEnd(Ray ray, float spread, float widening) {\n";
   constexpr double kBeyondFloats = 1e15;  // whose squares would be
   if (!bounds.finite() || bounds.longestSide() > kBeyondFloats) return head + "  return maxDistance;\n}\n";
-  return head + "  float along = dot(" + vector(bounds.centre()) +
-         " - ray.origin, ray.direction);\n  float reach = along + " +
-         number(0.5 * glm::length(bounds.size())) + " + spread * ahead;\n" +
+  const std::string centre = vector(bounds.centre(), writer);
+  const std::string radius = number(0.5 * glm::length(bounds.size()), writer);
+  return head + "  float along = dot(" + centre + " - ray.origin, ray.direction);\n  float reach = along + " +
+         radius + " + spread * ahead;\n" +
          "  return widening < 0.5 ? clamp(reach / (1.0 - widening), 0.0, maxDistance) : maxDistance;\n}\n";
 }
 
@@ -77,9 +78,8 @@ struct Parts {
   bool cones, hits;
   double share = 1.0;
   RowRange row{};
-  std::string rows{};     ///< what takes them
-  std::string sharing{};  ///< what defines the distance by loops over rows
-  GlslWriter writer{};
+  std::string rows{};        ///< what takes them
+  std::string sharing{};     ///< what defines the distance by loops over rows
   std::vector<Box> boxes{};  ///< where its rays start, if there are no cones of its own
 };
 
@@ -87,7 +87,7 @@ std::string operandCount(const Plan& plan) {
   return number(static_cast<double>(std::max<std::size_t>(plan.operands.size(), 1)));
 }
 
-HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& plan) {
+HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& plan, GlslWriter writer) {
   Macros macros = meetingMacros(obstacles, plan);
   macros["OPERANDS"] = operandCount(plan);
   macros["SHARE"] = number(wanted.share);
@@ -100,14 +100,13 @@ HitShaders passOf(const Obstacles& obstacles, const Parts& wanted, const Plan& p
   macros["TAKE_ROW"] = wanted.row.count > 0 ? "sdfTake();" : "";
   Functions functions = meetingFunctions(obstacles);
   if (!wanted.sharing.empty()) functions.merge(sharedFunctions(plan));
-  GlslWriter writer = wanted.writer;
   writer.computeExactly(plan.exact);
+  const std::string end = wanted.cones ? farEnd(obstacles.rest->bounds, writer) : "";
   Composer composer(plan.options.es, macros, functions, std::move(writer), wanted.rows);
   const std::string camera = parts::kCamera;
   HitShaders pass;
   if (wanted.cones)
-    pass.cones = composer.compose(camera + wanted.sharing + parts::kRest + farEnd(obstacles.rest->bounds) +
-                                  parts::kCones);
+    pass.cones = composer.compose(camera + wanted.sharing + parts::kRest + end + parts::kCones);
   if (wanted.hits)
     pass.hits =
         composer.compose(camera + parts::kHit + meeting(obstacles) + (started ? parts::kRayStarts : "") +
@@ -189,18 +188,21 @@ Functions meetingFunctions(const Obstacles& obstacles) {
 
 HitShaders startShaders(const Obstacles& obstacles, const Plan& plan, const RowWriter& rows) {
   Parts starts{.cones = true, .hits = false};
+  GlslWriter writer(plan.numbers);
   if (plan.kinds) {
-    starts.rows = rows.taking(plan.kinds->many.size(), starts.writer);
-    starts.sharing = sharing(plan, rows);
+    starts.rows = rows.taking(plan.kinds->many.size(), writer);
+    starts.sharing = sharing(plan, rows, writer);
   }
-  return passOf(obstacles, starts, plan);
+  return passOf(obstacles, starts, plan, std::move(writer));
 }
 
-std::string boxCones(const Plan& plan) {
+Shader boxCones(const Plan& plan) {
   const Macros macros{{"SHARE", number(0.0)}, {"TAKE_ROW", ""}, {"LEAVE_NOTHING", leaveNothing(plan)}};
-  Composer composer(plan.options.es, macros, {}, {});
-  return composer.compose(std::string(parts::kCamera) + parts::kRestByBox + farEnd(plan.rest->bounds) +
-                          parts::kCones);
+  GlslWriter writer(plan.numbers);
+  const std::string end = farEnd(plan.rest->bounds, writer);
+  Composer composer(plan.options.es, macros, {}, std::move(writer));
+  std::string text = composer.compose(std::string(parts::kCamera) + parts::kRestByBox + end + parts::kCones);
+  return {std::move(text), composer.uniforms()};
 }
 
 std::string triangleShader(const Plan& plan) {
@@ -237,18 +239,20 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
   std::vector<HitShaders> result;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     Parts both{.cones = true, .hits = true, .share = operations(obstacles[i].whole.distance) / whole};
+    GlslWriter writer(plan.numbers);
     if (i < many.size()) {
       both.row = rows.rangeOf(i);
-      both.rows = rows.takingOne(i, both.writer);
+      both.rows = rows.takingOne(i, writer);
       both.boxes = many[i].singles;
     } else if (const Box box = boundsOf(others); box.finite() && operations(rest) > kLongCones) {
       both.boxes = {box};
     }
     both.cones = plan.cones && both.boxes.empty();
-    result.push_back(passOf(obstacles[i], both, plan));
+    result.push_back(passOf(obstacles[i], both, plan, std::move(writer)));
   }
   if (!plan.planes.empty())
-    result.push_back(passOf(planesOf(plan), {.cones = false, .hits = true, .share = 0.0}, plan));
+    result.push_back(
+        passOf(planesOf(plan), {.cones = false, .hits = true, .share = 0.0}, plan, GlslWriter(plan.numbers)));
   return result;
 }
 

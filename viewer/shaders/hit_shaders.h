@@ -37,7 +37,7 @@ Functions meetingFunctions(const Obstacles& obstacles);
 HitShaders startShaders(const Obstacles& obstacles, const Plan& plan, const RowWriter& rows);
 
 /// Writes the shader that looks where the rays that meet a box start.
-std::string boxCones(const Plan& plan);
+Shader boxCones(const Plan& plan);
 
 /// Writes the passes that draw the groups of the plan's kinds, whose rows are the first, the other operands
 /// and the half spaces.

@@ -1,9 +1,11 @@
 // What a scene's picture needs, found out before any shader is written.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sdf/eval/glsl.h"
 #include "sdf/model/cells.h"
 #include "sdf/model/groups.h"
 #include "sdf/scene/scene.h"
@@ -45,6 +47,7 @@ struct DrawnMesh {
 /// A Plan is all that decides which shaders are written, and which uniforms they take.
 struct Plan {
   ShaderOptions options;
+  std::shared_ptr<ChangingNumbers> numbers{};  ///< that writers take
   Marched whole;
   std::vector<HalfSpace> planes;
   std::vector<Ball> balls;  ///< if rays meet them by their roots

@@ -42,8 +42,8 @@ std::vector<Expr> outputsOf(const Marched& m) { return hasOwnStep(m) ? partsOf(m
 /// else a vec2 of the step and the distance.
 class Loops {
  public:
-  Loops(const Plan& plan, const RowWriter& rows)
-      : plan_(plan), rows_(rows), apart_(areApart(plan)), type_(apart_ ? "vec2" : "float") {}
+  Loops(const Plan& plan, const RowWriter& rows, GlslWriter& writer)
+      : plan_(plan), rows_(rows), writer_(writer), apart_(areApart(plan)), type_(apart_ ? "vec2" : "float") {}
 
   const std::string& type() const { return type_; }
   /// A term for what a function gives, which is a vec3 if the step and the distance differ.
@@ -64,6 +64,7 @@ class Loops {
 
   const Plan& plan_;
   const RowWriter& rows_;
+  GlslWriter& writer_;
   bool apart_;
   std::string type_;
 };
@@ -85,7 +86,7 @@ std::string Loops::search(std::size_t i) const {
   const std::string name = std::to_string(i);
   const std::string head = "int sdfNext" + name + "(vec3 p, int at, int end, " + type_ + " least) {\n";
   if (kind(i).gap.isConstant()) return head + "  return at;\n}\n";
-  const auto share = [](double growth) { return number(growth < kInfinity ? 1.0 / growth : 0.0); };
+  const auto share = [&](double growth) { return number(growth < kInfinity ? 1.0 / growth : 0.0, writer_); };
   std::string isFar = "gap * " + share(kind(i).growth) + " >= " + distance();
   if (apart_) isFar += " && gap * " + share(kind(i).stepGrowth) + " >= least.x";
   return rows_.takingFirst(i, kind(i).gapNumbers, "Gap" + name) + head +
@@ -99,26 +100,30 @@ std::string Loops::search(std::size_t i) const {
 // every machine finds the same level.
 std::string Loops::cellOf() const {
   const CellGrid& grid = plan_.cells->grid();
+  const auto whole = [&](int i) { return "int(" + number(i, writer_) + ")"; };
   std::string sides, firsts;
-  for (const auto& [half, size, side, first] : grid.levels) {
-    sides += (sides.empty() ? "" : ", ") + ("ivec3(" + std::to_string(side.x) + ", " +
-                                            std::to_string(side.y) + ", " + std::to_string(side.z) + ")");
-    firsts += (firsts.empty() ? "" : ", ") + std::to_string(first);
+  for (int i = 0; i < CellGrid::kLevels; ++i) {
+    const CellGrid::Level& level = grid.levels[static_cast<std::size_t>(i)];
+    const std::string where = i + 1 < CellGrid::kLevels ? "level == " + std::to_string(i) + " ? " : "";
+    const std::string other = i + 1 < CellGrid::kLevels ? " : " : "";
+    sides += where + "ivec3(" + vector(level.side, writer_) + ")" + other;
+    firsts += where + whole(level.first) + other;
   }
-  const std::string count = std::to_string(CellGrid::kLevels), last = std::to_string(grid.cells() - 1);
   const auto& [half, size, side, first] = grid.levels.front();
-  return "const ivec3 sdfSides[" + count + "] = ivec3[](" + sides + ");\nconst int sdfFirsts[" + count +
-         "] = int[](" + firsts +
-         ");\nint sdfCell(vec3 p, float enough, out float free) {\n  vec3 off = p - " + vector(grid.middle) +
-         ", beyond = abs(off) - " + vector(half) +
-         ";\n  float far = max(beyond.x, max(beyond.y, beyond.z));\n  free = far + " + number(grid.margin) +
-         ";\n  if (far > 0.0 && free >= enough) return " + std::to_string(grid.cells()) +
-         ";\n  free = 1e30;\n  int level = max((floatBitsToInt(1.0 + far * " + number(1.0 / grid.reach) +
+  const std::string count = std::to_string(CellGrid::kLevels), last = whole(grid.cells() - 1);
+  const std::string middle = vector(grid.middle, writer_), box = vector(half, writer_);
+  const std::string margin = number(grid.margin, writer_), nowhere = whole(grid.cells());
+  const std::string reach = number(grid.reach, writer_), turns = number(1.0 / grid.reach, writer_);
+  return "int sdfCell(vec3 p, float enough, out float free) {\n  vec3 off = p - " + middle +
+         ", beyond = abs(off) - " + box +
+         ";\n  float far = max(beyond.x, max(beyond.y, beyond.z));\n  free = far + " + margin +
+         ";\n  if (far > 0.0 && free >= enough) return " + nowhere +
+         ";\n  free = 1e30;\n  int level = max((floatBitsToInt(1.0 + far * " + turns +
          ") >> 23) - 126, 0);\n  if (level >= " + count + ") return " + last +
-         ";\n  float two = intBitsToFloat((127 + level) << 23);\n  vec3 at = (off + (" + vector(half) +
-         " + " + number(grid.reach) + " * (two - 1.0))) * (" + number(1.0 / size) +
-         " / two);\n  ivec3 side = sdfSides[level], c = clamp(ivec3(at), ivec3(0), side - 1);\n"
-         "  return sdfFirsts[level] + (c.z * side.y + c.y) * side.x + c.x;\n}\n";
+         ";\n  float two = intBitsToFloat((127 + level) << 23);\n  vec3 at = (off + (" + box + " + " + reach +
+         " * (two - 1.0))) * (" + number(1.0 / size, writer_) + " / two);\n  ivec3 side = " + sides +
+         ", c = clamp(ivec3(at), ivec3(0), side - 1);\n  return (" + firsts +
+         ") + (c.z * side.y + c.y) * side.x + c.x;\n}\n";
 }
 
 // The lists of all kinds in the cell of p: where each begins, and ends.
@@ -192,10 +197,10 @@ std::vector<NumberedOperand> operandsOf(const std::vector<HalfSpace>& planes) {
 
 // A group is read where its bounds are nearer than what has been found. The next one is looked for in a loop
 // of its own: pixels that are drawn together then read together, each a group of its own.
-std::string sharing(const Plan& plan, const RowWriter& rows) {
+std::string sharing(const Plan& plan, const RowWriter& rows, GlslWriter& writer) {
   const std::vector<NumberedOperand> others = othersAndDrawn(plan);
   const bool hasPlanes = !plan.planes.empty(), hasBeside = hasPlanes || !others.empty();
-  const Loops write(plan, rows);
+  const Loops write(plan, rows, writer);
   std::string searches = write.start(), loops = write.begin();
   for (std::size_t i = 0; i < plan.kinds->many.size(); ++i) {
     searches += write.search(i);

@@ -31,7 +31,7 @@ std::vector<NumberedOperand> operandsOf(const std::vector<HalfSpace>& planes);
 
 /// Returns the parts that define the distance and the nearest operand of all, with its gradient if they are
 /// few, by loops over the groups of the plan's kinds, whose rows are the first ones and can be taken.
-std::string sharing(const Plan& plan, const RowWriter& rows);
+std::string sharing(const Plan& plan, const RowWriter& rows, GlslWriter& writer);
 
 /// Returns whether the gradients of all kinds are so short that sharing() defines sdfNearest(p), the gradient
 /// and the number of the operand that is nearest to p.

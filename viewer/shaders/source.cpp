@@ -69,8 +69,11 @@ std::string number(double v) {
   return std::string("float(") + text + ")";
 }
 
-std::string vector(const glm::dvec3& v) {
-  return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")";
+std::string number(double v, GlslWriter& writer) { return "float(" + writer.changingTerm(v) + ")"; }
+
+std::string vector(const glm::dvec3& v, GlslWriter& writer) {
+  const std::string x = number(v.x, writer), y = number(v.y, writer), z = number(v.z, writer);
+  return "vec3(" + x + ", " + y + ", " + z + ")";
 }
 
 std::set<std::string> usedMacros(std::string_view source) {

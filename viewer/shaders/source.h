@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sdf/eval/glsl.h"
+#include "sdf/expr/alike.h"
 #include "sdf/expr/vec.h"
 #include "viewer/shaders/volume.h"
 
@@ -18,11 +19,12 @@ namespace sdf::viewer {
 /// Writes the number as a GLSL term.
 std::string number(double v);
 
-/// Writes the vector as a GLSL term.
-std::string vector(const glm::dvec3& v);
+/// Write a number and a vector that follow from bounds as GLSL terms (see GlslWriter::changingTerm).
+std::string number(double v, GlslWriter& writer);
+std::string vector(const glm::dvec3& v, GlslWriter& writer);
 
 /// Returns the name of a parameter that no scene has.
-inline std::string hidden(const std::string& name) { return '\x01' + name; }
+inline std::string hidden(const std::string& name) { return kOwnName + name; }
 
 /// Returns a vector's components as the outputs of one function.
 inline std::vector<Expr> partsOf(const Vec3E& v) { return {v.x, v.y, v.z}; }

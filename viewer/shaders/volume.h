@@ -15,6 +15,7 @@ struct ShaderVolume {
   std::string sampler;
   std::shared_ptr<const Payload> payload;
   std::size_t number;
+  bool operator==(const ShaderVolume&) const = default;
 };
 
 /// Returns what a writer's source reads.

@@ -224,7 +224,10 @@ class GlslWriter::Body {
   int lines_ = 0;
 };
 
-void GlslWriter::add(const std::string& name, std::span<const Expr> outputs) {
+void GlslWriter::add(const std::string& name, std::span<const Expr> given) {
+  const std::vector<Expr> outputs =
+      numbers_ ? numbers_->take(given) : std::vector<Expr>(given.begin(), given.end());
+  if (numbers_ && !numbers_->isSettled()) return;  // what is compared needs no text
   Body function(*this);
   function.write(outputs);
   const std::size_t count = outputs.size();
@@ -255,9 +258,15 @@ std::string GlslWriter::commentOf(const Expr& e) const {
   return found == labels_.end() ? "" : comments_[found->second];
 }
 
+std::string GlslWriter::changingTerm(double v) {
+  if (!numbers_) return literal(v);
+  uniforms_.emplace_back(v);
+  return "u" + std::to_string(uniforms_.size() - 1);
+}
+
 std::string GlslWriter::uniform(const Expr& e) {
   const std::size_t slot = slots_.try_emplace(e, uniforms_.size()).first->second;
-  if (slot == uniforms_.size()) uniforms_.push_back(e);
+  if (slot == uniforms_.size()) uniforms_.push_back(numbers_ ? numbers_->now(e) : e);
   return "u" + std::to_string(slot);
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sdf/eval/changing_numbers.h"
 #include "sdf/eval/function.h"
 
 namespace sdf {
@@ -20,6 +21,10 @@ bool canBeExact(const Expr& e);
 /// reads it as a number, so that a new value of a parameter compiles nothing and costs nothing a pixel.
 class GlslWriter {
  public:
+  /// Numbers that change become uniforms, too, if it is told which.
+  GlslWriter() = default;
+  explicit GlslWriter(std::shared_ptr<ChangingNumbers> numbers) : numbers_(std::move(numbers)) {}
+
   /// Adds a function of the point p and the unit normal n:
   ///
   ///     void name(vec3 p, vec3 n, out float values[outputs.size()])
@@ -29,6 +34,10 @@ class GlslWriter {
   /// driver adds, and its rounding of divisions, roots and transcendental functions; min, max, pow, atan and
   /// atan2 of a NaN are the driver's choice. Cost: linear in the size of the graph.
   void add(const std::string& name, std::span<const Expr> outputs);
+
+  /// Returns the GLSL term of a number that follows from bounds: where numbers change, a uniform of its own,
+  /// else a literal.
+  std::string changingTerm(double v);
 
   /// From now on the parameter of this name is read as that GLSL term, which may differ from pixel to pixel.
   void substitute(const std::string& parameter, const std::string& term) { terms_[parameter] = term; }
@@ -58,6 +67,7 @@ class GlslWriter {
   std::string nameOf(const std::shared_ptr<const Payload>& payload);
   std::string commentOf(const Expr& e) const;
 
+  std::shared_ptr<ChangingNumbers> numbers_;
   std::string functions_;
   std::unordered_map<std::string, std::string> terms_;
   std::vector<std::string> comments_;

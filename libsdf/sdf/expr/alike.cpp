@@ -35,8 +35,10 @@ class Forms {
     std::vector<std::size_t> parts;
     for (int i = 0; i < arity(e.op()); ++i) parts.push_back(forms_.at(e.arg(i)));
     const bool isNumber = std::ranges::all_of(parts, [](std::size_t form) { return form == kNumber; });
-    if (isNumber && e.op() != Op::Variable) return kNumber;
+    const bool isOwn = e.op() == Op::Parameter && e.parameterInfo().name.front() == kOwnName;
+    if (isNumber && e.op() != Op::Variable && !isOwn) return kNumber;
     parts.push_back(static_cast<std::size_t>(e.op()));
+    if (isOwn) parts.push_back(owns_.try_emplace(e.parameterInfo().name, owns_.size()).first->second);
     if (e.op() == Op::Variable) parts.push_back(static_cast<std::size_t>(e.variableIndex()));
     if (const PayloadPart* p = e.payloadPart()) {
       const std::size_t place = payloads_.try_emplace(p->payload.get(), payloads_.size()).first->second;
@@ -48,13 +50,14 @@ class Forms {
   std::unordered_map<Expr, std::size_t> forms_;
   std::map<std::vector<std::size_t>, std::size_t> known_;
   std::unordered_map<const Payload*, std::size_t> payloads_;
+  std::unordered_map<std::string, std::size_t> owns_;  // parameters
 };
 
 /// Finds what expressions of one form have in common, node by node.
 class Joining {
  public:
-  Joining(Forms& forms, const std::string& prefix, std::size_t& count)
-      : forms_(forms), prefix_(prefix), count_(count) {}
+  Joining(Forms& forms, const std::string& prefix, std::size_t& count, bool asFloats)
+      : forms_(forms), prefix_(prefix), count_(count), asFloats_(asFloats) {}
 
   Expr joined(const Nodes& roots) {
     std::vector<Nodes> open{roots};
@@ -75,15 +78,21 @@ class Joining {
   std::vector<Nodes> numbers;  // by parameter
 
  private:
+  bool isOne(const Expr& a, const Expr& b) const {
+    return a == b || (asFloats_ && a.isConstant() && b.isConstant() &&
+                      static_cast<float>(a.constantValue()) == static_cast<float>(b.constantValue()));
+  }
+
   // What stands for these nodes; nothing, if first what is put on the list must be made.
   std::optional<Expr> made(const Nodes& nodes, std::vector<Nodes>& open) {
     const Expr& first = nodes.front();
-    if (std::ranges::all_of(nodes, [&](const Expr& e) { return e == first; })) return first;
+    if (std::ranges::all_of(nodes, [&](const Expr& e) { return isOne(e, first); })) return first;
     if (forms_.of(first) == Forms::kNumber) {
       parameters.push_back(numberAmong(prefix_ + std::to_string(count_++), nodes));
       numbers.push_back(nodes);
       return parameters.back();
     }
+    if (first.op() == Op::Parameter) return first;  // an own one, which may be meant for another range
     std::vector<Expr> args;
     for (int i = 0; i < arity(first.op()); ++i) {
       Nodes parts;
@@ -102,6 +111,7 @@ class Joining {
   Forms& forms_;
   const std::string& prefix_;
   std::size_t& count_;
+  bool asFloats_;
   std::map<Nodes, Expr, ByNode> made_;
 };
 
@@ -113,7 +123,8 @@ Expr numberAmong(const std::string& name, std::span<const Expr> numbers) {
   return Expr::parameter({name, all.lo, all.lo, all.hi});
 }
 
-std::vector<Alike> groupByStructure(std::span<const std::vector<Expr>> lists, const std::string& prefix) {
+std::vector<Alike> groupByStructure(std::span<const std::vector<Expr>> lists, const std::string& prefix,
+                                    bool asFloats) {
   Forms forms;
   std::vector<Nodes> roots;
   std::map<std::vector<std::size_t>, std::size_t> sorts;
@@ -128,7 +139,7 @@ std::vector<Alike> groupByStructure(std::span<const std::vector<Expr>> lists, co
   }
   std::size_t count = 0;
   for (Alike& alike : result) {
-    Joining joining(forms, prefix, count);
+    Joining joining(forms, prefix, count, asFloats);
     for (std::size_t i = 0; i < roots[alike.places.front()].size(); ++i) {
       Nodes nodes;
       for (const std::size_t place : alike.places) nodes.push_back(roots[place][i]);

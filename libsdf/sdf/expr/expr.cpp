@@ -84,6 +84,13 @@ void setSlopes(Node& n, double bound, const Interval* partials) {
   for (int i = 0; i < 3; ++i) n.partials[i] = {kept(partials[i].lo), kept(partials[i].hi)};
 }
 
+// Are they numbers? What depends on space and has one value may have that as 0 or -0.
+bool hasKnownArguments(const Node& n) {
+  for (int i = 0; i < arity(n.op); ++i)
+    if (const Node& a = *n.args[i].node(); !a.range.isPoint() || a.lipschitz != 0.0) return false;
+  return true;
+}
+
 void setFacts(Node& n) {
   if (n.op == Op::Constant) {
     n.range = Interval(n.value);
@@ -106,6 +113,9 @@ void setFacts(Node& n) {
     const Fact fact =
         evaluateOp<Fact>(n.op, n.payload.get(), [&](int i) { return factOf(*n.args[i].node()); });
     n.range = fact.v;
+    // What is made of known numbers is the number that constants would be folded to.
+    if (hasKnownArguments(n))
+      n.range = evaluateOp<double>(n.op, n.payload.get(), [&](int i) { return n.args[i].node()->range.lo; });
     setSlopes(n, fact.d[0].magnitude(), fact.d + 1);
   }
 }

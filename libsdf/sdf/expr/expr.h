@@ -71,7 +71,8 @@ class Expr {
   bool isConstant() const { return op() == Op::Constant; }
   bool isConstant(double v) const { return isConstant() && constantValue() == v; }
 
-  /// Encloses the expression's value over all of space and over every value of its parameters.
+  /// Encloses the expression's value over all of space and over every value of its parameters. It is a point
+  /// where these are known: where every parameter's range is one value.
   const Interval& range() const;
   /// Proven L with |f(p) - f(q)| <= L |p - q| for all p, q and every value of the parameters in their ranges;
   /// infinite where none is known. Derived from the arguments' as the node is built; a claim has its own.

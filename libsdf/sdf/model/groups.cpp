@@ -14,8 +14,6 @@
 namespace sdf {
 namespace {
 
-constexpr char kOwn = '\x01';  // begins the names of rows' parameters, and no scene's
-
 // A formula that is shared costs the loop over its rows, and a pass that draws them.
 constexpr std::size_t kWorthSharing = 150;  // operations that this saves
 
@@ -84,7 +82,7 @@ std::vector<std::vector<std::size_t>> grouped(const Alike& kind, std::span<const
 /// Names the parameters of rows.
 class Names {
  public:
-  explicit Names(const std::string& prefix) : prefix_(kOwn + prefix) {}
+  explicit Names(const std::string& prefix) : prefix_(kOwnName + prefix) {}
   std::string next() { return prefix_ + std::to_string(count_++); }
 
  private:
@@ -251,7 +249,7 @@ OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare)
     lists.emplace_back(operand.surface.begin(), operand.surface.end());
     own.push_back(operand.surface);
   }
-  const std::vector<Alike> sorts = groupByStructure(lists, kOwn + std::string("surface "));
+  const std::vector<Alike> sorts = groupByStructure(lists, kOwnName + std::string("surface "));
   std::size_t saved = 0;
   for (const Alike& sort : sorts) saved += savedBy(sort) + choicesAmong(sort);
   if (!mayShare || saved < kWorthSharing) {
@@ -284,7 +282,7 @@ Kinds kindsOf(std::span<const NumberedOperand> operands, Grouping grouping) {
   for (const NumberedOperand& operand : operands) distances.push_back({operand.distance});
   Kinds kinds;
   Names names("group ");
-  for (const Alike& alike : groupByStructure(distances, kOwn + std::string("operand "))) {
+  for (const Alike& alike : groupByStructure(distances, kOwnName + std::string("operand "))) {
     if (savedBy(alike) >= kWorthSharing && alike.parameters.size() < kMostNumbers)
       kinds.many.push_back(kindOf(alike, operands, grouping, names));
     else

@@ -41,6 +41,9 @@ struct ScriptContext {
   int exceededLine = 0;
 };
 
+/// The formula that stands for this parameter, as the options want it.
+Expr inputOf(const ScriptContext& context, ParameterInfo info);
+
 /// The context of the script that runs in this state.
 ScriptContext& contextOf(lua_State* L);
 

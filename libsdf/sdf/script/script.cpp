@@ -38,6 +38,12 @@ Status checkOverrides(const Scene& scene, const ScriptOptions& options, const st
 
 }  // namespace
 
+Expr inputOf(const ScriptContext& context, ParameterInfo info) {
+  if (context.options.fixed) return info.value;
+  if (context.options.narrowed.contains(info.name)) info.min = info.max = info.value;
+  return Expr::parameter(info);
+}
+
 Result<Scene> runScene(const std::string& text, const std::string& name, const ScriptOptions& options) {
   if (!std::isfinite(options.time)) return sceneError(name, "the time must be a finite number of seconds");
   for (const auto& [key, value] : options.values) {

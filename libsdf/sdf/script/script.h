@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct ScriptOptions {
   /// Parameters and time are formulas of constants: bounds and claims fit their values, and the scene holds
   /// for no others. A script cannot tell the difference.
   bool fixed = false;
+  /// Names of parameters, or "time", that are meant for their present value alone: bounds and claims fit it,
+  /// and hold for no other. Scene::parameters tells the whole range all the same.
+  std::set<std::string> narrowed{};
   std::uint64_t instructionLimit = 50'000'000;
   std::size_t memoryLimit = 256u << 20;  ///< bytes, of Lua and of the graph together
   double timeLimit =

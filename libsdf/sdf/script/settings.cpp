@@ -113,7 +113,7 @@ int newParameter(lua_State* L) {
     list.push_back(p);
   else if (*std::ranges::find(list, p.name, &ParameterInfo::name) != p || earlier->second != usual)
     raise(L, what + " exists already with another default or range; use the same, or another name");
-  return pushFormula(L, context.options.fixed ? Expr(p.value) : Expr::parameter(p)), 1;
+  return pushFormula(L, inputOf(context, p)), 1;
 }
 
 }  // namespace

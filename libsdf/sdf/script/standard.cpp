@@ -156,7 +156,7 @@ void pushTime(lua_State* L) {
   ScriptContext& c = contextOf(L);
   const ParameterInfo time{"time", c.options.time, 0.0, kLongest};
   c.scene.parameters.push_back(time);
-  pushFormula(L, c.options.fixed ? Expr(time.value) : Expr::parameter(time));
+  pushFormula(L, inputOf(c, time));
   lua_pushvalue(L, -1);
   lua_setglobal(L, "time");
 }

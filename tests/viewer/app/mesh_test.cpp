@@ -212,6 +212,28 @@ TEST_F(MeshSessionTest, ShowsThePictureUntilThereIsAMesh) {
   }
 }
 
+// Both sides of a split view, where a value changes the slope, and then the code: more copies are near.
+TEST_F(MeshSessionTest, ShowsTheMeshBesideSlopesThatFollowASlider) {
+  const auto text = [](const char* cell, const char* rate) {
+    return "camera{from = {1, 1, 5}, to = {0, 0, 0}}\nlocal cell, rate = param('cell', " + std::string(cell) +
+           ", {min = 0.5, max = 1.7}), param('rate', " + rate +
+           ", {min = 0, max = 30})\npart('row', box(0.4, 0.2, 0.2):bend(rate):repeat_grid({cell, 0, 0}, "
+           "{5, 1, 1}))\n";
+  };
+  Session session = open(text("1.6", "10"), View::Split);
+  settle(session);
+  ASSERT_TRUE(session.mesh());
+  for (const auto& [cell, rate] : {std::pair("1.6", "20"), std::pair("0.55", "20")}) {
+    session.controls.parameters = {{"cell", std::stod(cell)}, {"rate", std::stod(rate)}};
+    settle(session);
+    EXPECT_EQ(session.message(), "");
+    Session fresh = open(text(cell, rate), View::Split);
+    settle(fresh);
+    EXPECT_EQ(picture(session).bytes, picture(fresh).bytes) << cell;
+    write("scene.lua", text("1.6", "10"));
+  }
+}
+
 TEST_F(MeshSessionTest, FollowsTheControlsWithoutCompiling) {
   Session session = open(kBall, View::Mesh);
   settle(session);

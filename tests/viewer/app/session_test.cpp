@@ -144,6 +144,56 @@ TEST_F(SessionTest, ASliderTheClockTheLightAndTheCameraCompileNothing) {
   EXPECT_EQ(session.compilations(), compilations);
 }
 
+constexpr const char* kBent = R"(local bend, size = param("bend", 5, {min = 0, max = 40}), param("size", 1)
+part("bar", box(1, 0.2, 0.3):bend(bend):twist(20 * time):paint{color = {0.5, 0, 0}, emission = {1, 0, 0}})
+part("ball", sphere(0.3 * size):translate(0, 1, 0))
+directional_light{direction = {0, 0, 1}}
+camera{from = {0, 0, 6}, to = {0, 0, 0}, fov = 40}
+gamma(1)
+)";
+
+TEST_F(SessionTest, ASliderOnWhichSlopesHangCompilesNothing) {
+  write(kBent);
+  Session session = open();
+  const Picture before = picture(session);
+  const int compilations = session.compilations();
+  {
+    const CompileCount count;
+    session.controls.parameters["bend"] = 30.0;
+    session.controls.time = 1.0;
+    EXPECT_NE(picture(session).bytes, before.bytes);
+    EXPECT_EQ(count.value(), 0);
+  }
+  EXPECT_EQ(session.compilations(), compilations);
+  EXPECT_EQ(session.message(), "");
+  const auto readings = session.measure(kSize, kSize);
+  ASSERT_TRUE(readings);
+  {
+    const CompileCount count;
+    session.controls.parameters["size"] = 0.5;
+    picture(session);
+    EXPECT_EQ(count.tapes(), 0u) << "the ball is exact: the script is not run again for it";
+  }
+
+  start.parameters = {{"bend", 30.0}};
+  start.time = 1.0;
+  Session fresh = open();
+  fresh.controls.parameters["size"] = 0.5;
+  EXPECT_EQ(picture(session).bytes, picture(fresh).bytes);
+  EXPECT_EQ(session.controls.parameters["bend"], 30.0);
+  const auto others = fresh.measure(kSize, kSize);
+  ASSERT_TRUE(others);
+  EXPECT_NEAR(readings->primary, others->primary, 0.1 * others->primary);
+
+  session.controls.parameters["bend"] = 0.0;
+  session.controls.time = 0.0;
+  session.controls.parameters["size"] = 1.0;
+  write(std::string(kBent) + "-- changed\n");
+  session.followFile();
+  session.controls.parameters["bend"] = 5.0;
+  EXPECT_EQ(picture(session).bytes, before.bytes) << "and a file that changes is followed as ever";
+}
+
 TEST_F(SessionTest, AnotherViewOrMethodCompilesOnce) {
   Session session = open();
   session.controls.shader.view = View::Normals;
@@ -457,6 +507,23 @@ TEST_F(MaterialsTest, AnEditedColourShowsAfterOneCompilation) {
   set(Attribute::EmissionGreen, 1.0);
   set(Attribute::Red, 0.0);
   EXPECT_EQ(middle(session), glm::ivec3(0, 255, 0));
+  EXPECT_EQ(count.value(), 0);
+}
+
+TEST_F(MaterialsTest, AnEditedColourStaysWhereSlopesFollowASlider) {
+  write(kBent);
+  Session session = open();
+  EXPECT_EQ(middle(session), glm::ivec3(255, 0, 0));
+  session.controls.editedMaterials = {"bar"};
+  const auto info = surfaceParameter(session.scene().parts.front(), Attribute::EmissionRed);
+  ASSERT_TRUE(info);
+  session.controls.materials[info->name] = 0.0;
+  session.settle();
+  const glm::ivec3 dark = middle(session);
+  EXPECT_LT(dark.x, 255);
+  const CompileCount count;
+  session.controls.parameters["bend"] = 8.0;
+  EXPECT_EQ(middle(session), dark);
   EXPECT_EQ(count.value(), 0);
 }
 

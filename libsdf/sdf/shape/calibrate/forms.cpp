@@ -80,8 +80,8 @@ std::optional<glm::dvec3> coordinateOf(const Expr& part, bool isCut) {
   if (isCut && e.op() == Op::Sub && isUniform(e.arg(1)) && e.arg(1).range().lo >= 0.0)
     return coordinateOf(e.arg(0), false);
   const auto n = linearGradient(e);
-  if (!n || !n->x.isConstant() || !n->y.isConstant() || !n->z.isConstant()) return {};
-  return glm::dvec3(n->x.constantValue(), n->y.constantValue(), n->z.constantValue());
+  if (!n || !n->x.range().isPoint() || !n->y.range().isPoint() || !n->z.range().isPoint()) return {};
+  return glm::dvec3(n->x.range().lo, n->y.range().lo, n->z.range().lo);
 }
 
 // Are they at right angles to each other, and of length 1?

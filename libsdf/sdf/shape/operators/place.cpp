@@ -81,7 +81,7 @@ Box turnedBox(const Box& b, const Matrix& m) {
     const Interval side = heightsOver(b, m[i]);
     result.min[i] = side.lo;
     result.max[i] = side.hi;
-    fixed = fixed && m[i].x.isConstant() && m[i].y.isConstant() && m[i].z.isConstant();
+    fixed = fixed && m[i].x.range().isPoint() && m[i].y.range().isPoint() && m[i].z.range().isPoint();
   }
   if (fixed) return result;
   return intersect(result, Box::centred(glm::dvec3(radiusOf(b))));

@@ -246,7 +246,7 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   const Expr y = ((p.y * 2.0 - (square(p.x) + square(p.y)) * k) / (ratio + 1.0)).claimLipschitz(1.0);
   const Vec3E back{x, y, p.z};
   Shape warped = movedTo(shape, back, kInfinity);
-  warped.bounds = curvature.isConstant() ? bentBox(b, curvature.constantValue()) : bentBoxForAny(b);
+  warped.bounds = curvature.range().isPoint() ? bentBox(b, k.range().lo) : bentBoxForAny(b);
 
   const double growth = growthOf(shape.claim);
   if (!std::isfinite(growth * slopeOf(shape))) return asField(std::move(warped));
@@ -259,8 +259,8 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   const auto pulled = [=](const Vec3E& n) -> Vec3E { return {scaled(across, n.x), n.y, n.z}; };
   const auto bent = [&](const Vec3E& from, double reach, double cap) {
     Box region = grow(b, reach);
-    if (k.isConstant()) {
-      const double centre = fold.constantValue() / k.constantValue();
+    if (k.range().isPoint()) {
+      const double centre = fold.range().lo / k.range().lo;
       (centre > 0.0 ? region.max : region.min).y = centre;
     }
     return calibrated(shape.distance, {from, pulled, 1.0, max(across, 1.0), min(across, 1.0), region, -1.0,
@@ -272,10 +272,10 @@ Shape bend(const Shape& shape, const Expr& curvature) {
   double cap = gap / growth / stretch;
   const auto upTo = [&](double most) { return bent(back, most * growth * stretch, most); };
   Expr d = upTo(cap);
-  if (k.isConstant() && std::isfinite(farthestAlong(b, 1))) {
+  if (k.range().isPoint() && std::isfinite(farthestAlong(b, 1))) {
     // As far as may be, or at least as far as offsets are wanted, unless its slope is the price.
     constexpr double kModerate = 6.0, kMuchSteeper = 2.0, kWanted = 0.1;
-    const double least = leastWhereTorn(bent(p, gap, kInfinity), b, k.constantValue(), fold.constantValue());
+    const double least = leastWhereTorn(bent(p, gap, kInfinity), b, k.range().lo, fold.range().lo);
     for (const double most : {least, std::min(least, kWanted * sizeOf(b))}) {
       if (most <= cap) continue;
       const Expr farther = upTo(most);
