@@ -14,11 +14,10 @@ TEST(OffsetNotes, SayByHowMuchAndWhere) {
       "local s = field(function(x, y, z) local a = x*x + y*y + z*z - 1 return a*a*a end, b)\n"
       "return s:round(0.1)");
   ASSERT_EQ(scene.notes.size(), 1u);
-  EXPECT_EQ(
-      scene.notes[0],
-      "scene.lua:3: round: the surface is 0.21 to 0.21 away where it should be 0.1, for the distance is "
-      "not exact since the field in line 2" +
-          kCure);
+  EXPECT_EQ(scene.notes[0],
+            "scene.lua:3: round: the surface is 0.21 away where it should be 0.1, for the distance is "
+            "not exact since the field in line 2" +
+                kCure);
 }
 
 TEST(OffsetNotes, ComeOncePerCall) {
@@ -37,7 +36,7 @@ TEST(OffsetNotes, NameTheBlendThatReadsAField) {
       "return union{s, box(1, 0.2, 1), k = 0.2}");
   ASSERT_EQ(scene.notes.size(), 1u);
   EXPECT_TRUE(
-      scene.notes[0].starts_with("scene.lua:3: union: what it blends is 0.21 to 0.21 away where it "
+      scene.notes[0].starts_with("scene.lua:3: union: what it blends is 0.21 away where it "
                                  "should be 0.1"))
       << scene.notes[0];
 }
@@ -65,8 +64,7 @@ TEST(OffsetNotes, FollowTheParameters) {
   options.values = {{"k", 0.25}};
   const Scene scene = sceneOf(text, options);
   ASSERT_EQ(scene.notes.size(), 1u);
-  EXPECT_TRUE(scene.notes[0].starts_with("scene.lua:3: round: the surface is 0.4 to 0.4 away"))
-      << scene.notes[0];
+  EXPECT_TRUE(scene.notes[0].starts_with("scene.lua:3: round: the surface is 0.4 away")) << scene.notes[0];
 }
 
 }  // namespace sdf::script_offsets_test

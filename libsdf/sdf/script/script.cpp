@@ -52,10 +52,12 @@ void lookAtOffsets(ScriptContext& context) try {
   for (const OffsetNote& note : context.offsets) {
     const auto found = checkOffset(note.offset, values);
     if (!found || !found->wrong()) continue;
-    context.scene.notes.push_back(
-        note.place + ": " + note.reader + " " + rounded(found->least) + " to " + rounded(found->most) +
-        " away where it should be " + rounded(found->wanted) + ", for the distance is not exact since the " +
-        note.since + "; use exact shapes there, or change the parts before they are combined");
+    const std::string least = rounded(found->least), most = rounded(found->most);
+    const std::string range = least == most ? least : least + " to " + most;
+    context.scene.notes.push_back(note.place + ": " + note.reader + " " + range +
+                                  " away where it should be " + rounded(found->wanted) +
+                                  ", for the distance is not exact since the " + note.since +
+                                  "; use exact shapes there, or change the parts before they are combined");
   }
 } catch (const NodeLimitReached&) {
   // A scene that takes all of its memory is not looked at.

@@ -2,7 +2,6 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <span>
 #include <vector>
 
@@ -12,7 +11,7 @@
 
 namespace sdf {
 
-// The reading of several expressions at once over boxes: of their values, as intervals.
+// The reading of several expressions at once over boxes.
 template <class T>
 class BoxReading {
  public:
@@ -21,10 +20,6 @@ class BoxReading {
   void run(const Box& box);
   std::size_t size() const { return order_.size(); }
   const T& operator[](std::size_t output) const { return values_[outputs_[output]]; }
-  double most(std::size_t output) const requires std::same_as<T, Interval> {
-    const Interval& i = (*this)[output];
-    return i.nan ? kInfinity : i.hi;
-  }
 
  private:
   std::vector<Expr> order_;
@@ -32,9 +27,19 @@ class BoxReading {
   std::vector<std::size_t> outputs_;
   std::vector<T> values_;
 };
-using IntervalReading = BoxReading<Interval>;
 
-// The same with their difference quotients along x, y and z, jumps included.
+// Of their values.
+class IntervalReading : public BoxReading<Interval> {
+ public:
+  using BoxReading<Interval>::BoxReading;
+
+  double most(std::size_t output) const {
+    const Interval& i = (*this)[output];
+    return i.nan ? kInfinity : i.hi;
+  }
+};
+
+// And of their difference quotients along x, y and z, jumps included.
 using Sloped = Dual<Interval, 3>;
 using SlopedReading = BoxReading<Sloped>;
 
