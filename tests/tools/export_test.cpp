@@ -313,6 +313,29 @@ TEST_F(Export, WarnsOfWhatFallsBetweenTheSamples) {
   EXPECT_TRUE(fine["resolving_voxel_size"].is_null());
 }
 
+TEST_F(Export, WarnsOfAnOffsetThatIsOff) {
+  const std::string file = scene("return ellipsoid_bound(1, 0.5, 0.3):round(0.1)");
+  const Outcome outcome = run({file, "-o", out("a.glb"), "--voxel-size", "0.1"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("sdf2gltf: warning: " + file + ":1: round: the surface is 0.1 to 0.2"))
+      << outcome.err;
+}
+
+// The wall's two sides are 0.1 apart, not 0.025: each cube by powers grown or shrunk by 0.05.
+TEST_F(Export, MakesTheWallOfAFieldAsThickAsAskedFor) {
+  const std::string file = scene(
+      "return field(function(x, y, z) return x^4 + y^4 + z^4 - 1 end,\n"
+      "  {bounds = {{-1, -1, -1}, {1, 1, 1}}}):shell(0.1)");
+  const Outcome outcome =
+      run({file, "-o", out("a.glb"), "--voxel-size", "0.04", "--report", out("report.json")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+  const Json part = Json::parse(contents(out("report.json")))["outputs"][0]["parts"][0];
+  EXPECT_EQ(part["components"], 2);
+  const Json position = glbJson(out("a.glb"))["accessors"][1];
+  EXPECT_NEAR(position["max"][0].get<double>(), 1.05, 0.01);
+}
+
 TEST_F(Export, WarnsOfADistanceThatIsNotANumber) {
   // In half of space the ball's formula has a root of a negative number.
   const std::string file = scene(

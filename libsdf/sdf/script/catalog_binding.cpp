@@ -7,6 +7,7 @@
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/script/meshes.h"
+#include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/solids/solids.h"
 #include "sdf/shape/solids/triangle_solid.h"
@@ -14,6 +15,36 @@
 namespace sdf {
 
 namespace {
+
+// Remembers a call whose result depends on how far away its shapes are, where their distances may not tell.
+void noteOffsets(lua_State* L, const CatalogEntry& entry, const std::vector<Argument>& given,
+                 const Shape& result) {
+  constexpr std::size_t kMostNotes = 16;  // of some ten milliseconds each
+  ScriptContext& c = contextOf(L);
+  const auto note = [&](const std::string& reader, const std::string& since, const OffsetToCheck& offset) {
+    const std::string place = c.file + ":" + std::to_string(currentLine(L)) + ": " + entry.name;
+    const bool known = std::ranges::find(c.offsets, place, &OffsetNote::place) != c.offsets.end();
+    if (!known && c.offsets.size() < kMostNotes) c.offsets.push_back({place, reader, since, offset});
+  };
+  if (entry.name == "round" || entry.name == "shell") {
+    const Shape& s = std::get<Shape>(given[0]);
+    const bool isShell = entry.name == "shell";
+    if (s.claim.kind <= (isShell ? ClaimKind::Exact : ClaimKind::ExactOutside)) return;
+    const Expr amount = std::get<Expr>(given[1]) * (isShell ? 0.5 : 1.0);
+    note("the surface is", s.inexactSince, {s.distance, result.distance, amount, s.bounds, true, isShell});
+  }
+  if (entry.group != Group::Boolean || given[1].index() == 0) return;
+  const Expr k = std::get<Expr>(given[1]);
+  const auto& shapes = std::get<std::vector<Shape>>(given[0]);
+  for (const Shape& s : shapes) {
+    if (s.claim.kind != ClaimKind::Field) continue;
+    const Expr read = readyToBlend(s, Blend::quadratic(k)).distance, half = k * 0.5;
+    const bool isCutter = entry.name == "difference" && &s != shapes.data();
+    const bool out = entry.name == "union" || isCutter;
+    note("what it blends is", s.inexactSince,
+         {s.distance, out ? read - half : -read - half, half, s.bounds, out, !out, false});
+  }
+}
 
 // One call of a catalog entry: gives each parameter the arguments that were written for it.
 //
@@ -36,9 +67,14 @@ class Call {
     for (Argument& value : values)
       if (const auto missing = leaveOut(value)) return *missing;
     const Origin origin(entry_.name.c_str(), contextOf(L_).file, currentLine(L_));
+    const std::vector<Argument> given = entry_.group == Group::Solid ? std::vector<Argument>() : values;
     Shape result = build(entry_, std::move(values));
     if (!result.ok()) raise(L_, *result.error);
     if (result.formulaAt.empty()) result.formulaAt = formulaAt_;
+    const bool isWeaker = result.claim.kind > weakest_;
+    result.inexactSince =
+        isWeaker ? entry_.name + " in line " + std::to_string(currentLine(L_)) : inexactSince_;
+    noteOffsets(L_, entry_, given, result);
     return result;
   }
 
@@ -162,6 +198,7 @@ class Call {
                     " or shape:" + entry_.name + "(…)");
     const Shape& shape = readShape(L_, at, what(p));
     if (formulaAt_.empty()) formulaAt_ = shape.formulaAt;
+    if (shape.claim.kind > weakest_) weakest_ = shape.claim.kind, inexactSince_ = shape.inexactSince;
     return shape;
   }
 
@@ -234,7 +271,10 @@ class Call {
   int next_ = 1;           // the first argument in place that no parameter has taken
   int last_ = 0;           // the last argument in place
   std::string formulaAt_;  // the first that a shape among the arguments has
-  int options_ = 0;        // the table of named fields, or 0; what lies above it is scratch
+  // The weakest claim that a shape among the arguments makes, and what made it.
+  ClaimKind weakest_ = ClaimKind::Exact;
+  std::string inexactSince_;
+  int options_ = 0;  // the table of named fields, or 0; what lies above it is scratch
 };
 
 int pushGood(lua_State* L, Shape shape) {
@@ -243,7 +283,8 @@ int pushGood(lua_State* L, Shape shape) {
 }
 
 // A shape of the script's own formula.
-int pushFormulaShape(lua_State* L, Shape shape) {
+int pushFormulaShape(lua_State* L, const std::string& what, Shape shape) {
+  shape.inexactSince = what + " in line " + std::to_string(currentLine(L));
   if (slopeOf(shape) == kInfinity && shape.formulaAt.empty())
     shape.formulaAt = contextOf(L).file + ":" + std::to_string(currentLine(L));
   return pushGood(L, std::move(shape));
@@ -268,7 +309,8 @@ int callDisplace(lua_State* L) {
   const bool free = lua_isfunction(L, 2) || (isFormula(L, 2) && dependsOnSpace(exprAt(L, 2)));
   if (!testShape(L, 1) || lua_gettop(L) != 2 || !free) return callEntry(L);
   if (isMissing(*testShape(L, 1))) return pushShape(L, *testShape(L, 1)), 1;
-  return pushFormulaShape(L, displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula")));
+  return pushFormulaShape(L, "displace",
+                          displace(*testShape(L, 1), readFormula(L, 2, "displace: the formula")));
 }
 
 void pushEntryFunction(lua_State* L, const CatalogEntry& entry) {
@@ -305,8 +347,9 @@ int freeForm(lua_State* L) {
   const FunctionInfo& f = runningFunction(L);
   const Expr distance = readFormula(L, 1, f.name + ": the formula");
   const FieldValues known = readFields(L, 2, f);
-  return pushFormulaShape(L, field(distance, valueOr(known, "bounds", Box::everything()),
-                                   valueOr(known, "lipschitz", kInfinity)));
+  return pushFormulaShape(
+      L, f.name,
+      field(distance, valueOr(known, "bounds", Box::everything()), valueOr(known, "lipschitz", kInfinity)));
 }
 
 int importedMesh(lua_State* L) {

@@ -6,14 +6,24 @@
 #include <map>
 #include <string>
 #include <unordered_set>
+#include <vector>
 
 #include "sdf/expr/expr.h"
+#include "sdf/model/offset_check.h"
 #include "sdf/scene/scene.h"
 #include "sdf/script/script.h"
 
 struct lua_State;
 
 namespace sdf {
+
+/// An offset of a shape whose distance is not exact, which may go wrong.
+struct OffsetNote {
+  std::string place;   ///< of the call, "scene.lua:3: round"
+  std::string reader;  ///< what the figures are those of, "the surface"
+  std::string since;   ///< what made the distance inexact, "field in line 1"
+  OffsetToCheck offset;
+};
 
 struct ScriptContext {
   ScriptContext(std::string fileName, const ScriptOptions& scriptOptions)
@@ -29,6 +39,7 @@ struct ScriptContext {
   std::map<std::string, double> parameterDefaults;
   std::unordered_set<std::string> partNames;  ///< of those made so far
   int materials = 0;                          ///< made so far
+  std::vector<OffsetNote> offsets;            ///< to be looked at when the scene is made
 
   NodeLimit nodes;
   std::int64_t nodesAtCollection = 0;

@@ -1,7 +1,9 @@
 #include "sdf/script/script.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -14,6 +16,13 @@ namespace {
 
 Error sceneError(const std::string& name, const std::string& message) {
   return {ErrorKind::Scene, name + ": " + message};
+}
+
+// Two digits: such figures are no better.
+std::string rounded(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", value);
+  return text.data();
 }
 
 std::string namesOf(const std::vector<ParameterInfo>& parameters) {
@@ -36,6 +45,24 @@ Status checkOverrides(const Scene& scene, const ScriptOptions& options, const st
   return okStatus();
 }
 
+// Says which offsets are off, and by how much.
+void lookAtOffsets(ScriptContext& context) try {
+  Values values(context.options.values.begin(), context.options.values.end());
+  values["time"] = context.options.time;
+  for (const OffsetNote& note : context.offsets) {
+    const auto found = checkOffset(note.offset, values);
+    if (!found || !found->wrong()) continue;
+    const std::string least = rounded(found->least), most = rounded(found->most);
+    const std::string range = least == most ? least : least + " to " + most;
+    context.scene.notes.push_back(note.place + ": " + note.reader + " " + range +
+                                  " away where it should be " + rounded(found->wanted) +
+                                  ", for the distance is not exact since the " + note.since +
+                                  "; use exact shapes there, or change the parts before they are combined");
+  }
+} catch (const NodeLimitReached&) {
+  // A scene that takes all of its memory is not looked at.
+}
+
 }  // namespace
 
 Expr inputOf(const ScriptContext& context, ParameterInfo info) {
@@ -55,6 +82,7 @@ Result<Scene> runScene(const std::string& text, const std::string& name, const S
   if (source.starts_with('\x1B')) return sceneError(name, "this is compiled Lua; give the scene's text");
   ScriptContext context(name, options);
   if (const Status ran = runInSandbox(context, source); !ran) return ran.error();
+  lookAtOffsets(context);
   if (const Status known = checkOverrides(context.scene, options, name); !known) return known.error();
   if (context.scene.parts.empty() && !context.scene.missing.empty())
     return Error{ErrorKind::Scene, context.scene.missing.front()};

@@ -31,6 +31,8 @@ struct Claim {
   /// far a solid can swell when its distance is lowered (round, smooth union). Infinite where unknown; read
   /// it through growthOf.
   double growth = kInfinity;
+  /// Has the distance been divided by its slope already, so that offsets take it as it is?
+  bool calibrated = false;
 };
 
 /// The claim's growth; exact and exact outside have 1, whatever the field says.
@@ -95,6 +97,8 @@ struct Shape {
   std::shared_ptr<const Union> outer;
   /// Where a scene file gives the formula in it whose slope is not known, "scene.lua:3"; else "".
   std::string formulaAt;
+  /// What in a scene file last weakened the claim, "field in line 3"; else "".
+  std::string inexactSince;
   int dimension = 3;  ///< 2: a flat shape in x and y (its distance ignores z), to be extruded or revolved
   std::optional<std::string> error;
 

@@ -39,15 +39,29 @@ Solid grownBox(const glm::dvec3& half, double radius, int times = kSphereTimes) 
   return {round(box(Vec3E(half)), radius), pulledApart(ball.mesh, half), ball.chord};
 }
 
-// Two crossing boxes, grown by `by`, or shrunk where it is negative.
+constexpr glm::dvec3 kCrossed[] = {{0.8, 0.3, 0.4}, {0.25, 0.9, 0.3}};
+
+// Two crossing boxes, grown.
 TriangleMesh crossedBoxes(double by) {
-  std::vector<TriangleMesh> parts;
-  for (const glm::dvec3 half : {glm::dvec3(0.8, 0.3, 0.4), glm::dvec3(0.25, 0.9, 0.3)})
-    parts.push_back(by > 0.0 ? grownBox(half, by, 5).mesh : boxMesh(half + by));
-  return united(parts);
+  return united({grownBox(kCrossed[0], by, 5).mesh, grownBox(kCrossed[1], by, 5).mesh});
 }
 
-Shape crossed() { return box(Vec3E(0.8, 0.3, 0.4)) | box(Vec3E(0.25, 0.9, 0.3)); }
+// What of the crossing boxes is farther than `by` from their surface: both boxes less their skins, and of
+// what they share all that is not near the notches where they meet.
+TriangleMesh crossedHollow(double by) {
+  const glm::dvec3 shared = glm::min(kCrossed[0], kCrossed[1]);
+  TriangleMesh mesh = united({boxMesh(kCrossed[0] - by), boxMesh(kCrossed[1] - by), boxMesh(shared)});
+  const TriangleMesh ball = sphereSurface(by, 5).mesh;
+  const TriangleMesh upright = pulledApart(ball, 2, shared.z), level = pulledApart(ball, 0, shared.x);
+  for (const double y : {-shared.y, shared.y})
+    for (const double side : {-1.0, 1.0}) {
+      mesh = corefine(mesh, moved(upright, {side * shared.x, y, 0.0}), Boolean::Difference);
+      mesh = corefine(mesh, moved(level, {0.0, y, side * shared.z}), Boolean::Difference);
+    }
+  return mesh;
+}
+
+Shape crossed() { return box(Vec3E(kCrossed[0])) | box(Vec3E(kCrossed[1])); }
 
 std::vector<ReferenceCase> rounds() {
   const Solid ball = solidSphere(1.25);
@@ -65,8 +79,8 @@ std::vector<ReferenceCase> shells() {
   const TriangleMesh hollow = together({skin.mesh, flipped(boxMesh(half - 0.1))});
   const Solid boxShell{shell(box(Vec3E(half)), 0.2), hollow, skin.chord};
   const TriangleMesh skins = together({outer.mesh, flipped(inner.mesh)});
-  // The faces that the boxes hide from each other stay hidden.
-  const TriangleMesh crossedSkins = together({crossedBoxes(0.1), flipped(crossedBoxes(-0.1))});
+  // The faces that the boxes hide from each other have no skin.
+  const TriangleMesh crossedSkins = together({crossedBoxes(0.1), flipped(crossedHollow(0.1))});
   return {caseOf("of a box", boxShell),
           caseOf("of a box, turned", placed(boxShell, {3, 1, 2}, 2.0, {0.3, 0.0, 0.1})),
           caseOf("so thick that nothing is hollow",

@@ -3,10 +3,38 @@
 #include <unordered_map>
 
 #include "sdf/expr/apply-inl.h"
+#include "sdf/shape/operand.h"
 
 namespace sdf {
 
-IntervalReading::IntervalReading(std::span<const Expr> roots)
+namespace {
+
+Interval leafOf(const Expr& e, const Box& box, const Interval* /*as*/) {
+  if (e.op() != Op::Variable || e.variableIndex() > Variable::Z) return e.range();
+  const int axis = static_cast<int>(e.variableIndex());
+  return {box.min[axis], box.max[axis]};
+}
+
+Sloped leafOf(const Expr& e, const Box& box, const Sloped* /*as*/) {
+  Sloped leaf = constant<Interval, 3>(leafOf(e, box, static_cast<const Interval*>(nullptr)));
+  if (e.op() == Op::Variable && e.variableIndex() <= Variable::Z)
+    leaf.d[static_cast<int>(e.variableIndex())] = 1.0;
+  return leaf;
+}
+
+void heedClaim(const Expr& /*e*/, Interval& /*value*/) {}
+
+// A claim says more than the formula may.
+void heedClaim(const Expr& e, Sloped& value) {
+  if (e.op() != Op::Claim) return;
+  const double most = e.lipschitz();
+  for (Interval& d : value.d) d = {std::clamp(d.lo, -most, most), std::clamp(d.hi, -most, most)};
+}
+
+}  // namespace
+
+template <class T>
+BoxReading<T>::BoxReading(std::span<const Expr> roots)
     : order_(topologicalOrder(roots)), values_(order_.size()) {
   std::unordered_map<Expr, std::size_t> places;
   for (const Expr& e : order_) {
@@ -18,17 +46,25 @@ IntervalReading::IntervalReading(std::span<const Expr> roots)
   for (const Expr& root : roots) outputs_.push_back(places.at(root));
 }
 
-void IntervalReading::run(const Box& box) {
+template <class T>
+void BoxReading<T>::run(const Box& box) {
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const Expr& e = order_[i];
     const auto arg = [&](int k) { return values_[args_[i][k]]; };
-    if (e.op() == Op::Variable && e.variableIndex() <= Variable::Z) {
-      const int axis = static_cast<int>(e.variableIndex());
-      values_[i] = Interval(box.min[axis], box.max[axis]);
-    } else {
-      values_[i] = arity(e.op()) == 0 ? e.range() : evaluateOp<Interval>(e.op(), e.payloadPart(), arg);
-    }
+    values_[i] = arity(e.op()) == 0 ? leafOf(e, box, static_cast<const T*>(nullptr))
+                                    : evaluateOp<T>(e.op(), e.payloadPart(), arg);
+    heedClaim(e, values_[i]);
   }
+}
+
+template class BoxReading<Interval>;
+template class BoxReading<Sloped>;
+
+Expr heldWithin(const Expr& e, const Box& box) {
+  const Vec3E p = position();
+  std::array<Expr, 3> nearest;
+  for (int i = 0; i < 3; ++i) nearest[i] = clamp(component(p, i), box.min[i], box.max[i]);
+  return remap(e, nearest, 1.0);
 }
 
 }  // namespace sdf

@@ -7,28 +7,47 @@
 
 #include "sdf/base/box.h"
 #include "sdf/expr/expr.h"
+#include "sdf/number/dual-inl.h"
 
 namespace sdf {
 
-// The interval reading of several expressions at once.
-class IntervalReading {
+// The reading of several expressions at once over boxes.
+template <class T>
+class BoxReading {
  public:
-  explicit IntervalReading(std::span<const Expr> roots);
+  explicit BoxReading(std::span<const Expr> roots);
 
   void run(const Box& box);
   std::size_t size() const { return order_.size(); }
-  const Interval& operator[](std::size_t output) const { return values_[outputs_[output]]; }
-  double most(std::size_t output) const {
-    const Interval& i = (*this)[output];
-    return i.nan ? kInfinity : i.hi;
-  }
+  const T& operator[](std::size_t output) const { return values_[outputs_[output]]; }
 
  private:
   std::vector<Expr> order_;
   std::vector<std::array<std::size_t, 3>> args_;
   std::vector<std::size_t> outputs_;
-  std::vector<Interval> values_;
+  std::vector<T> values_;
 };
+
+// Of their values.
+class IntervalReading : public BoxReading<Interval> {
+ public:
+  using BoxReading<Interval>::BoxReading;
+
+  double most(std::size_t output) const {
+    const Interval& i = (*this)[output];
+    return i.nan ? kInfinity : i.hi;
+  }
+};
+
+// And of their difference quotients along x, y and z, jumps included.
+using Sloped = Dual<Interval, 3>;
+using SlopedReading = BoxReading<Sloped>;
+
+// The largest magnitude that it has; infinite where it may be no number.
+inline double farthest(const Interval& i) { return i.nan ? kInfinity : i.magnitude(); }
+
+// The expression looked up at the nearest point of the box, for what holds in it alone.
+Expr heldWithin(const Expr& e, const Box& box);
 
 // A cell of space with the slopes that bound each part's in it, the last being the whole's.
 struct Cell {

@@ -13,11 +13,13 @@ std::vector<CatalogEntry> deformEntries() {
              number("t", "how far, 0 to 1", Rule::NotNegative)},
             morph),
       entry("round", "Everything within a radius of the shape: grows it, and rounds its outer edges.",
-            "exact outside if the shape is, else a bound if it is one",
+            "exact outside if the shape is; else calibrated: fields by their gradient, edges and corners of "
+            "intersections by their faces' angles; what cannot be stays a bound or a field, and is warned of "
+            "where the surface is more than a tenth of the radius off",
             {operand, number("radius", "scene units", Rule::NotNegative)},
             [](const Shape& s, const Expr& radius) { return round(s, radius); }),
       entry("shell", "The skin of the shape, half of its thickness on either side of the surface.",
-            "exact outside if the shape is exact, else a bound if it is one",
+            "exact outside if the shape is exact, else as round, on both sides of the surface",
             {operand, number("thickness", "scene units", Rule::Positive)}, shell),
       entry("elongate",
             "Cut at the coordinate planes, pulled apart along each axis, and the gaps filled with the cross "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "sdf/shape/calibrate/offset.h"
 #include "sdf/shape/operand.h"
 
 namespace sdf {
@@ -144,8 +145,15 @@ Shape combined(const std::vector<Shape>& shapes, const Blend& blend, ClaimKind b
   for (const Shape& s : shapes) {
     claim.kind = weaker(claim.kind, s.claim.kind);
     claim.lipschitz = std::max(claim.lipschitz, s.claim.lipschitz);
+    claim.calibrated = claim.calibrated || s.claim.calibrated;
   }
   return result;
+}
+
+std::vector<Shape> readyToBlend(const std::vector<Shape>& shapes, const Blend& blend) {
+  std::vector<Shape> ready;
+  for (const Shape& s : shapes) ready.push_back(readyToBlend(s, blend));
+  return ready;
 }
 
 // The operands, those of hard unions in the place of the union; nothing where all operands matter everywhere.
@@ -189,11 +197,18 @@ std::array<Expr, 3> unionJoin(const Blend& given) {
   return {lower(a, b, blend), isHard(blend) ? second : weightOfSecond(a, b, blend), second};
 }
 
+Shape readyToBlend(const Shape& shape, const Blend& blend) {
+  if (isHard(blend) || shape.claim.kind != ClaimKind::Field || shape.claim.calibrated) return shape;
+  // The other distance being k more or less, the blend's surface is at most half as far from either.
+  const double half = 0.5 * blend.k.range().hi;
+  return fitForOffsets(shape, {half, half});
+}
+
 Shape unite(const std::vector<Shape>& operands, const Blend& given) {
   if (auto refused = refusal("union", operands, given)) return *refused;
   if (operands.size() == 1) return operands[0];
-  const std::vector<Shape> shapes = numberedAlike(operands);
   const Blend blend = guarded(given);
+  const std::vector<Shape> shapes = numberedAlike(readyToBlend(operands, blend));
   const std::vector<Layer> layers = layersOf(shapes);
   Layer joined;
   if (isHard(blend)) {
@@ -220,10 +235,11 @@ Shape unite(const std::vector<Shape>& operands, const Blend& given) {
   return result;
 }
 
-Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
-  if (auto refused = refusal("intersection", shapes, given)) return *refused;
-  if (shapes.size() == 1) return shapes[0];
+Shape intersect(const std::vector<Shape>& operands, const Blend& given) {
+  if (auto refused = refusal("intersection", operands, given)) return *refused;
+  if (operands.size() == 1) return operands[0];
   const Blend blend = guarded(given);
+  const std::vector<Shape> shapes = readyToBlend(operands, blend);
   Shape result = combined(shapes, blend, ClaimKind::Bound);
   result.claim.growth = 0.0;
   std::vector<Expr> distances;
@@ -242,10 +258,11 @@ Shape intersect(const std::vector<Shape>& shapes, const Blend& given) {
   return settled(std::move(result));
 }
 
-Shape subtract(const std::vector<Shape>& shapes, const Blend& given) {
-  if (auto refused = refusal("difference", shapes, given)) return *refused;
-  if (shapes.size() == 1) return shapes[0];
+Shape subtract(const std::vector<Shape>& operands, const Blend& given) {
+  if (auto refused = refusal("difference", operands, given)) return *refused;
+  if (operands.size() == 1) return operands[0];
   const Blend blend = guarded(given);
+  const std::vector<Shape> shapes = readyToBlend(operands, blend);
   Shape result = combined(shapes, blend, ClaimKind::Bound);
   result.claim.growth = growthOf(shapes[0].claim);
   std::vector<Expr> cutters;
@@ -255,9 +272,10 @@ Shape subtract(const std::vector<Shape>& shapes, const Blend& given) {
   return settled(std::move(result));
 }
 
-Shape exclude(const std::vector<Shape>& shapes, const Blend& given) {
-  if (auto refused = refusal("xor", shapes, given)) return *refused;
+Shape exclude(const std::vector<Shape>& operands, const Blend& given) {
+  if (auto refused = refusal("xor", operands, given)) return *refused;
   const Blend blend = guarded(given);
+  const std::vector<Shape> shapes = readyToBlend(operands, blend);
   Shape result = shapes[0];
   for (std::size_t i = 1; i < shapes.size(); ++i) {
     const Shape a = result;

@@ -32,6 +32,11 @@ Shape subtract(const Shape& a, const Shape& b, const Blend& blend = {});
 Shape exclude(const std::vector<Shape>& shapes, const Blend& blend = {});
 Shape exclude(const Shape& a, const Shape& b, const Blend& blend = {});
 
+/// An operand of a smooth operation as the blend reads it: a formula's distance is made near the true one as
+/// far as the blend is wide (field() alone claims its sign and zeros only). Anything else is the shape
+/// itself.
+Shape readyToBlend(const Shape& shape, const Blend& blend);
+
 inline Shape operator|(const Shape& a, const Shape& b) { return unite(a, b); }
 inline Shape operator&(const Shape& a, const Shape& b) { return intersect(a, b); }
 inline Shape operator-(const Shape& a, const Shape& b) { return subtract(a, b); }

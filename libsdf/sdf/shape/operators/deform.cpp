@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdf/shape/calibrate/offset.h"
 #include "sdf/shape/formula.h"
 #include "sdf/shape/operand.h"
 
@@ -59,14 +60,14 @@ Shape round(const Shape& shape, const Expr& radius) {
   Check check("round", shape);
   if (!check.notNegative("radius", radius).ok()) return check.failure();
   const Expr r = notNegative(radius);
-  const double growth = growthOf(shape.claim);
-  Shape result = shape;
-  result.distance = shape.distance - r;
+  const bool exactOutside = shape.claim.kind <= ClaimKind::ExactOutside;
+  Shape result = exactOutside ? shape : fitForOffsets(shape, {r.range().hi, 0.0});
+  const double growth = growthOf(result.claim);
+  result.distance = result.distance - r;
   if (r.range().hi > 0.0) result.bounds = grow(shape.bounds, growth * r.range().hi);
   // Outside, any way to the grown surface is the way to the surface less the radius. Inside, the way out
   // crosses the surface and then at least the radius. A bound that is not exact needs L <= 1 for that;
   // settled looks.
-  const bool exactOutside = shape.claim.kind <= ClaimKind::ExactOutside;
   result.claim.kind = exactOutside ? ClaimKind::ExactOutside : ClaimKind::Field;
   result.claim.growth = growth;
   return settled(std::move(result));
@@ -76,12 +77,14 @@ Shape shell(const Shape& shape, const Expr& thickness) {
   Check check("shell", shape);
   if (!check.positive("thickness", thickness).ok()) return check.failure();
   const Expr half = keptPositive(thickness) * 0.5;
-  const double growth = growthOf(shape.claim);
-  Shape result = shape;
-  result.distance = abs(shape.distance) - half;
+  const bool exact = shape.claim.kind == ClaimKind::Exact;
+  const double most = half.range().hi, outwards = shape.claim.kind == ClaimKind::ExactOutside ? 0.0 : most;
+  Shape result = exact ? shape : fitForOffsets(shape, {outwards, most});
+  const double growth = growthOf(result.claim);
+  result.distance = abs(result.distance) - half;
   result.bounds = grow(shape.bounds, growth * half.range().hi);
   // What is within half of the surface: exact from both sides if the distance is.
-  result.claim.kind = shape.claim.kind == ClaimKind::Exact ? ClaimKind::ExactOutside : ClaimKind::Field;
+  result.claim.kind = exact ? ClaimKind::ExactOutside : ClaimKind::Field;
   result.claim.growth = growth;
   return settled(std::move(result));
 }

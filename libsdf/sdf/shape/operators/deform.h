@@ -18,11 +18,15 @@ namespace sdf {
 /// outside [0, 1]; a parameter's range is clamped to it.
 Shape morph(const Shape& a, const Shape& b, const Expr& t);
 
-/// Everything within `radius` >= 0 of the shape: f - radius. Exact outside stays so.
+/// Everything within `radius` >= 0 of the shape: f - radius. Exact outside stays so. Of a shape that is less,
+/// f is calibrated first where that can be proven (calibrate/offset.h): a formula is divided by its
+/// gradient's length, and outside of the edges and corners of intersections and differences f becomes the
+/// distance to them. Formulas are then off by some hundredths of the radius where they curve alike along it.
 Shape round(const Shape& shape, const Expr& radius);
 
 /// The skin of the shape, `thickness` > 0, half of it on either side of the surface: |f| - thickness / 2.
-/// Exact outside for an exact shape, else a bound if the shape is.
+/// Exact outside for an exact shape; else f is calibrated as for round, inside as well, where the edges are
+/// those of unions.
 Shape shell(const Shape& shape, const Expr& thickness);
 
 /// Cut at the coordinate planes and pulled apart by `half` >= 0 either way along each axis, the gaps filled

@@ -223,7 +223,7 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
     result.distance = calibrated(shape.distance, {back, pulled, uneven / most, uneven, 1.0 / uneven,
                                                   Box::everything(), -1.0, sizeOf(shape.bounds)});
     result.claim = {ClaimKind::Field, result.distance.lipschitz(),
-                    growthOf(shape.claim) * most.range().hi / least.range().lo};
+                    growthOf(shape.claim) * most.range().hi / least.range().lo, true};
   }
   result = settled(std::move(result));
   if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard)

@@ -75,7 +75,7 @@ Shape within(Shape warped, const std::vector<Expr>& sides, double shear, const s
     if ((!outside || i == 1) && (b.min[i] > -kInfinity || b.max[i] < kInfinity))
       keepBeyond(outsideSlab(component(p, i), b.min[i], b.max[i]));
   warped.distance = distance;
-  warped.claim = {ClaimKind::Field, slope, 1.0 / kShare};
+  warped.claim = {ClaimKind::Field, slope, 1.0 / kShare, true};
   return settled(std::move(warped));
 }
 

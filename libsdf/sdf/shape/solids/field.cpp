@@ -15,14 +15,6 @@ namespace {
 // is then seen to.
 constexpr double kMargin = 0.5;
 
-// The formula looked up at the nearest point of the box.
-Expr heldWithin(const Expr& formula, const Box& box) {
-  const Vec3E p = position();
-  std::array<Expr, 3> nearest;
-  for (int i = 0; i < 3; ++i) nearest[i] = clamp(component(p, i), box.min[i], box.max[i]);
-  return remap(formula, nearest, 1.0);
-}
-
 double steepest(const Expr& formula, const Box& region) {
   // Some milliseconds' worth, whatever the size of the graph.
   const std::size_t mostCells =

@@ -1,0 +1,72 @@
+#include "sdf/shape/calibrate/surface_points.h"
+
+#include <optional>
+#include <random>
+
+#include "sdf/expr/gradient.h"
+
+namespace sdf {
+
+namespace {
+
+Expr atDefaults(const Expr& f) {
+  return rewrite(f, [](const Expr& e, std::span<const Expr> /*args*/) {
+    return e.op() == Op::Parameter ? std::optional<Expr>(e.parameterInfo().value) : std::nullopt;
+  });
+}
+
+std::vector<Expr> slopesOf(const Expr& f) {
+  const Vec3E g = gradientOf(f);
+  return {f, g.x, g.y, g.z};
+}
+
+double middle(const Interval& i) { return i.nan || !(i.magnitude() < kInfinity) ? 0.0 : 0.5 * (i.lo + i.hi); }
+
+}  // namespace
+
+SurfaceReading::SurfaceReading(const Expr& f)
+    : f_(atDefaults(f)), value_({&f_, 1}), gradient_(slopesOf(f_)) {}
+
+double SurfaceReading::value(const glm::dvec3& p) {
+  value_.run({p, p});
+  return middle(value_[0]);
+}
+
+SurfacePoint SurfaceReading::at(const glm::dvec3& p) {
+  gradient_.run({p, p});
+  return {p, middle(gradient_[0]), {middle(gradient_[1]), middle(gradient_[2]), middle(gradient_[3])}};
+}
+
+std::vector<SurfacePoint> SurfaceReading::zeros(const Box& region, int lines) {
+  constexpr int kSteps = 32, kHalvings = 30;
+  std::mt19937 random(1);
+  const auto inRegion = [&] {
+    glm::dvec3 p;
+    for (int i = 0; i < 3; ++i)
+      p[i] = region.min[i] + region.size()[i] * (static_cast<double>(random()) / 0x1p32);
+    return p;
+  };
+  std::vector<SurfacePoint> found;
+  for (int line = 0; line < lines; ++line) {
+    const glm::dvec3 from = inRegion(), way = inRegion() - from;
+    double last = value(from);
+    for (int i = 1; i <= kSteps; ++i) {
+      double lo = (i - 1.0) / kSteps, hi = lo + 1.0 / kSteps;
+      const double next = value(from + hi * way);
+      const bool crosses = (last <= 0.0) != (next <= 0.0);
+      if (!crosses) {
+        last = next;
+        continue;
+      }
+      for (int k = 0; k < kHalvings; ++k) {
+        const double mid = 0.5 * (lo + hi);
+        ((value(from + mid * way) <= 0.0) == (last <= 0.0) ? lo : hi) = mid;
+      }
+      found.push_back(at(from + lo * way));
+      break;
+    }
+  }
+  return found;
+}
+
+}  // namespace sdf
