@@ -107,7 +107,7 @@ TEST_F(Sdfview, RefusesWhatFloatsCannotHold) {
       {"part('small', sphere(5e-324))", "part 'small': its bounds are 9.88"},
       {"part('small', sphere(1):scale(5e-324))", "part 'small': its bounds are 9.88"},
       {"camera{from = {0, 1, 3}, to = {0, 0, 0}} part('floor', plane({0, 1, 0}, 1e40))",
-       "part 'floor': the number 1e+40 in its formulas is none of the floats"}};
+       "part 'floor': it reaches 1e+40 from the origin"}};
   for (const auto& c : cases)
     for (const auto& [option, name] : {std::pair("--render", "a.png"), std::pair("--glsl", "a.glsl")})
       expectRefused(kScene, c.words, {scene(c.scene), option, at(name)});

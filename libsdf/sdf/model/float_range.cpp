@@ -33,10 +33,12 @@ std::optional<std::string> beyondFloats(const Box& bounds) {
 }
 
 std::optional<std::string> beyondFloats(const Shape& shape) {
-  if (auto why = beyondFloats(shape.bounds)) return why;
   std::vector<Expr> graphs{shape.distance};
   graphs.insert(graphs.end(), shape.surface.begin(), shape.surface.end());
-  for (const Expr& e : topologicalOrder(graphs))
+  const std::vector<Expr> nodes = topologicalOrder(graphs);
+  if (std::ranges::find(nodes, Op::Parameter, &Expr::op) == nodes.end())
+    if (auto why = beyondFloats(shape.bounds)) return why;
+  for (const Expr& e : nodes)
     if (e.isConstant() && std::isfinite(e.constantValue()) && std::abs(e.constantValue()) >= kInfinite)
       return "the number " + shown(e.constantValue()) +
              " in its formulas is none of the floats, which end at " + shown(kInfinite) +
