@@ -37,8 +37,8 @@ class Renderer {
  public:
   /// Compiles the scene's shaders, for frames whose eyes are not far from the options' origin (originFor).
   /// Frames are the scene's own, wherever that is. If follow() is to be called, it is told of the scene at
-  /// another moment, too: where both differ shaders read uniforms. Errors: Scene as assemble; Graphics with the
-  /// driver's log.
+  /// another moment, too: where both differ shaders read uniforms. Errors: Scene as assemble; Graphics with
+  /// the driver's log.
   static Result<Renderer> make(const Scene& scene, const ShaderOptions& options = {},
                                const Scene* other = nullptr);
 
