@@ -67,4 +67,37 @@ TEST(OffsetNotes, FollowTheParameters) {
   EXPECT_TRUE(scene.notes[0].starts_with("scene.lua:3: round: the surface is 0.4 away")) << scene.notes[0];
 }
 
+TEST(FieldNotes, NameWhatIsSteeperThanStated) {
+  const auto heart = [](const std::string& lipschitz) {
+    return sceneOf(
+               "return field(function(x, y, z) local a = x*x + 2.25*z*z + y*y - 1\n"
+               "return a*a*a - x*x*y*y*y - 0.1125*z*z*y*y*y end,\n"
+               "{bounds = {{-1.6, -1.6, -1.2}, {1.6, 1.6, 1.2}}" +
+               lipschitz + "})")
+        .notes;
+  };
+  EXPECT_TRUE(heart("").empty());
+  EXPECT_TRUE(heart(", lipschitz = 2000").empty());
+  const std::vector<std::string> notes = heart(", lipschitz = 8");
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(notes[0].starts_with("scene.lua:1: field: the formula's slope is ")) << notes[0];
+  EXPECT_NE(notes[0].find("more than the lipschitz of 8 that is stated: parts of it may be missing; state a "
+                          "larger one, or leave it out"),
+            std::string::npos)
+      << notes[0];
+}
+
+// Of a call that runs often it is said once, and of a parameter only where no value makes it true.
+TEST(FieldNotes, AreOneForACallAndHoldForAllValues) {
+  EXPECT_EQ(
+      sceneOf("for i = 1, 3 do part('p' .. i, field(function(x, y, z) return 2 * (x*x + y*y + z*z - i) end, "
+              "{lipschitz = 1, bounds = {{-2, -2, -2}, {2, 2, 2}}})) end")
+          .notes.size(),
+      1u);
+  EXPECT_TRUE(sceneOf("local k = param('k', 3, {min = 0.1, max = 9})\n"
+                      "return field(function(x, y, z) return k * (x*x + y*y + z*z - 1) end, "
+                      "{lipschitz = 1, bounds = {{-2, -2, -2}, {2, 2, 2}}})")
+                  .notes.empty());
+}
+
 }  // namespace sdf::script_offsets_test

@@ -342,14 +342,28 @@ int applySign(lua_State* L) {
   return pushShape(L, Call(L, *findEntry(s.entry)).run()), 1;
 }
 
+// What is stated is trusted: rays step over what is steeper, and meshes lack it. One call may be run often.
+void noteSteepness(lua_State* L, const std::string& name, const SteepPlace& steep, double stated) {
+  ScriptContext& c = contextOf(L);
+  const std::string place = c.file + ":" + std::to_string(currentLine(L)) + ": " + name + ": ";
+  const auto isOfHere = [&](const std::string& note) { return note.starts_with(place); };
+  if (std::ranges::any_of(c.scene.notes, isOfHere)) return;
+  c.scene.notes.push_back(place + "the formula's slope is " + shown(steep.slope) + " at (" +
+                          shown(steep.at.x) + ", " + shown(steep.at.y) + ", " + shown(steep.at.z) +
+                          "), more than the lipschitz of " + shown(stated) +
+                          " that is stated: parts of it may be missing; state a larger one, or leave it out");
+}
+
 int freeForm(lua_State* L) {
   expectArguments(L, 1, 2);
   const FunctionInfo& f = runningFunction(L);
   const Expr distance = readFormula(L, 1, f.name + ": the formula");
   const FieldValues known = readFields(L, 2, f);
-  return pushFormulaShape(
-      L, f.name,
-      field(distance, valueOr(known, "bounds", Box::everything()), valueOr(known, "lipschitz", kInfinity)));
+  const Box bounds = valueOr(known, "bounds", Box::everything());
+  const double lipschitz = valueOr(known, "lipschitz", kInfinity);
+  if (const auto steep = steeperThan(distance, bounds, lipschitz))
+    noteSteepness(L, f.name, *steep, lipschitz);
+  return pushFormulaShape(L, f.name, field(distance, bounds, lipschitz));
 }
 
 int importedMesh(lua_State* L) {

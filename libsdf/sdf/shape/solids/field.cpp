@@ -1,4 +1,6 @@
 // Formulas as shapes.
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sdf/expr/gradient.h"
@@ -36,23 +38,40 @@ Expr nearBounds(const Expr& formula, const Box& bounds) {
   return max(heldWithin(formula, near).claimLipschitz(slope), *outsideBox(near));
 }
 
-// Is the formula steeper than it is said to be at some points around its bounds?
-bool isSteeperAround(const Expr& formula, const Box& bounds, double stated) {
+// The slope at a point, of all values of the parameters.
+struct SlopeAt {
+  glm::dvec3 at;
+  double least, most;
+};
+
+// At 125 points of a box, its corners among them.
+std::vector<SlopeAt> slopesIn(const Expr& formula, const Box& box) {
   constexpr int kAlong = 5;
-  constexpr double kRounding = 1.0 + 1e-6;
   const Vec3E gradient = gradientOf(formula);
   const Expr slopes[] = {gradient.x, gradient.y, gradient.z};
   IntervalReading reading(slopes);
-  const Box around = bounds.grown(bounds.longestSide());
+  std::vector<SlopeAt> found;
   for (int i = 0; i < kAlong * kAlong * kAlong; ++i) {
     const glm::ivec3 at(i % kAlong, i / kAlong % kAlong, i / (kAlong * kAlong));
-    const glm::dvec3 p = around.min + glm::dvec3(at) / (kAlong - 1.0) * around.size();
-    reading.run({p, p});
-    double square = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) square += std::pow(std::max(-reading[k].lo, reading[k].hi), 2);
-    if (square > std::pow(kRounding * stated, 2)) return true;
+    SlopeAt here{box.min + glm::dvec3(at) / (kAlong - 1.0) * box.size(), 0.0, 0.0};
+    reading.run({here.at, here.at});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Interval& slope = reading[k];
+      here.least = std::hypot(here.least, slope.nan ? 0.0 : std::max({slope.lo, -slope.hi, 0.0}));
+      here.most = std::hypot(here.most, slope.magnitude());
+    }
+    found.push_back(here);
   }
-  return false;
+  return found;
+}
+
+// Of slopes and their bounds, which are each rounded.
+constexpr double kRounding = 1.0 + 1e-6;
+
+// Is the formula steeper than it is said to be at some points around its bounds?
+bool isSteeperAround(const Expr& formula, const Box& bounds, double stated) {
+  return std::ranges::any_of(slopesIn(formula, bounds.grown(bounds.longestSide())),
+                             [&](const SlopeAt& slope) { return slope.most > kRounding * stated; });
 }
 
 // A formula that has the slope within the bounds. The solid is in them, so that outside the way to it is
@@ -64,6 +83,14 @@ Expr cautiousOutside(const Expr& formula, const Box& bounds, double slope) {
 }
 
 }  // namespace
+
+std::optional<SteepPlace> steeperThan(const Expr& formula, const Box& bounds, double lipschitz) {
+  if (!bounds.finite() || lipschitz >= formula.lipschitz()) return {};
+  const std::vector<SlopeAt> slopes = slopesIn(formula, bounds);
+  const SlopeAt& steepest = *std::ranges::max_element(slopes, {}, &SlopeAt::least);
+  if (!(steepest.least > kRounding * lipschitz)) return {};
+  return SteepPlace{steepest.at, steepest.least};
+}
 
 Shape field(const Expr& distance, const Box& bounds, double lipschitz) {
   Check c("field");

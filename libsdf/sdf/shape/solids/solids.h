@@ -94,4 +94,12 @@ Shape schwarzD(const Expr& cell, const Expr& thickness);
 /// than the way to the bounds, or than its value at their nearest point, allows. lipschitz > 0.
 Shape field(const Expr& distance, const Box& bounds = Box::everything(), double lipschitz = kInfinity);
 
+struct SteepPlace {
+  glm::dvec3 at;
+  double slope;
+};
+/// Where a formula is the steepest of 125 points within finite bounds, if it is steeper there than the
+/// lipschitz that is stated of it, whatever the values of its parameters.
+std::optional<SteepPlace> steeperThan(const Expr& formula, const Box& bounds, double lipschitz);
+
 }  // namespace sdf
