@@ -158,7 +158,7 @@ TEST_F(BadInput, WhatCannotBeProvenIsSaidWithItsPlace) {
   expectBadScene(
       "bounds({-2, -2, -2}, {2, 2, 2}) return field(function(x, y, z)"
       " return floor(x * x + y * y + z * z) - 0.5 end)",
-      {"no distance below 1.87083 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
+      {"no distance below 0.997959 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
 }
 
 TEST_F(BadInput, WhatStoodInTheWayOfAProofIsNamedWithItsLine) {
@@ -239,7 +239,7 @@ TEST_F(BadInput, MeshesThatContradictWhatIsStatedOfAFieldAreNotWritten) {
                  {"part 'ball': the mesh is torn open at (", "Enlarge the lipschitz", "leave them out"});
   expectBadScene(part(" * (1 + 20 * exp(-200 * ((x - 0.6) ^ 2 + (y - 0.6) ^ 2 + (z - 0.53) ^ 2)))",
                       "bounds = {{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}}, lipschitz = 1"),
-                 {"part 'ball': the mesh is off by about 0.11", "voxels, at (0.6", "Enlarge the lipschitz"},
+                 {"part 'ball': the mesh is off by about 0.074", "voxels, at (0.6", "Enlarge the lipschitz"},
                  kScene, {"--voxel-size", "0.02"});
 }
 

@@ -355,8 +355,9 @@ class Mesher {
   void measureToMesh(const FeatureMesh& mesh, const ModelTapes& model, const Box& bounds) {
     if (surface_.empty()) surface_ = surfacePoints(model, bounds, progress_);
     MeshStats& stats = result_.stats;
-    // A cell's diagonal: what is farther away has no vertex in its cell.
-    const double limit = std::numbers::sqrt3 * stats.voxelSize;
+    // A cell's diagonal, beyond which there is no vertex in a cell; few triangles may be as far as the
+    // tolerance.
+    const double limit = std::max(std::numbers::sqrt3 * stats.voxelSize, stats.tolerance);
     const SurfaceDistance missed = distanceToMesh(surface_, mesh.positions, mesh.triangles, progress_, limit);
     if (stats.unresolved == 0) stats.unresolved = missed.beyond, stats.firstUnresolved = missed.farthest;
     stats.surfacePoints = missed.points + witnessed_.points;
