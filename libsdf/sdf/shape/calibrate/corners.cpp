@@ -146,7 +146,7 @@ class Corners {
     for (const std::size_t f : corner.faces) corner.known = corner.known && faces_[f].solid == solid;
     for (const Expr& c : corner.cosines) {
       corner.flat = corner.flat && isUniform(c);
-      if (c.isConstant() && 1.0 - std::abs(c.constantValue()) < 0.5 * kParallel * kParallel) return;
+      if (c.range().isPoint() && 1.0 - std::abs(c.range().lo) < 0.5 * kParallel * kParallel) return;
     }
     if (corner.flat || region_.finite()) corners_.push_back(std::move(corner));
   }

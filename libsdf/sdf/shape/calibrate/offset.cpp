@@ -139,7 +139,7 @@ class Offsets {
     constexpr double kRounding = 1e-12;
     const double length = uniformValue(sdf::length(n));
     if (std::abs(length - 1.0) < kRounding && isOneLipschitz(e.lipschitz())) return {e, 1.0, n};
-    if (!n.x.isConstant() || !n.y.isConstant() || !n.z.isConstant()) return {e, e.lipschitz()};
+    if (!n.x.range().isPoint() || !n.y.range().isPoint() || !n.z.range().isPoint()) return {e, e.lipschitz()};
     return {e * (1.0 / length), 1.0, scaled(n, 1.0 / length)};
   }
 
