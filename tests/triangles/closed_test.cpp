@@ -200,7 +200,7 @@ TEST(CutPolygon, CutsThePolygonAlikeFromBehind) {
   std::vector<std::uint32_t> corners = ring(3000, mesh);
   cutPolygon(mesh.positions, corners, mesh.triangles);
   std::ranges::reverse(corners);
-  std::ranges::rotate(corners, corners.begin() + 1000);
+  std::rotate(corners.begin(), corners.begin() + 1000, corners.end());
   cutPolygon(mesh.positions, corners, mesh.triangles);
   EXPECT_TRUE(closed(mesh).triangles.empty());
 }
