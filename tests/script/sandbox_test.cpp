@@ -67,7 +67,7 @@ TEST(Sandbox, ChainsOfOperatorsHaveAnEnd) {
             "scene.lua:2: the formula has 4097 operations upon one another, and up to 4096 can be drawn and "
             "meshed; "
             "look for a loop that can be shorter");
-  sceneOf("local s = box(1) for i = 1, 500 do s = s:round(1e-6) - sphere(0.01) end return s");
+  sceneOf("local s = box(1) for i = 1, 40 do s = s:round(1e-6) - sphere(0.01) end return s");
 }
 
 // However many, given at once they stand side by side.
