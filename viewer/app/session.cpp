@@ -131,10 +131,10 @@ Status Session::load(const Built& wanted) {
   scene_ = std::move(made->scene);
   present_ = std::move(made->present);
   now_ = std::move(made->now);
-  watchFiles();
-  tellMissing();
   look_ = std::move(made->look);
   renderer_ = std::move(made->renderer);
+  watchFiles();
+  tellMissing();
   built_ = wanted;
   buildMessage_.clear();
   ++compilations_;

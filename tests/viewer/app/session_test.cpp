@@ -473,6 +473,22 @@ return sphere(1))");
   EXPECT_EQ(session.look().lights.size(), 1u);
 }
 
+// What shaders cannot compute is that of the scene that is shown, not of the one before.
+TEST_F(SessionTest, SaysOfAnEditedFileWhatFloatsCannotShow) {
+  start.shader.doubles = false;
+  Session session = open();
+  EXPECT_EQ(session.message(), "");
+  write(R"(part("row", field(function(x, y, z)
+  return length(x - round(x), y, z) - 0.1 - 0.2 * fract(sin(12.9898 * round(x)) * 43758.5453)
+end, {lipschitz = 8, bounds = {{-9, -1, -1}, {9, 1, 1}}})))");
+  session.followFile();
+  EXPECT_NE(session.message().find("part 'row': its formula needs more digits"), std::string::npos)
+      << session.message();
+  write(kBall);
+  session.followFile();
+  EXPECT_EQ(session.message(), "");
+}
+
 TEST_F(SessionTest, ResettingGivesTheFilesValues) {
   write(R"(local n = param("n", 1, {min = 1, max = 3})
 for i = 1, value(n) do part("ball " .. i, sphere(0.3):translate(i, 0, 0)) end
