@@ -45,14 +45,13 @@ Result<Session> Session::open(const SceneFile& file, Controls controls) {
   Built built{controls.shader, {}};
   built.shader.origin = originFor(controls.eye.value_or(look.at(values, kPictureAspect).eye));
   if (showsMesh(built.shader.view)) built.shader.view = View::Picture;  // until there is a mesh
-  auto made = loaded(file, std::move(*scene), controls.parameters, controls.time, built);
+  auto made = loaded(file, std::move(*scene), std::move(look), controls.parameters, controls.time, built);
   if (!made) return made.error();
   return Session(file, std::move(controls), std::move(*made), std::move(built));
 }
 
-Result<Session::Loaded> Session::loaded(const SceneFile& file, Scene scene, const Values& parameters,
-                                        double time, const Built& wanted) {
-  LookFunction look = lookOf(scene, file, parameters);
+Result<Session::Loaded> Session::loaded(const SceneFile& file, Scene scene, LookFunction look,
+                                        const Values& parameters, double time, const Built& wanted) {
   PresentScene present(file, scene, parameters, time);
   Scene now = present.at(scene, parameters, time);
   auto made = build(now, present, wanted);
@@ -124,7 +123,8 @@ Status Session::load(const Built& wanted) {
   auto scene = file_.load({.values = controls.parameters, .tolerant = true, .time = controls.time});
   if (!scene) return scene.error();
   Values parameters = taken(controls.parameters, *scene);
-  auto made = loaded(file_, std::move(*scene), parameters, controls.time, wanted);
+  LookFunction look = lookOf(*scene, file_, parameters);
+  auto made = loaded(file_, std::move(*scene), std::move(look), parameters, controls.time, wanted);
   if (!made) return made.error();
   if (auto s = showMesh(made->renderer); !s) return s;
 

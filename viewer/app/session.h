@@ -157,8 +157,8 @@ class Session {
   Session(SceneFile file, Controls start, Loaded loaded, Built built);
   static Result<Renderer> build(const Scene& now, const PresentScene& present, const Built& wanted);
   Result<Renderer> build(const Built& wanted) const { return build(now_, present_, wanted); }
-  static Result<Loaded> loaded(const SceneFile& file, Scene scene, const Values& parameters, double time,
-                               const Built& wanted);
+  static Result<Loaded> loaded(const SceneFile& file, Scene scene, LookFunction look,
+                               const Values& parameters, double time, const Built& wanted);
   /// Replaces scene and renderer by what the file says for the controls' values. On an error both stay.
   Status load(const Built& wanted);
   /// Loads the scene with these materials to edit and keeps the message; whether it could.

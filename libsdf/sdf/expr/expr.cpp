@@ -162,6 +162,7 @@ std::int64_t NodeLimit::held() const { return nodesHeld - before_; }
 
 Origin::Origin(const char* what, const std::string& file, int line)
     : before_(std::exchange(originNow, Origins::instance().numberOf(what, file, line))) {}
+Origin::Origin(const Expr& like) : before_(std::exchange(originNow, like.node()->origin)) {}
 Origin::~Origin() { originNow = before_; }
 
 CountedAsNodes::CountedAsNodes(std::int64_t nodes) : nodes_(nodes) {
@@ -389,24 +390,10 @@ double uniformValue(const Expr& e) {
 
 namespace {
 
-/// Gives a variable another value, and its own at the end.
-class Restored {
- public:
-  Restored(std::uint32_t& variable, std::uint32_t value)
-      : variable_(variable), before_(std::exchange(variable, value)) {}
-  ~Restored() { variable_ = before_; }
-  Restored(const Restored&) = delete;
-  Restored& operator=(const Restored&) = delete;
-
- private:
-  std::uint32_t& variable_;
-  std::uint32_t before_;
-};
-
 // The node's operation, or payload, over other arguments, as many as it has; a leaf is itself.
 Expr remade(const Expr& node, std::span<const Expr> args) {
   if (args.empty()) return node;
-  const Restored origin(originNow, node.node()->origin);
+  const Origin origin(node);
   if (node.op() == Op::Payload) return Expr::payload(*node.payloadPart(), {args[0], args[1], args[2]});
   return Expr::make(node.op(), args);
 }

@@ -13,6 +13,8 @@ namespace sdf {
 class Origin {
  public:
   Origin(const char* what, const std::string& file, int line);
+  /// From where this node comes.
+  explicit Origin(const Expr& like);
   ~Origin();
   Origin(const Origin&) = delete;
   Origin& operator=(const Origin&) = delete;

@@ -359,7 +359,8 @@ class Mesher {
     // tolerance.
     const double limit = std::max(std::numbers::sqrt3 * stats.voxelSize, stats.tolerance);
     const SurfaceDistance missed = distanceToMesh(surface_, mesh.positions, mesh.triangles, progress_, limit);
-    if (stats.unresolved == 0) stats.unresolved = missed.beyond, stats.firstUnresolved = missed.farthest;
+    if (stats.unresolved == 0 && missed.beyond > 0)
+      stats.unresolved = missed.beyond, stats.firstUnresolved = missed.farthest;
     stats.surfacePoints = missed.points + witnessed_.points;
     for (const SurfaceDistance& from : {missed, witnessed_})
       if (from.max > stats.maxDistance) stats.maxDistance = from.max, stats.farthest = from.farthest;

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <random>
 #include <vector>
 
+#include "sdf/base/random_point.h"
 #include "sdf/eval/scalar_reading.h"
 
 namespace sdf {
 
 namespace {
 
+// Lines through the region and readings along each, and what is looked at of what they meet. Chosen: a check
+// takes 1 to 15 ms.
 constexpr int kLines = 160, kMostEdges = 24, kMostPoints = 48;
 constexpr int kAlongLine = 32, kHalvings = 24;
 // How far the offset is looked for, in its amount.
@@ -84,14 +86,8 @@ class OffsetCheck {
 
   void findSurface() {
     std::mt19937 random(1);
-    const auto inRegion = [&] {
-      glm::dvec3 p;
-      for (int i = 0; i < 3; ++i)
-        p[i] = region_.min[i] + region_.size()[i] * (static_cast<double>(random()) / 0x1p32);
-      return p;
-    };
     for (int line = 0; line < kLines; ++line) {
-      const glm::dvec3 from = inRegion(), way = inRegion() - from;
+      const glm::dvec3 from = pointIn(region_, random), way = pointIn(region_, random) - from;
       glm::dvec3 last = from;
       bool wasOut = f(last) > 0.0;
       for (int i = 1; i <= kAlongLine; ++i) {

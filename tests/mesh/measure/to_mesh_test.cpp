@@ -122,7 +122,9 @@ TEST(DistanceToMesh, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.points, two.points);
 }
 
-// Voxels that no sample of which meets a piece are too coarse for it, and that is said.
+// Voxels that no sample of which meets a piece are too coarse for it, and that is said. From the larger ball,
+// whose mesh may be a voxel's sagitta off, 0.005, the smaller one's points are 0.5 away, but for its radius
+// of 0.01.
 TEST(DistanceToMesh, OfAPieceThatVoxelsPassCountsAsUnresolved) {
   const Vec3E p = position(), q = p - Vec3E(1.5, 0.0, 0.0);
   const Shape both = field(min(dot(p, p) - 1.0, dot(q, q) - 1e-4), {{-1.2, -1.2, -1.2}, {1.8, 1.2, 1.2}});

@@ -79,14 +79,13 @@ class RunDistances {
     }
     std::vector<bool> met(run_.count);
     readValues(
-        run_.batch, *run_.tapes.distance, 27 * small.size(),
+        run_.batch, *run_.tapes.distance, kNeighbourhood * small.size(),
         [&](std::size_t k) {
-          const int way = static_cast<int>(k % 27);
-          return run_.points.at(small[k / 27]) +
-                 reach[k / 27] * glm::vec3(way / 9 - 1, way / 3 % 3 - 1, way % 3 - 1);
+          return run_.points.at(small[k / kNeighbourhood]) +
+                 reach[k / kNeighbourhood] * neighbour(static_cast<int>(k % kNeighbourhood));
         },
         [&](std::size_t k, float value) {
-          const std::size_t i = small[k / 27];
+          const std::size_t i = small[k / kNeighbourhood];
           if (isAcross(value, isInside(i))) met[i] = true;
         });
     std::erase_if(unmet, [&](std::size_t i) { return met[i]; });

@@ -166,12 +166,11 @@ std::vector<Met> meetAround(const PointRun& run, const std::vector<Way>& points)
 }
 
 std::vector<Met> meetAllAround(const PointRun& run, const std::vector<Way>& points) {
-  constexpr int kLines = 13;
+  constexpr int kLines = kNeighbourhood / 2;  // through the middle
   std::vector<Way> ways;
   for (const Way& point : points)
-    for (int i = 14; i < 14 + kLines; ++i)
-      ways.push_back({point.from, point.inside,
-                      glm::normalize(glm::dvec3(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1)), point.reach});
+    for (int i = kLines + 1; i < kNeighbourhood; ++i)
+      ways.push_back({point.from, point.inside, glm::normalize(glm::dvec3(neighbour(i))), point.reach});
   const std::vector<Met> along = meetAlong(run, ways);
   std::vector<Met> met(points.size());
   for (std::size_t i = 0; i < along.size(); ++i) met[i / kLines] = nearer(met[i / kLines], along[i]);

@@ -12,6 +12,10 @@ namespace sdf {
 /// no number is outside, as it is for the mesher.
 inline bool isAcross(float value, bool inside) { return inside ? !(value < 0.0f) : value <= 0.0f; }
 
+/// Of a lattice of 3 by 3 by 3 about the origin, sample i of kNeighbourhood; the middle one is the origin.
+inline constexpr int kNeighbourhood = 27;
+inline glm::vec3 neighbour(int i) { return glm::vec3(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1); }
+
 /// A point, its side, and the line through it on which the surface is looked for.
 struct Way {
   glm::dvec3 from;

@@ -36,7 +36,6 @@ bool isKnown(const Expr& e) { return e.op() == Op::Parameter && e.range().isPoin
 // With numbers in the place of parameters that are known, so that these graphs take as many cells, and come
 // to the same as those of scenes that are written with numbers.
 std::vector<Expr> withNumbers(std::span<const Expr> roots) {
-  if (std::ranges::none_of(topologicalOrder(roots), isKnown)) return {roots.begin(), roots.end()};
   return rewrite(roots, [](const Expr& e, std::span<const Expr> args) -> std::optional<Expr> {
     if (isKnown(e)) return Expr(e.range().lo);
     if (e.op() == Op::Claim) return args[0].claimLipschitz(e.lipschitz());
@@ -47,9 +46,12 @@ std::vector<Expr> withNumbers(std::span<const Expr> roots) {
 }  // namespace
 
 template <class T>
-BoxReading<T>::BoxReading(std::span<const Expr> given) {
-  const std::vector<Expr> roots = withNumbers(given);
-  order_ = topologicalOrder(roots);
+BoxReading<T>::BoxReading(std::span<const Expr> given) : order_(topologicalOrder(given)) {
+  std::vector<Expr> roots(given.begin(), given.end());
+  if (std::ranges::any_of(order_, isKnown)) {
+    roots = withNumbers(given);
+    order_ = topologicalOrder(roots);
+  }
   values_.resize(order_.size());
   std::unordered_map<Expr, std::size_t> places;
   for (const Expr& e : order_) {

@@ -43,6 +43,8 @@ class IntervalReading : public BoxReading<Interval> {
 using Sloped = Dual<Interval, 3>;
 using SlopedReading = BoxReading<Sloped>;
 
+// The least magnitude that it has.
+inline double nearest(const Interval& i) { return std::max({0.0, i.lo, -i.hi}); }
 // The largest magnitude that it has; infinite where it may be no number.
 inline double farthest(const Interval& i) { return i.nan ? kInfinity : i.magnitude(); }
 

@@ -16,9 +16,6 @@ namespace sdf {
 
 namespace {
 
-// The least magnitude in it.
-double nearest(const Interval& i) { return std::max({0.0, i.lo, -i.hi}); }
-
 // How fast the value grows beyond its reach: so that light finds more room there, at little slope.
 constexpr double kBeyond = 0.5;
 

@@ -1,8 +1,8 @@
 #include "sdf/shape/calibrate/surface_points.h"
 
 #include <optional>
-#include <random>
 
+#include "sdf/base/random_point.h"
 #include "sdf/expr/gradient.h"
 
 namespace sdf {
@@ -40,15 +40,9 @@ SurfacePoint SurfaceReading::at(const glm::dvec3& p) {
 std::vector<SurfacePoint> SurfaceReading::zeros(const Box& region, int lines) {
   constexpr int kSteps = 32, kHalvings = 30;
   std::mt19937 random(1);
-  const auto inRegion = [&] {
-    glm::dvec3 p;
-    for (int i = 0; i < 3; ++i)
-      p[i] = region.min[i] + region.size()[i] * (static_cast<double>(random()) / 0x1p32);
-    return p;
-  };
   std::vector<SurfacePoint> found;
   for (int line = 0; line < lines; ++line) {
-    const glm::dvec3 from = inRegion(), way = inRegion() - from;
+    const glm::dvec3 from = pointIn(region, random), way = pointIn(region, random) - from;
     double last = value(from);
     for (int i = 1; i <= kSteps; ++i) {
       double lo = (i - 1.0) / kSteps, hi = lo + 1.0 / kSteps;

@@ -57,7 +57,7 @@ std::vector<SlopeAt> slopesIn(const Expr& formula, const Box& box) {
     reading.run({here.at, here.at});
     for (std::size_t k = 0; k < 3; ++k) {
       const Interval& slope = reading[k];
-      here.least = std::hypot(here.least, slope.nan ? 0.0 : std::max({slope.lo, -slope.hi, 0.0}));
+      here.least = std::hypot(here.least, slope.nan ? 0.0 : nearest(slope));
       here.most = std::hypot(here.most, slope.magnitude());
     }
     found.push_back(here);
