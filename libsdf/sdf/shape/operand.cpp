@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace sdf {
 
@@ -152,12 +153,13 @@ void renumber(Shape& s, const std::vector<double>& places) {
 
 std::vector<Shape> numberedAlike(std::vector<Shape> shapes) {
   std::vector<MaterialPtr> all;
+  std::unordered_map<MaterialPtr, double> placeOf;
   for (Shape& s : shapes) {
     std::vector<double> places;
     for (const MaterialPtr& m : s.materials) {
-      const auto it = std::ranges::find(all, m);
-      places.push_back(static_cast<double>(it - all.begin()));
-      if (it == all.end()) all.push_back(m);
+      const auto [place, isNew] = placeOf.try_emplace(m, static_cast<double>(all.size()));
+      places.push_back(place->second);
+      if (isNew) all.push_back(m);
     }
     renumber(s, places);
   }

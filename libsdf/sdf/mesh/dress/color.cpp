@@ -8,7 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "sdf/eval/scalar_reading.h"
+#include "sdf/eval/regional_reading.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/surface_paint.h"
@@ -207,24 +207,45 @@ class BorderPainter {
   std::unordered_map<std::uint32_t, std::vector<Copy>> copies_;  // by vertex
 };
 
-// Averages of the attributes that a glTF material holds as single numbers, over some of the material's
-// triangles.
-void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
-  const TapePtr tape = Function({shape.surface.begin(), shape.surface.end()}).at(values);
+// Some of the triangles of each material, evenly spread, by material.
+std::vector<std::vector<std::size_t>> sampledTriangles(const Mesh& mesh) {
+  std::vector<std::vector<std::size_t>> sampled;
   for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
     const auto begin = mesh.triangleMaterial.begin();
     const auto [from, to] = std::equal_range(begin, mesh.triangleMaterial.end(), m);
     const std::size_t stride = std::max<std::size_t>(1, (to - from) / kMaterialSamples);
-    std::array<double, kAttributeCount> sum{};
-    double samples = 0.0;
-    for (std::size_t t = from - begin; t < static_cast<std::size_t>(to - begin); t += stride, ++samples) {
-      const glm::uvec3& corners = mesh.triangles[t];
-      const std::vector<double> v =
-          evaluateAll(*tape, glm::dvec3(centroid(mesh, corners)), glm::dvec3(mesh.normals[corners.x]));
-      for (int a = 0; a < kAttributeCount; ++a) sum[a] += std::isfinite(v[a]) ? v[a] : 0.0;
+    std::vector<std::size_t>& own = sampled.emplace_back();
+    for (std::size_t t = from - begin; t < static_cast<std::size_t>(to - begin); t += stride)
+      own.push_back(t);
+  }
+  return sampled;
+}
+
+// The attributes in the middles of these triangles, all of one triangle after another.
+std::vector<double> readAttributes(const Shape& shape, const Values& values, const Mesh& mesh,
+                                   const std::vector<std::vector<std::size_t>>& triangles) {
+  std::vector<glm::dvec3> points, normals;
+  for (const auto& some : triangles)
+    for (const std::size_t t : some) {
+      points.emplace_back(centroid(mesh, mesh.triangles[t]));
+      normals.emplace_back(mesh.normals[mesh.triangles[t].x]);
     }
+  return evaluateEach(Function({shape.surface.begin(), shape.surface.end()}).at(values), points, normals);
+}
+
+// Averages of the attributes that a glTF material holds as single numbers, over some of the material's
+// triangles.
+void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
+  const std::vector<std::vector<std::size_t>> triangles = sampledTriangles(mesh);
+  const std::vector<double> attributes = readAttributes(shape, values, mesh, triangles);
+  const double* v = attributes.data();
+  for (std::uint32_t m = 0; m < mesh.materials.size(); ++m) {
+    std::array<double, kAttributeCount> sum{};
+    for (std::size_t i = 0; i < triangles[m].size(); ++i, v += kAttributeCount)
+      for (int a = 0; a < kAttributeCount; ++a) sum[a] += std::isfinite(v[a]) ? v[a] : 0.0;
     auto mean = [&](Attribute a) {
-      return static_cast<float>(sum[static_cast<int>(a)] / std::max(samples, 1.0));
+      const double samples = std::max(static_cast<double>(triangles[m].size()), 1.0);
+      return static_cast<float>(sum[static_cast<int>(a)] / samples);
     };
     MeshMaterial& out = mesh.materials[m];
     out.color = {unit(mean(Attribute::Red)), unit(mean(Attribute::Green)), unit(mean(Attribute::Blue))};
