@@ -191,6 +191,45 @@ TEST(OffsetsOfIntersections, OfOffsetsGoOn) {
   EXPECT_NEAR(f(0.3 * std::cos(0.7), 0.3 * std::sin(0.7), 0.0), 0.0, 1e-9);
 }
 
+// A ball with dents that meet in creases, whose offsets make distances around edges.
+Shape dented(int dents, double radius) {
+  Shape s = box(Vec3E(1.0));
+  for (int i = 0; i < dents; ++i)
+    s = round(s, radius) - translate(sphere(0.1), Vec3E(std::cos(i), std::sin(i), std::sin(3.0 * i)));
+  return s;
+}
+
+TEST(OffsetsOfOffsets, DoNotTryAgainWhatCouldNotBeCalibrated) {
+  const Shape tried = round(dented(3, 0.001), 0.001);
+  ASSERT_FALSE(tried.claim.calibrated);
+  ASSERT_EQ(tried.claim.uncalibrated.size(), 1u);
+  const Shape again = round(tried, 0.001);
+  EXPECT_EQ(again.distance, tried.distance - 0.001);
+  ASSERT_EQ(again.claim.uncalibrated.size(), 1u);
+  EXPECT_EQ(again.claim.uncalibrated[0].part, tried.claim.uncalibrated[0].part);
+}
+
+TEST(OffsetsOfOffsets, CalibrateForASmallOffsetWhatCouldNotBeForALargeOne) {
+  // Of x^2 - y^2 + z^2 - 0.05 the gradient vanishes at the origin, 0.22 from the surface.
+  const Shape saddle =
+      field(square(kAt.x) - square(kAt.y) - 0.05 + square(kAt.z), Box::centred(glm::dvec3(1.0)));
+  const Shape large = round(saddle, 2.0);
+  ASSERT_FALSE(large.claim.calibrated);
+  Shape small = saddle;
+  small.claim.uncalibrated = large.claim.uncalibrated;
+  EXPECT_EQ(round(small, 0.02).claim.calibrated, round(saddle, 0.02).claim.calibrated);
+  EXPECT_TRUE(round(small, 0.02).claim.calibrated);
+}
+
+TEST(OffsetsOfOffsets, OfHundredsTakeAsLongAsAllOfThem) {
+  // Each took some 70 ms and more the more there were, and each shell within a shell twice as long.
+  EXPECT_TRUE(dented(60, 0.001).ok());
+  Shape skin = sphere(1.0);
+  for (int i = 1; i <= 150; ++i) skin = shell(skin, 0.3 / i);
+  EXPECT_TRUE(skin.ok());
+  EXPECT_LT(topologicalOrder({&skin.distance, 1}).size(), 2000u);
+}
+
 TEST(BlendsOfFields, AreAsWideAsAskedFor) {
   // Where a plane stands at right angles on the field, at equal distances d, a quadratic blend lowers both by
   // k / 4: its surface is where d = k / 4.

@@ -50,7 +50,7 @@ std::optional<Expr> outsideBox(const Box& b);
 bool isOneLipschitz(double lipschitz);
 /// The claim at a kind that may be weaker.
 inline Claim weakened(const Claim& c, ClaimKind kind) {
-  return {weaker(c.kind, kind), c.lipschitz, growthOf(c), c.calibrated};
+  return {weaker(c.kind, kind), c.lipschitz, growthOf(c), c.calibrated, c.uncalibrated};
 }
 /// Makes claim and graph tell each other what they know: a global constant goes to the graph, a better
 /// derived one to the claim, and a field that is 1-Lipschitz everywhere is a bound. What was a list of

@@ -23,6 +23,13 @@ enum class ClaimKind {
   Field          ///< only the zero set and the sign are right
 };
 
+/// A part of a distance that offsets take as it is, up to a sum and a factor: the distance around edges that
+/// an offset made, or a formula that could not be calibrated, each for offsets as far out and in as this.
+struct UncalibratedPart {
+  Expr part;
+  double out, in;
+};
+
 /// Proven facts about a shape's distance. Every operator derives its result's claim from its operands'.
 struct Claim {
   ClaimKind kind = ClaimKind::Exact;
@@ -33,6 +40,8 @@ struct Claim {
   double growth = kInfinity;
   /// Has the distance been divided by its slope already, so that offsets take it as it is?
   bool calibrated = false;
+  /// What offsets have tried already, so that n offsets of one another do not try n parts each.
+  std::vector<UncalibratedPart> uncalibrated{};
 };
 
 /// The claim's growth; exact and exact outside have 1, whatever the field says.

@@ -22,11 +22,16 @@ Sloped leafOf(const Expr& e, const Box& box, const Sloped* /*as*/) {
   return leaf;
 }
 
+double leafOf(const Expr& e, const Box& box, const double* /*as*/) {
+  const Interval leaf = leafOf(e, box, static_cast<const Interval*>(nullptr));
+  return 0.5 * (leaf.lo + leaf.hi);
+}
+
 void heedClaim(const Expr& /*e*/, Interval& /*value*/) {}
+void heedClaim(const Expr& /*e*/, double& /*value*/) {}
 
 // A claim says more than the formula may.
 void heedClaim(const Expr& e, Sloped& value) {
-  if (e.op() != Op::Claim) return;
   const double most = e.lipschitz();
   for (Interval& d : value.d) d = {std::clamp(d.lo, -most, most), std::clamp(d.hi, -most, most)};
 }
@@ -57,7 +62,7 @@ BoxReading<T>::BoxReading(std::span<const Expr> given) : order_(topologicalOrder
   for (const Expr& e : order_) {
     std::array<std::size_t, 3> args{};
     for (int i = 0; i < arity(e.op()); ++i) args[i] = places.at(e.arg(i));
-    args_.push_back(args);
+    steps_.push_back({e.op(), e.payloadPart(), args});
     places.emplace(e, places.size());
   }
   for (const Expr& root : roots) outputs_.push_back(places.at(root));
@@ -66,14 +71,15 @@ BoxReading<T>::BoxReading(std::span<const Expr> given) : order_(topologicalOrder
 template <class T>
 void BoxReading<T>::run(const Box& box) {
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    const Expr& e = order_[i];
-    const auto arg = [&](int k) { return values_[args_[i][k]]; };
-    values_[i] = arity(e.op()) == 0 ? leafOf(e, box, static_cast<const T*>(nullptr))
-                                    : evaluateOp<T>(e.op(), e.payloadPart(), arg);
-    heedClaim(e, values_[i]);
+    const Step& step = steps_[i];
+    const auto arg = [&](int k) { return values_[step.args[k]]; };
+    values_[i] = arity(step.op) == 0 ? leafOf(order_[i], box, static_cast<const T*>(nullptr))
+                                     : evaluateOp<T>(step.op, step.payload, arg);
+    if (step.op == Op::Claim) heedClaim(order_[i], values_[i]);
   }
 }
 
+template class BoxReading<double>;
 template class BoxReading<Interval>;
 template class BoxReading<Sloped>;
 

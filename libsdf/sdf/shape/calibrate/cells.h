@@ -22,8 +22,13 @@ class BoxReading {
   const T& operator[](std::size_t output) const { return values_[outputs_[output]]; }
 
  private:
+  struct Step {
+    Op op;
+    const PayloadPart* payload;
+    std::array<std::size_t, 3> args;
+  };
   std::vector<Expr> order_;
-  std::vector<std::array<std::size_t, 3>> args_;
+  std::vector<Step> steps_;  // of the order
   std::vector<std::size_t> outputs_;
   std::vector<T> values_;
 };
@@ -39,6 +44,9 @@ class IntervalReading : public BoxReading<Interval> {
   }
 };
 
+// Of their values at points, which are boxes without a size.
+using PointReading = BoxReading<double>;
+
 // And of their difference quotients along x, y and z, jumps included.
 using Sloped = Dual<Interval, 3>;
 using SlopedReading = BoxReading<Sloped>;
@@ -50,6 +58,13 @@ inline double farthest(const Interval& i) { return i.nan ? kInfinity : i.magnitu
 
 // The expression looked up at the nearest point of the box, for what holds in it alone.
 Expr heldWithin(const Expr& e, const Box& box);
+
+// So many cells as are read in some ten milliseconds, if `most` are not too many: `work` over the number of
+// operations. 60 say more than nothing of a graph that is larger, until they take some times as long.
+inline std::size_t affordableCells(std::size_t work, std::size_t operations, std::size_t most) {
+  const std::size_t least = std::clamp<std::size_t>(5 * work / operations, 1, 60);
+  return std::clamp(work / operations, least, most);
+}
 
 // A cell of space with the slopes that bound each part's in it, the last being the whole's.
 struct Cell {

@@ -165,9 +165,9 @@ class Corners {
     for (const Face& f : faces_) roots.push_back(f.distance);
     for (const Corner& c : corners) roots.insert(roots.end(), c.cosines.begin(), c.cosines.end());
     SlopedReading reading(roots);
-    // Some ten milliseconds' worth, whatever the size of the graph; what is flat needs less.
+    // What is flat needs fewer.
     const std::size_t most = std::ranges::all_of(corners, &Corner::flat) ? 250 : 800;
-    const std::size_t mostCells = std::clamp<std::size_t>(60000 / reading.size(), 60, most);
+    const std::size_t mostCells = affordableCells(60000, reading.size(), most);
     constexpr std::size_t kEntries = kSharpest.size() + 1;
     const auto slopesOf = [&](const Box& box) {
       reading.run(box);

@@ -143,17 +143,42 @@ Expr shaped(const Expr& g, const Profile& profile) {
 
 }  // namespace
 
-std::optional<LevelSet> levelSet(const Expr& f, const Box& region, const Reach& reach, const Reach& at,
-                                 double farther) {
-  // Enough for a median that is right to a tenth of how far the points differ.
-  constexpr int kLines = 100;
-  if (!region.finite()) return {};
+struct LevelSets::Readings {
+  Expr f;
+  Vec3E gradient;
+  Profile out, in;
+  JetReading jets;
+  Box part;  // of the region: of what is the same on both sides of a plane, one
+  std::size_t mostCells;
+
+  Readings(const Expr& formula, const Box& region, const Profile& outside, const Profile& inside)
+      : f(formula), gradient(gradientOf(f)), out(outside), in(inside), jets(f, gradient), part(region) {
+    mostCells = affordableCells(100000, jets.size(), 2500);
+    for (int i = 0; i < 3; ++i)
+      if (isEven(f, i) && part.min[i] < 0.0 && part.max[i] >= -part.min[i]) part.min[i] = 0.0;
+  }
+};
+
+LevelSets::LevelSets(const Expr& f, const Box& region, const Reach& at) {
+  // Enough for a median that is right to a tenth of how far the points differ; of a graph so large that they
+  // take more than a tenth of a second, fewer.
+  constexpr std::size_t kLines = 100, kFewest = 10, kLinesTimesOperations = 300'000;
+  if (!region.finite()) return;
   SurfaceReading points(f);
-  std::vector<SurfacePoint> zeros = points.zeros(region, kLines);
+  const std::size_t lines = std::clamp(kLinesTimesOperations / points.size(), kFewest, kLines);
+  std::vector<SurfacePoint> zeros = points.zeros(region, static_cast<int>(lines));
   std::erase_if(zeros, [](const SurfacePoint& p) { return !(glm::length(p.gradient) > 0.0); });
-  if (zeros.empty()) return {};
-  Profile out = profileAt(points, zeros, 1.0, at.out);
-  const Profile in = profileAt(points, zeros, -1.0, at.in);
+  if (zeros.empty()) return;
+  const Profile out = profileAt(points, zeros, 1.0, at.out), in = profileAt(points, zeros, -1.0, at.in);
+  readings_ = std::make_unique<Readings>(f, region, out, in);
+}
+
+LevelSets::~LevelSets() = default;
+
+std::optional<LevelSet> LevelSets::within(const Reach& reach, double farther) {
+  if (!readings_) return {};
+  auto& [f, gradient, outside, in, jets, part, mostCells] = *readings_;
+  Profile out = outside;
   Sides sides{{out.of(reach.out), in.of(reach.in)}, {out, in}};
   if (farther > 0.0) {
     out.knee = sides.most[0];
@@ -162,16 +187,8 @@ std::optional<LevelSet> levelSet(const Expr& f, const Box& region, const Reach& 
   }
   if (!(sides.most[0] < kInfinity) || !(sides.most[1] < kInfinity)) return {};
 
-  const Vec3E gradient = gradientOf(f);
-  JetReading reading(f, gradient);
-  // Some ten milliseconds' worth, whatever the size of the graph.
-  const std::size_t mostCells = std::clamp<std::size_t>(100000 / reading.size(), 60, 2500);
-  // What is the same on both sides of a plane is looked at on one.
-  Box part = region;
-  for (int i = 0; i < 3; ++i)
-    if (isEven(f, i) && part.min[i] < 0.0 && part.max[i] >= -part.min[i]) part.min[i] = 0.0;
   double slope = 0.0;
-  const auto slopesOf = [&](const Box& box) { return std::vector{slopeIn(box, reading, sides)}; };
+  const auto slopesOf = [&, &read = jets](const Box& box) { return std::vector{slopeIn(box, read, sides)}; };
   for (const Cell& cell : refined(part, part.longestSide(), mostCells, slopesOf))
     slope = std::max(slope, cell.worst());
   if (!(slope < kInfinity)) return {};

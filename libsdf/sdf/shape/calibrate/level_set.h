@@ -1,5 +1,6 @@
 // Distances of formulas that are none. Private to sdf/shape.
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "sdf/base/box.h"
@@ -27,8 +28,17 @@ struct LevelSet {
 /// grown `farther` by half of g, so that points where the gradient vanishes do not matter where f is far from
 /// 0. Its slope is proven by intervals over cells of
 /// the region. Nothing where that is not possible: at zeros without a gradient, at creases and jumps near the
-/// surface, or in a region that is not finite.
-std::optional<LevelSet> levelSet(const Expr& f, const Box& region, const Reach& reach, const Reach& at,
-                                 double farther = 0.0);
+/// surface, or in a region that is not finite. The points serve all reaches.
+class LevelSets {
+ public:
+  LevelSets(const Expr& f, const Box& region, const Reach& at);
+  ~LevelSets();
+
+  std::optional<LevelSet> within(const Reach& reach, double farther = 0.0);
+
+ private:
+  struct Readings;
+  std::unique_ptr<Readings> readings_;  // none where there is no level set
+};
 
 }  // namespace sdf

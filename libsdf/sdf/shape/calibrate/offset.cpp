@@ -84,27 +84,35 @@ class Offsets {
   Shape run(const Reach& asked) {
     const Tree tree = parsed(shape_.distance, {});
     if (hasTooMany()) return shape_;
+    readFaces();
     const Expr plain = plainOf(tree);
     std::optional<Expr> out, in;
     if (asked.out > 0.0) out = around(tree, at_.out);
     if (asked.in > 0.0) {
-      faces_.clear();
+      faces_.clear(), negative_.clear();
       const Tree hollow = parsed(shape_.distance, {.negative = true});
-      if (!hasTooMany()) in = around(hollow, at_.in);
+      readFaces();
+      in = around(hollow, at_.in);
     }
-    return calibrates_ || out || in ? finished(plain, out, in) : shape_;
+    return calibrates_ || out || in ? finished(plain, out, in) : withTried(shape_);
   }
 
  private:
-  Shape finished(const Expr& plain, const std::optional<Expr>& out, const std::optional<Expr>& in) const {
+  Shape withTried(Shape shape) const {
+    shape.claim.uncalibrated = tried_;
+    return shape;
+  }
+
+  Shape finished(const Expr& plain, const std::optional<Expr>& out, const std::optional<Expr>& in) {
     Expr d = plain;
     double slope = plain.lipschitz();
     if (out || in) {
       const Expr above = out.value_or(plain), below = in ? -*in : plain;
       slope = std::max(above.lipschitz(), below.lipschitz());
       d = select(less(plain, 0.0), below, above).claimLipschitz(slope);
+      tried_ = {{d.unclaimed(), at_.out, at_.in}};
     }
-    Shape result = shape_;
+    Shape result = withTried(shape_);
     if (calibrates_) {
       d = heldWithin(d, region_);
       // Short of the way to the bounds, which calibrated distances fall short of beside edges, too.
@@ -143,33 +151,54 @@ class Offsets {
     return {e * (1.0 / length), 1.0, scaled(n, 1.0 / length)};
   }
 
-  std::optional<LevelSet> levelOf(const Expr& e) const {
+  // What could not be calibrated for half as much either is not tried again.
+  bool isTried(const Expr& e) const {
+    const Expr part = withoutSums(e).unclaimed();
+    return std::ranges::any_of(shape_.claim.uncalibrated, [&](const UncalibratedPart& tried) {
+      return tried.part == part && 2.0 * at_.out >= tried.out && 2.0 * at_.in >= tried.in;
+    });
+  }
+
+  std::optional<LevelSet> levelOf(const Expr& e) {
+    if (isTried(e)) {
+      tried_.push_back({withoutSums(e).unclaimed(), at_.out, at_.in});
+      return {};
+    }
     std::optional<LevelSet> best;
+    LevelSets levels(e, region_, at_);
     for (const auto& [near, farther] : kExtents) {
-      const auto level = levelSet(e, region_, {near * at_.out, near * at_.in}, at_, farther * at_.out);
+      const auto level = levels.within({near * at_.out, near * at_.in}, farther * at_.out);
       if (level && (!best || level->slope < kWorthIt * best->slope)) best = level;
       if (best && best->slope <= kModerate) break;
     }
-    return best && best->slope <= kSteepest ? best : std::nullopt;
+    if (best && best->slope <= kSteepest) return best;
+    tried_.push_back({withoutSums(e).unclaimed(), at_.out, at_.in});
+    return {};
   }
 
-  // The leaf is calibrated as it stands, whichever side is asked for.
   Tree leaf(const Expr& e, const Moved& moved, int solid = -1) {
-    if (hasTooMany()) return {};
-    const Expr value = Moved{moved.factor, moved.offset}.of(e);
-    const auto [place, isNew] = known_.try_emplace(value.node(), Face{});
-    if (isNew) {
-      kept_.push_back(value);
-      place->second = faceOf(value, solid >= 0);
-    }
-    Face face = place->second;
-    if (moved.negative) {
+    faces_.push_back({Moved{moved.factor, moved.offset}.of(e)});
+    faces_.back().solid = solid;
+    negative_.push_back(moved.negative);
+    return {.face = faces_.size() - 1};
+  }
+
+  // Leaves are calibrated as they stand, whichever side is asked for.
+  void readFaces() {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const Expr value = faces_[i].distance;
+      const int solid = faces_[i].solid;
+      const auto [place, isNew] = known_.try_emplace(value.node(), Face{});
+      if (isNew) {
+        kept_.push_back(value);
+        place->second = faceOf(value, solid >= 0);
+      }
+      Face& face = faces_[i] = place->second;
+      face.solid = solid;
+      if (!negative_[i]) continue;
       face.distance = -face.distance;
       if (face.normal) face.normal = scaled(*face.normal, -1.0);
     }
-    face.solid = solid;
-    faces_.push_back(face);
-    return {.face = faces_.size() - 1};
   }
 
   Tree several(Op op, const Moved& moved, std::vector<Tree> of) {
@@ -177,7 +206,9 @@ class Offsets {
     return {.kind = greatest ? Tree::Kind::Greatest : Tree::Kind::Least, .of = std::move(of)};
   }
 
+  // Takes the distance apart, until there are too many faces. These have no slopes and normals yet.
   Tree parsed(const Expr& claimed, const Moved& moved) {
+    if (hasTooMany()) return {};
     const Expr& e = claimed.unclaimed();
     const Op op = e.op();
     const auto arg = [&](int i) -> const Expr& { return e.arg(i); };
@@ -313,6 +344,8 @@ class Offsets {
   Reach at_;
   Box region_;
   std::vector<Face> faces_;
+  std::vector<bool> negative_;  // by face: is it the solid's other side?
+  std::vector<UncalibratedPart> tried_;
   std::map<const Node*, Face> known_;
   std::vector<Expr> kept_;  // keeps the keys alive
   int solids_ = 0;

@@ -1,5 +1,6 @@
 #include "sdf/shape/calibrate/surface_points.h"
 
+#include <cmath>
 #include <optional>
 
 #include "sdf/base/random_point.h"
@@ -25,11 +26,15 @@ double middle(const Interval& i) { return i.nan || !(i.magnitude() < kInfinity) 
 }  // namespace
 
 SurfaceReading::SurfaceReading(const Expr& f)
-    : f_(atDefaults(f)), value_({&f_, 1}), gradient_(slopesOf(f_)) {}
+    : f_(atDefaults(f)), point_({&f_, 1}), value_({&f_, 1}), gradient_(slopesOf(f_)) {}
 
-double SurfaceReading::value(const glm::dvec3& p) {
+// Intervals, which take some times as long, are asked where rounding may decide.
+bool SurfaceReading::isInside(const glm::dvec3& p) {
+  constexpr double kRounding = 1e-9;
+  point_.run({p, p});
+  if (std::abs(point_[0]) > kRounding && std::abs(point_[0]) < kInfinity) return point_[0] < 0.0;
   value_.run({p, p});
-  return middle(value_[0]);
+  return middle(value_[0]) <= 0.0;
 }
 
 SurfacePoint SurfaceReading::at(const glm::dvec3& p) {
@@ -43,18 +48,13 @@ std::vector<SurfacePoint> SurfaceReading::zeros(const Box& region, int lines) {
   std::vector<SurfacePoint> found;
   for (int line = 0; line < lines; ++line) {
     const glm::dvec3 from = pointIn(region, random), way = pointIn(region, random) - from;
-    double last = value(from);
+    const bool beginsInside = isInside(from);
     for (int i = 1; i <= kSteps; ++i) {
       double lo = (i - 1.0) / kSteps, hi = lo + 1.0 / kSteps;
-      const double next = value(from + hi * way);
-      const bool crosses = (last <= 0.0) != (next <= 0.0);
-      if (!crosses) {
-        last = next;
-        continue;
-      }
+      if (isInside(from + hi * way) == beginsInside) continue;
       for (int k = 0; k < kHalvings; ++k) {
         const double mid = 0.5 * (lo + hi);
-        ((value(from + mid * way) <= 0.0) == (last <= 0.0) ? lo : hi) = mid;
+        (isInside(from + mid * way) == beginsInside ? lo : hi) = mid;
       }
       found.push_back(at(from + lo * way));
       break;

@@ -19,7 +19,10 @@ class SurfaceReading {
  public:
   explicit SurfaceReading(const Expr& f);
 
-  double value(const glm::dvec3& p);
+  /// The number of the formula's operations.
+  std::size_t size() const { return point_.size(); }
+  /// Does the formula hold at most 0 there? What is no number counts as 0.
+  bool isInside(const glm::dvec3& p);
   /// Values that are no numbers are 0.
   SurfacePoint at(const glm::dvec3& p);
   /// At most one zero of each of `lines` seeded lines through the finite region. Cost: some 60 readings a
@@ -28,6 +31,7 @@ class SurfaceReading {
 
  private:
   Expr f_;
+  PointReading point_;
   IntervalReading value_, gradient_;
 };
 

@@ -136,6 +136,13 @@ Blend guarded(Blend blend) {
   return blend;
 }
 
+// Offsets of more parts than some tens are not calibrated (calibrate/offset.cpp).
+void addUncalibrated(Claim& claim, const Claim& other) {
+  constexpr std::size_t kMost = 32;
+  if (claim.uncalibrated.size() + other.uncalibrated.size() > kMost) return;
+  claim.uncalibrated.insert(claim.uncalibrated.end(), other.uncalibrated.begin(), other.uncalibrated.end());
+}
+
 // What all results share; the caller sets distance, surface and bounds. `best` is the strongest kind the
 // operation allows.
 Shape combined(const std::vector<Shape>& shapes, const Blend& blend, ClaimKind best) {
@@ -146,6 +153,7 @@ Shape combined(const std::vector<Shape>& shapes, const Blend& blend, ClaimKind b
     claim.kind = weaker(claim.kind, s.claim.kind);
     claim.lipschitz = std::max(claim.lipschitz, s.claim.lipschitz);
     claim.calibrated = claim.calibrated || s.claim.calibrated;
+    if (&s != &shapes[0]) addUncalibrated(claim, s.claim);
   }
   return result;
 }
