@@ -77,6 +77,17 @@ TEST(Union, OfManyIsABalancedTree) {
   EXPECT_EQ(depth, 6);
 }
 
+TEST(Union, OfAUnionAndOneMoreSharesItsList) {
+  const Shape three = ball(0, 0, 0, 1) | ball(2, 0, 0, 1) | ball(4, 0, 0, 1);
+  const Shape four = three | ball(6, 0, 0, 1), other = three | ball(0, 6, 0, 1);
+  EXPECT_EQ(four.outer->operands.data(), three.outer->operands.data());
+  EXPECT_EQ(three.outer->operands.size(), 3u);
+  ASSERT_EQ(four.outer->operands.size(), 4u);
+  ASSERT_EQ(other.outer->operands.size(), 4u);
+  EXPECT_EQ(four.outer->operands[3].bounds.centre(), glm::dvec3(6, 0, 0));
+  EXPECT_EQ(other.outer->operands[3].bounds.centre(), glm::dvec3(0, 6, 0));
+}
+
 TEST(Union, OfExactShapesIsExactOutside) {
   const Shape s = ball(-0.5, 0.0, 0.0, 0.7) | translate(box(Vec3E(0.4)), Vec3E(0.6, 0.2, 0.0));
   EXPECT_EQ(s.claim.kind, ClaimKind::ExactOutside);

@@ -35,13 +35,16 @@ Scene withSurfaceParameters(Scene scene, const std::set<std::string>& parts) {
   for (Part& part : scene.parts) {
     if (!parts.contains(part.name)) continue;
     const Part before = part;
-    auto outer = part.shape.outer ? std::make_shared<Union>(*part.shape.outer) : nullptr;
+    std::vector<Shape> operands;
+    if (const auto& outer = part.shape.outer) operands.assign(outer->operands.begin(), outer->operands.end());
     for (int i = 0; i < kAttributeCount; ++i)
       if (const auto info = surfaceParameter(before, static_cast<Attribute>(i))) {
         part.shape.surface[i] = Expr::parameter(*info);
-        if (!outer) continue;
-        for (Shape& operand : outer->operands) operand.surface[i] = part.shape.surface[i];
+        for (Shape& operand : operands) operand.surface[i] = part.shape.surface[i];
       }
+    if (operands.empty()) continue;
+    auto outer = std::make_shared<Union>(Union{part.shape.outer->blend, {}});
+    outer->operands.append(operands);
     part.shape.outer = std::move(outer);
   }
   return scene;

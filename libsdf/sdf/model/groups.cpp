@@ -241,7 +241,7 @@ Expr numberOfNearest(std::span<const NumberedOperand> operands) {
 OperandSurfaces surfaceOf(const Shape& shape, const Expr& number, bool mayShare) {
   OperandSurfaces result{shape.surface, {}};
   if (!isHardUnion(shape)) return result;
-  const std::vector<Shape>& operands = shape.outer->operands;
+  const std::span<const Shape> operands = shape.outer->operands;
   std::vector<std::vector<Expr>> lists;
   std::vector<Attributes> own;
   for (const Shape& operand : operands) {

@@ -136,7 +136,7 @@ Marchable leastOf(const Marchable& a, const Marchable& b) {
   return {min(a.distance, b.distance), min(a.step, b.step), std::max(a.slope, b.slope)};
 }
 
-Marchable leastOf(const std::vector<Shape>& operands) {
+Marchable leastOf(std::span<const Shape> operands) {
   std::vector<Steep> known;
   std::optional<Marchable> others;
   for (const Shape& operand : operands) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 namespace sdf {
@@ -118,7 +119,8 @@ Attributes mixed(const Attributes& a, const Attributes& b, const Expr& second,
 std::shared_ptr<const Union> mappedUnion(const Shape& shape,
                                          const std::function<Shape(const Shape&)>& operation) {
   if (!shape.outer) return nullptr;
-  auto mapped = std::make_shared<Union>(shape.outer->blend, shape.outer->operands.size());
+  auto mapped = std::make_shared<Union>(Union{shape.outer->blend, {}});
+  mapped->operands.reserve(shape.outer->operands.size());
   for (const Shape& operand : shape.outer->operands) mapped->operands.push_back(operation(operand));
   return mapped;
 }
@@ -149,21 +151,44 @@ void renumber(Shape& s, const std::vector<double>& places) {
   });
 }
 
+// Materials by first appearance, and their places.
+class MaterialList {
+ public:
+  MaterialList(std::vector<MaterialPtr> first, std::size_t lookUps) : all_(std::move(first)) {
+    // A table of all is worth its making only where many are looked up, not for one more shape in a chain.
+    constexpr std::size_t kFew = 8;
+    if (lookUps <= kFew) return;
+    table_.emplace();
+    for (std::size_t i = 0; i < all_.size(); ++i) table_->emplace(all_[i].get(), i);
+  }
+
+  std::size_t placeOf(const MaterialPtr& m) {
+    const std::size_t place = table_ ? table_->try_emplace(m.get(), all_.size()).first->second
+                                     : std::ranges::find(all_, m) - all_.begin();
+    if (place == all_.size()) all_.push_back(m);
+    return place;
+  }
+
+  std::vector<MaterialPtr> taken() { return std::move(all_); }
+
+ private:
+  std::vector<MaterialPtr> all_;
+  std::optional<std::unordered_map<const Material*, std::size_t>> table_;
+};
+
 }  // namespace
 
 std::vector<Shape> numberedAlike(std::vector<Shape> shapes) {
-  std::vector<MaterialPtr> all;
-  std::unordered_map<MaterialPtr, double> placeOf;
-  for (Shape& s : shapes) {
+  const std::span<Shape> others = std::span(shapes).subspan(1);
+  std::size_t lookUps = 0;
+  for (const Shape& s : others) lookUps += s.materials.size();
+  MaterialList all(std::move(shapes[0].materials), lookUps);
+  for (Shape& s : others) {
     std::vector<double> places;
-    for (const MaterialPtr& m : s.materials) {
-      const auto [place, isNew] = placeOf.try_emplace(m, static_cast<double>(all.size()));
-      places.push_back(place->second);
-      if (isNew) all.push_back(m);
-    }
+    for (const MaterialPtr& m : s.materials) places.push_back(static_cast<double>(all.placeOf(m)));
     renumber(s, places);
   }
-  shapes[0].materials = std::move(all);
+  shapes[0].materials = all.taken();
   return shapes;
 }
 

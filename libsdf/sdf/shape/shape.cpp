@@ -26,10 +26,8 @@ Attributes attributesOf(const Material& m) {
   // clang-format on
 }
 
-Union::Union(const Blend& by, std::size_t count)
-    : blend(by), counted(static_cast<std::int64_t>(count * ((sizeof(Shape) + kNodeBytes - 1) / kNodeBytes))) {
-  operands.reserve(count);
-}
+Union::Tally::Tally(std::size_t operands)
+    : counted(static_cast<std::int64_t>(operands * ((sizeof(Shape) + kNodeBytes - 1) / kNodeBytes))) {}
 
 Shape Shape::failed(std::string message) {
   Shape s;

@@ -9,6 +9,7 @@
 
 #include "sdf/base/box.h"
 #include "sdf/base/result.h"
+#include "sdf/base/shared_list.h"
 #include "sdf/expr/expr.h"
 #include "sdf/expr/vec.h"
 #include "sdf/shape/blend.h"
@@ -122,12 +123,15 @@ struct Shape {
 /// A union as the list of what was united: the least of their distances is the shape's, blended from left to
 /// right. Hard unions within hard unions are one list. Materials are numbered as in the whole.
 struct Union {
-  Blend blend;
-  std::vector<Shape> operands;  ///< at least two
-  CountedAsNodes counted;       ///< as much as they take
+  /// Operands count as much as they take.
+  struct Tally {
+    explicit Tally(std::size_t operands);
+    CountedAsNodes counted;
+  };
+  using Operands = SharedList<Shape, Tally>;
 
-  /// With room for so many.
-  Union(const Blend& by, std::size_t count);
+  Blend blend;
+  Operands operands;  ///< at least two; a union of this one and others shares them
 };
 
 /// Proven bound of the distance's slope over all of space; infinite where none is known.

@@ -164,19 +164,22 @@ std::vector<Shape> readyToBlend(const std::vector<Shape>& shapes, const Blend& b
   return ready;
 }
 
-// The operands, those of hard unions in the place of the union; nothing where all operands matter everywhere.
+// The operands, those of hard unions in the place of the union, the first one's list being continued; nothing
+// where all operands matter everywhere.
 std::shared_ptr<const Union> listOf(const std::vector<Shape>& shapes, const Blend& blend) {
   if (blend.kind == Kind::Exponential) return nullptr;
   const auto isPart = [&](const Shape& s) { return isHard(blend) && s.outer && isHard(s.outer->blend); };
-  std::size_t count = 0;
-  for (const Shape& s : shapes) count += isPart(s) ? s.outer->operands.size() : 1;
-  auto list = std::make_shared<Union>(blend, count);
-  for (const Shape& s : shapes)
+  Union::Operands list;
+  if (isPart(shapes[0]))
+    list = shapes[0].outer->operands;
+  else
+    list.reserve(shapes.size()), list.push_back(shapes[0]);
+  for (const Shape& s : std::span(shapes).subspan(1))
     if (isPart(s))
-      list->operands.insert(list->operands.end(), s.outer->operands.begin(), s.outer->operands.end());
+      list.append(s.outer->operands);
     else
-      list->operands.push_back(s);
-  return list;
+      list.push_back(s);
+  return std::make_shared<Union>(Union{blend, std::move(list)});
 }
 
 std::vector<Layer> layersOf(const std::vector<Shape>& shapes) {
