@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <glm/common.hpp>
+#include <numbers>
+
+#include "sdf/triangles/triangle_pairs.h"
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
@@ -30,6 +35,49 @@ TEST(TriangleTree, FindsTheNearestTriangleAtAnyScale) {
               least, nearestOf(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]).squared);
         ASSERT_EQ(tree.nearest(p).squared, least) << scale << " " << beside;
       }
+    }
+  }
+}
+
+// So many triangles around a tip, side by side; with `twisted`, each turned about its way from there, so that
+// some run through others.
+TriangleMesh triangleFan(std::uint32_t count, double twisted) {
+  TriangleMesh fan;
+  fan.positions.emplace_back(0.0f, 1.0f, 0.0f);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double width = 2.0 * std::numbers::pi / count;
+    for (const double side : {0.0, 1.0}) {
+      const double angle = (i + side) * width, height = twisted * (side - 0.5) * std::sin(i);
+      fan.positions.emplace_back(std::cos(angle), height, std::sin(angle));
+    }
+    // Those that lie side by side have a gap of a hundredth of their width.
+    if (twisted == 0.0) fan.positions.back() = glm::mix(fan.positions.back(), fan.positions.end()[-2], 0.01f);
+    fan.triangles.emplace_back(0, 2 * i + 1, 2 * i + 2);
+  }
+  return fan;
+}
+
+TEST(TriangleTree, TakesThousandsOfTrianglesAroundACorner) {
+  TriangleMesh fan = triangleFan(20'000, 0.0);
+  EXPECT_FALSE(TriangleTree(fan.positions, fan.triangles).crosses());
+  // One that leads from the tip through three of them.
+  fan.positions.emplace_back(-0.5f, -0.1f, 0.3f);
+  fan.positions.emplace_back(-0.5f, 0.7f, 0.3f);
+  fan.triangles.emplace_back(0, fan.positions.size() - 2, fan.positions.size() - 1);
+  const TriangleTree tree(fan.positions, fan.triangles);
+  EXPECT_TRUE(tree.crosses());
+  EXPECT_TRUE(tree.crosses(static_cast<std::uint32_t>(fan.triangles.size()) - 1));
+}
+
+TEST(TriangleTree, FindsWhatCrossesAroundACornerAsEachTwoTell) {
+  for (const double twisted : {0.01, 0.1, 1.0}) {
+    const TriangleMesh fan = triangleFan(200, twisted);
+    const TriangleTree tree(fan.positions, fan.triangles);
+    for (std::uint32_t i = 0; i < fan.triangles.size(); ++i) {
+      bool crosses = false;
+      for (std::uint32_t k = 0; k < fan.triangles.size(); ++k)
+        crosses = crosses || (k != i && cross(fan.positions, fan.triangles[i], fan.triangles[k]));
+      EXPECT_EQ(tree.crosses(i), crosses) << "triangle " << i << ", twisted by " << twisted;
     }
   }
 }

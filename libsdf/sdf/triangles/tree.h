@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace sdf {
@@ -49,7 +51,8 @@ class TriangleTree {
   /// (Jacobson et al. 2013); far clusters count as dipoles (Barill et al. 2018). Cost: some log n.
   double winding(const glm::dvec3& p) const;
 
-  /// Do two triangles have a point in common beyond the corners and edges that they share?
+  /// Do two triangles have a point in common beyond the corners and edges that they share? Cost: n log n, for
+  /// any number of triangles around a corner, where few of them lie close to one another.
   bool crosses() const;
   /// The same of one triangle and all others, or only those of a greater number. One without an area does.
   bool crosses(std::uint32_t triangle, bool onlyLater = false) const;
@@ -59,18 +62,28 @@ class TriangleTree {
     glm::vec3 min, max;
     std::uint32_t first = 0, count = 0;  // of order_; or, where count is 0, the first of two nodes
   };
+  struct Link;
   struct Dipole {
     glm::dvec3 centre{0.0}, area{0.0};
     double reach = 0.0;  // of a ball around the centre that holds all
   };
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth);
   void setDipoles();
+  void findLinks();
+  void findHubs();
+  template <class Skip, class Visit>
+  bool anyNear(const glm::vec3& min, const glm::vec3& max, Skip skip, Visit visit) const;
+  bool crossesAround(std::uint32_t corner, std::uint32_t triangle, bool onlyLater) const;
+  bool crosses(std::uint32_t triangle, std::uint32_t other, bool onlyLater) const;
 
   const std::vector<glm::vec3>& points_;
   const std::vector<glm::uvec3>& triangles_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;  // of triangles, by leaf
   std::vector<Dipole> dipoles_;       // by node
+  // By corner, of those of many triangles; and by node the one that all of its triangles have in common.
+  std::unordered_map<std::uint32_t, std::shared_ptr<const Link>> links_;
+  std::vector<std::uint32_t> hubs_;
 };
 
 }  // namespace sdf
