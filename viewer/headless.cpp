@@ -6,6 +6,7 @@
 #include <set>
 
 #include "command_line/frames.h"
+#include "command_line/progress_line.h"
 #include "sdf/base/file.h"
 #include "sdf/scene/relative.h"
 #include "sdf/script/script.h"
@@ -28,20 +29,31 @@ Result<Scene> loadAt(double time, const Options& options) {
   return options.scene.load({.values = options.parameters, .time = time});
 }
 
+using command_line::ProgressLine;
+
+// A warning, in the place of the line that is redrawn.
+void warn(ProgressLine& progress, const std::string& text) {
+  progress.clear();
+  std::cerr << "sdfview: warning: " << text << '\n';
+}
+
 class Headless {
  public:
   /// The eye is fitted to the box, if there is one.
-  Headless(const Options& options, Scene scene, LookFunction look, const std::optional<Box>& fitTo)
+  Headless(const Options& options, Scene scene, LookFunction look, const std::optional<Box>& fitTo,
+           ProgressLine& progress)
       : options_(options),
         scene_(std::move(scene)),
         present_(options.scene, scene_, options.parameters, options.time),
         look_(std::move(look)),
-        fitTo_(fitTo) {}
+        fitTo_(fitTo),
+        progress_(progress) {}
 
   Status pictures() {
     const int count = options_.frames.value_or(1);
     for (int i = 0; i < count; ++i)
       if (auto s = checkTarget(nameOf(i)); !s) return s;
+    if (options_.frames) progress_.setSubject("frame 1 of " + std::to_string(count));
     auto renderer = rendererAt(options_.time, options_.shader);
     if (!renderer) return renderer.error();
     auto target = Target::create(options_.width, options_.height, {PixelFormat::Rgba8});
@@ -50,7 +62,10 @@ class Headless {
     const bool meshMoves = showsMesh(options_.shader.view) && std::ranges::any_of(scene_.parameters, isClock);
     for (int i = 0; i < count; ++i) {
       const double time = options_.time + i / options_.framesPerSecond;
+      if (options_.frames)
+        progress_.setSubject("frame " + std::to_string(i + 1) + " of " + std::to_string(count));
       if (i > 0 && scriptReadsTheClock) {
+        progress_.beginStage("script");
         if (auto s = keep(loadAt(time, options_), scene_); !s) return s;
         look_ = LookFunction(scene_, look_.inView());
       }
@@ -62,8 +77,10 @@ class Headless {
       } else if (auto s = moveTo(time, *renderer); !s) {
         return s;
       }
+      progress_.beginStage("drawing");
       if (auto s = draw(*renderer, f, *target, nameOf(i)); !s) return s;
       if (auto s = write(*target, nameOf(i)); !s) return s;
+      progress_.clear();
     }
     return okStatus();
   }
@@ -191,18 +208,18 @@ class Headless {
   Result<Renderer> rendererAt(double time, const ShaderOptions& shader) {
     ShaderOptions near = shader;
     near.origin = originFor(frame(time).look.eye);
+    progress_.beginStage("compiling shaders");
     auto renderer = Renderer::make(sceneAt(time), near, present_.other());
     if (renderer)
       for (const std::string& why : renderer->shaders().plan.doubtful)
-        if (told_.insert(why).second) std::cerr << "sdfview: warning: " << why << '\n';
+        if (told_.insert(why).second) warn(progress_, why);
     if (!renderer || !showsMesh(shader.view)) return renderer;
     auto fixed = options_.scene.load({.values = options_.parameters, .time = time, .fixed = true});
     if (!fixed) return fixed.error();
-    Progress progress;
     const MeshRequest request{options_.mesh, options_.meshFile, shader.view == View::Error};
-    auto mesh = makeMeshView(std::move(*fixed), request, progress);
+    auto mesh = makeMeshView(std::move(*fixed), request, progress_);
     if (!mesh) return mesh.error();
-    for (const std::string& warning : mesh->warnings) std::cerr << "sdfview: warning: " << warning << '\n';
+    for (const std::string& warning : mesh->warnings) warn(progress_, warning);
     if (auto s = show(*mesh, *renderer); !s) return s.error();
     if (mesh->errors) figures_ = mesh->errors->figures;
     return renderer;
@@ -233,7 +250,7 @@ class Headless {
     auto scene = loadAt(options.time, options);
     if (!scene) return scene.error();
     LookFunction look = lookOf(*scene, options.scene, options.parameters);
-    Headless other(options, std::move(*scene), std::move(look), fitTo_);
+    Headless other(options, std::move(*scene), std::move(look), fitTo_, progress_);
     auto renderer = other.rendererAt(options.time, options.shader);
     if (!renderer) return renderer.error();
     Contender way{std::move(*renderer), other.frame(options.time)};
@@ -299,6 +316,7 @@ class Headless {
       finish();
       ++drawn;
     } while (drawn < all && millisecondsSince(start) < 1e3 * *options_.seconds);
+    progress_.clear();
     std::cerr << "sdfview: " << file.string() << ": " << drawn << " of " << all << " samples a pixel\n";
     return okStatus();
   }
@@ -310,14 +328,13 @@ class Headless {
     const std::size_t spent = pixelsOutOfSteps(*drawn), dark = pixelsOutOfShadowSteps(*drawn);
     for (std::size_t i = 3; i < drawn->bytes.size(); i += 4) drawn->bytes[i] = 255;
     if (spent > 0)
-      std::cerr << "sdfview: warning: " << spent
-                << " pixels ran out of steps; give more with --steps, or see them with "
-                << "--view steps\n";
+      warn(progress_, std::to_string(spent) +
+                          " pixels ran out of steps; give more with --steps, or see them with --view steps");
     if (dark > 0)
-      std::cerr << "sdfview: warning: in " << dark
-                << " pixels the ray of a shadow ran out of steps and is taken for dark; the scene has "
-                   "shadows{steps = "
-                << scene_.shadow.steps << "}: give it more\n";
+      warn(progress_, "in " + std::to_string(dark) +
+                          " pixels the ray of a shadow ran out of steps and is taken for dark; the scene has "
+                          "shadows{steps = " +
+                          std::to_string(scene_.shadow.steps) + "}: give it more");
     if (figures_) drawLegend(*figures_, *drawn);
     return writePng(file, *drawn);
   }
@@ -327,24 +344,23 @@ class Headless {
   PresentScene present_;
   LookFunction look_;
   std::optional<Box> fitTo_;
-  std::set<std::string> told_;           // warnings
+  std::set<std::string> told_;  // warnings
+  ProgressLine& progress_;
   std::optional<ErrorFigures> figures_;  // of the mesh, if its errors are shown
 };
 
-}  // namespace
-
-Status runHeadless(const Options& options, std::ostream& out) {
+Status drawHeadless(const Options& options, std::ostream& out, ProgressLine& progress) {
+  progress.beginStage("script");
   auto scene = loadAt(options.time, options);
   if (!scene) return scene.error();
-  for (const std::string& note : scene->notes) std::cerr << "sdfview: warning: " << note << '\n';
-  for (const std::string& why : scene->missing)
-    std::cerr << "sdfview: warning: " << why << "; the rest is shown\n";
+  for (const std::string& note : scene->notes) warn(progress, note);
+  for (const std::string& why : scene->missing) warn(progress, why + "; the rest is shown");
   LookFunction look = lookOf(*scene, options.scene, options.parameters);
   std::optional<Box> fitTo;
   if (options.fit)
     if (auto s = keep(boxInView(*scene, options.scene, options.parameters, options.time), fitTo); !s)
       return s;
-  Headless headless(options, std::move(*scene), std::move(look), fitTo);
+  Headless headless(options, std::move(*scene), std::move(look), fitTo, progress);
   if (options.glsl)
     if (auto s = headless.shader(); !s) return s;
   if (!options.picture && !options.bench) return okStatus();
@@ -353,6 +369,15 @@ Status runHeadless(const Options& options, std::ostream& out) {
   if (options.picture)
     if (auto s = headless.pictures(); !s) return s;
   return options.bench ? headless.bench(out, (*context)->description()) : okStatus();
+}
+
+}  // namespace
+
+Status runHeadless(const Options& options, std::ostream& out) {
+  ProgressLine progress("sdfview", ProgressLine::shownOn(options.quiet));
+  Status done = drawHeadless(options, out, progress);
+  progress.clear();
+  return done;
 }
 
 }  // namespace sdf::viewer

@@ -234,6 +234,7 @@ void declare(CLI::App& app, Options& options, Words& words, Status& sound) {
                "sample meshes anew, and keep nothing of it in the user's cache folder");
   add("--camera", "x,y,z,x,y,z[,fov]", "where the camera stands and looks, and its field of view",
       [&](const std::string& word) { return camera(word, options.eye); });
+  app.add_flag("-q,--quiet", options.quiet, "do not say how far --render and --bench are");
   app.add_flag("--fit", options.fit,
                "move the camera to where all of the scene is in view; its direction stays");
   app.add_flag("!--no-culling", options.shader.culling,

@@ -29,6 +29,7 @@ struct Options : PictureOptions {
   std::optional<double> seconds;  ///< that a picture is refined for
   std::optional<int> frames;
   double framesPerSecond = 24.0;
+  bool quiet = false;  ///< no word of how far the work is
   bool fit = false;  ///< moves the eye, the scene's or this one, to where all is in view
 };
 

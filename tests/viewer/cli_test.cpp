@@ -38,7 +38,15 @@ class Sdfview : public testing::Test {
       command.words.insert(command.words.end(), part->begin(), part->end());
       if (part == &environment) command.words.push_back(SDFVIEW_PROGRAM);
     }
-    return command.run();
+    Outcome outcome = command.run();
+    outcome.err = withoutProgress(outcome.err);
+    return outcome;
+  }
+
+  // What takes longer than a second, as on a busy machine, says how far it is.
+  static std::string withoutProgress(const std::string& text) {
+    static const std::regex line("sdfview: after [^\n]*\n");
+    return std::regex_replace(text, line, "");
   }
 
   /// The picture that these options draw, without a word.
@@ -730,11 +738,22 @@ TEST_F(Sdfview, SaysWhenTheMemoryIsUsedUp) {
   const Outcome outcome = command.run();
   EXPECT_EQ(outcome.status, kLimits);
   EXPECT_EQ(
-      outcome.err,
+      withoutProgress(outcome.err),
       "sdfview: the memory is used up; take smaller pictures, meshes of fewer voxels, or fewer shapes\n");
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
 }
 #endif
+
+TEST_F(Sdfview, SaysWhatTakesLongerThanASecond) {
+  std::vector<std::string> words{SDFVIEW_PROGRAM, scene("part('a', sphere(1))"),
+                                 "--render",      at("long.png"),
+                                 "--seconds",     "1.1",
+                                 "--size",        "640x480",
+                                 "--samples",     "1024"};
+  const Outcome told = Command{words}.run();
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_EQ(told.err.rfind("sdfview: after 1 s: ", 0), 0u) << told.err;
+}
 
 }  // namespace cli_test
 }  // namespace sdf

@@ -2,10 +2,12 @@
 #pragma once
 #include <ostream>
 
+#include "command_line/progress_line.h"
 #include "options.h"
-#include "progress_line.h"
 
 namespace sdf::exporter {
+
+using command_line::ProgressLine;
 
 /// Does what `options` ask for and prints a table for each file to `out` unless quiet. Errors as the
 /// functions it calls.

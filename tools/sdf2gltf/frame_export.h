@@ -4,13 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "command_line/progress_line.h"
 #include "options.h"
-#include "progress_line.h"
 #include "report.h"
 #include "sdf/export/export.h"
 #include "sdf/mesh/mesher.h"
 
 namespace sdf::exporter {
+
+using command_line::ProgressLine;
 
 /// Takes a scene from its script to meshes, step by step, and keeps what each step took in its report.
 /// `subject` begins what the progress line says. Options and progress outlive it.

@@ -10,7 +10,6 @@
 #include "export_job.h"
 #include "interrupt.h"
 #include "options.h"
-#include "progress_line.h"
 
 namespace sdf::exporter {
 namespace {
@@ -30,8 +29,7 @@ int run(const Options& options) {
   if (options.threads) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(*options.threads));
   }
-  using enum ProgressLine::Shown;
-  ProgressLine progress(options.quiet ? Nowhere : ::isatty(STDERR_FILENO) == 1 ? InPlace : InLines);
+  ProgressLine progress("sdf2gltf", ProgressLine::shownOn(options.quiet));
   Status status = okStatus();
   {
     const InterruptWatch watch(progress);

@@ -1,4 +1,6 @@
-#include "progress_line.h"
+#include "command_line/progress_line.h"
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-namespace sdf::exporter {
+namespace sdf::command_line {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenDraws(100);
@@ -24,6 +26,10 @@ std::string duration(double seconds) {
 }
 
 }  // namespace
+
+ProgressLine::Shown ProgressLine::shownOn(bool quiet) {
+  return quiet ? Shown::Nowhere : ::isatty(STDERR_FILENO) == 1 ? Shown::InPlace : Shown::InLines;
+}
 
 ProgressLine::~ProgressLine() {
   {
@@ -94,8 +100,8 @@ void ProgressLine::draw() {
   if (shown_ == Shown::InPlace)
     line = kEmptyLine + line;
   else
-    line = "sdf2gltf: after " + duration(seconds(began_)) + ": " + line + "\n";
+    line = program_ + ": after " + duration(seconds(began_)) + ": " + line + "\n";
   std::fputs(line.c_str(), stderr);
 }
 
-}  // namespace sdf::exporter
+}  // namespace sdf::command_line

@@ -6,10 +6,11 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "sdf/base/progress.h"
 
-namespace sdf::exporter {
+namespace sdf::command_line {
 
 /// Says "part 'body' (2 of 5): sampling 43 %, 12 s left" on stderr. On a terminal the line is redrawn in
 /// place, elsewhere there is one after the first second and one every ten seconds then. Where a stage's share
@@ -17,8 +18,11 @@ namespace sdf::exporter {
 class ProgressLine : public Progress {
  public:
   enum class Shown { Nowhere, InPlace, InLines };
+  /// How it is shown on this stderr, if at all.
+  static Shown shownOn(bool quiet);
 
-  explicit ProgressLine(Shown shown) : shown_(shown) {}
+  /// Lines begin with the program's name.
+  ProgressLine(std::string program, Shown shown) : program_(std::move(program)), shown_(shown) {}
   ~ProgressLine() override;
 
   /// What the coming stages belong to, e.g. "part 'body' (2 of 5)"; may be empty.
@@ -34,6 +38,7 @@ class ProgressLine : public Progress {
   void watch();
   void draw();
 
+  const std::string program_;
   const Shown shown_;
   std::mutex mutex_;
   std::string subject_, stage_;
@@ -45,4 +50,4 @@ class ProgressLine : public Progress {
   std::thread watcher_;
 };
 
-}  // namespace sdf::exporter
+}  // namespace sdf::command_line
