@@ -24,6 +24,8 @@
 #include "sdf/mesh/measure/witnesses.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/refine/balance.h"
+#include "sdf/mesh/refine/remesh_paint.h"
+#include "sdf/mesh/refine/simplify.h"
 #include "sdf/mesh/refine/thin.h"
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/project.h"
@@ -85,11 +87,10 @@ constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
 // cannot mend.
 constexpr double kResolved = 0.25;
-// Of the coarser voxels that are tried: times those that were asked for, from the largest to the smallest
-// that save much; and of one of them, how far its lattice may be off. Measured on the samples: at twice the
-// voxels creases with gaps left five times the triangles, and lattices a quarter of a voxel off were mostly
-// remeshed in vain, for two to three times the time.
-constexpr double kCoarsest = 16.0, kFinest = 4.0, kFollowed = 0.1;
+// The coarsest voxels that are tried, times those that were asked for; and how many tolerances their mesh may
+// be off for simplifying to mend it. Measured on the samples: beyond, it fails or leaves more triangles than
+// half the voxels do.
+constexpr double kCoarsest = 16.0, kFollowed = 2.0;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
@@ -154,10 +155,11 @@ class Mesher {
         begin("remeshing");
         const double limit = std::max(options_.tolerance, kResolved * h);
         if (surface_.empty()) surface_ = surfacePoints(model, *bounds, progress_);
-        const Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
-        if (halvings == 0 && result_.stats.unresolved == 0 &&
-            thinCoarser(*sampled, witnesses, model, *bounds))
+        // Where this lattice does not see all that there is, coarser ones see less.
+        const bool resolved = halvings == 0 && result_.stats.unresolved == 0;
+        if (simplifyCoarser(*sampled, resolved ? kCoarsest : 1.0, model, *bounds))
           return finish(shape, model, *bounds, **sampled);
+        const Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
         begin("remeshing");
         if (Status s = checkLattice(mesh, *bounds, h, lattice.field); !s) return s.error();
         const bool finer = !last && (options_.strict || cheap);
@@ -266,44 +268,70 @@ class Mesher {
     lattice.mesh = std::move(mesh);
   }
 
-  // Replaces the mesh by that of the largest voxels from which remeshing keeps the tolerance, up to some
-  // times as large as these; returns whether there are any. What these voxels see none may miss: the vertices
-  // of this mesh are points of the surface, and where it is painted those of its creases points of borders,
-  // which are to be met within the tolerance.
-  bool thinCoarser(std::unique_ptr<Lattice>& fine, const Witnesses& witnesses, const ModelTapes& model,
-                   const Box& bounds) {
+  // Replaces the mesh by one that is simplified from the largest voxels that do, up to some times as large as
+  // these; returns whether there are any. What these voxels see none may miss: the vertices of this mesh are
+  // points of the surface, and where it is painted those of its creases points of borders, which are to be
+  // met within the tolerance.
+  bool simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, const ModelTapes& model,
+                       const Box& bounds) {
     const std::size_t seen = fine->mesh.positions.size();
-    for (double times = kCoarsest; times >= kFinest && !progress_.stopped(); times /= 2.0) {
-      const double voxel = times * fine->band.voxelSize();
-      Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, voxel);
-      if (!sampled) break;
-      std::unique_ptr<Lattice>& coarse = *sampled;
-      MeshStats stats;
-      findUnresolved(coarse->band, coarse->field, progress_, stats);
-      if (stats.unresolved > 0) continue;
-      extract(*coarse, false);
-      FeatureMesh& mesh = coarse->mesh;
-      if (mesh.triangles.empty()) continue;
-      begin("remeshing");
-      const double limit = std::max(options_.tolerance, kFollowed * voxel);
-      if (witnesses.toSurface(mesh, progress_).max > limit || witnesses.toBorders(mesh, progress_) > limit)
-        continue;
-      // What is painted is looked at as closely as without this.
-      const LocalField& field = (painted_ ? fine : coarse)->field;
-      measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
-      if (stats.maxDistance > limit) continue;
-      if (!thin(mesh, field, witnesses, {options_.tolerance, voxel, painted_, false}, progress_)) continue;
-      witnessed_ = witnesses.toSurface(mesh, progress_);
+    const Witnesses witnesses(surface_, fine->mesh, painted_);
+    for (double times = coarsest; times >= 1.0 && !progress_.stopped(); times /= 2.0) {
+      std::unique_ptr<Lattice> coarse;
+      if (times > 1.0) {
+        Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());
+        if (!sampled) break;
+        coarse = std::move(*sampled);
+        MeshStats stats;
+        findUnresolved(coarse->band, coarse->field, progress_, stats);
+        if (stats.unresolved > 0) continue;
+        extract(*coarse, false);
+      }
+      const Lattice& lattice = coarse ? *coarse : *fine;
+      FeatureMesh mesh = lattice.mesh;
+      if (mesh.triangles.empty() || !simplifyTo(mesh, lattice.field, witnesses)) continue;
+      // What is painted is looked at as closely as in the finest lattice.
+      if (painted_ && !keepsPaint(mesh, witnesses, fine->field)) {
+        mesh = lattice.mesh;
+        const ThinOptions options{options_.tolerance, lattice.band.voxelSize(), true, false};
+        if (!thin(mesh, fine->field, witnesses, options, progress_)) continue;
+        witnessed_ = witnesses.toSurface(mesh, progress_);
+        if (witnessed_.max > options_.tolerance) continue;
+      }
       witnessed_.points = seen;  // the others are looked at again
-      if (witnessed_.max > options_.tolerance) continue;
-      if (painted_)
+      if (painted_ || !coarse)
         fine->mesh = std::move(mesh);
       else
-        fine = std::move(coarse);
+        coarse->mesh = std::move(mesh), fine = std::move(coarse);
       return true;
     }
     witnessed_ = {};
     return false;
+  }
+
+  // Simplifies a lattice's mesh; returns whether the tolerance is kept, both ways.
+  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
+    begin("remeshing");
+    const double tolerance = options_.tolerance, limit = kFollowed * tolerance;
+    MeshStats stats;
+    measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
+    if (stats.maxDistance > limit || witnesses.toSurface(mesh, progress_).max > limit) return false;
+    if (witnesses.toBorders(mesh, progress_) > tolerance) return false;
+    simplify(mesh, field, tolerance, surface_, progress_);
+    if (progress_.stopped()) return false;
+    measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
+    if (stats.maxDistance > tolerance) return false;
+    witnessed_ = witnesses.toSurface(mesh, progress_);
+    return witnessed_.max <= tolerance && crossingTriangles(mesh.positions, mesh.triangles).empty();
+  }
+
+  // Does the mesh keep the tolerance as the field sees it, with its borders and colours?
+  bool keepsPaint(const FeatureMesh& mesh, const Witnesses& witnesses, const BandField& field) {
+    MeshStats stats;
+    measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
+    return stats.maxDistance <= options_.tolerance &&
+           witnesses.toBorders(mesh, progress_) <= options_.tolerance &&
+           keepsColors(mesh, options_.tolerance, field, progress_);
   }
 
   // Of what is not closed remeshing could make nothing.

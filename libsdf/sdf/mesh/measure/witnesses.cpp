@@ -5,6 +5,12 @@
 
 namespace sdf {
 
+Witnesses::Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, bool withBorders)
+    : surface_(mesh.positions) {
+  surface_.insert(surface_.end(), surface.begin(), surface.end());
+  if (withBorders) addBorders(mesh);
+}
+
 Witnesses::Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, double limit,
                      bool withBorders, Progress& progress)
     : surface_(mesh.positions) {
@@ -15,7 +21,10 @@ Witnesses::Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& m
     lacking_ = std::max(lacking_, d);
     if (d <= limit) surface_.push_back(surface[i]);
   }
-  if (!withBorders) return;
+  if (withBorders) addBorders(mesh);
+}
+
+void Witnesses::addBorders(const FeatureMesh& mesh) {
   std::vector<char> onCrease(mesh.positions.size(), 0);
   for (const auto& [a, b] : mesh.creases) onCrease[a] = onCrease[b] = 1;
   for (std::size_t v = 0; v < onCrease.size(); ++v)

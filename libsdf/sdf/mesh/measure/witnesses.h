@@ -14,12 +14,15 @@ namespace sdf {
 /// borders of paint are among.
 class Witnesses {
  public:
+  /// All of these points. `withBorders`: are borders looked at, too?
+  Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, bool withBorders);
   /// Points that are farther from the mesh than the limit are left out: it lacks something there, which
-  /// another mesh cannot be asked for. `withBorders`: are borders looked at, too?
+  /// another mesh cannot be asked for. Cost: log n of the triangles for each point.
   Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, double limit, bool withBorders,
             Progress& progress);
 
-  /// The largest distance from a point on the surface to the mesh, of all of them.
+  /// The largest distance from a point on the surface to the mesh, of all of them; 0 where there was no
+  /// limit.
   double lacking() const { return lacking_; }
 
   /// The largest distance from a witness to another mesh's triangles, at least one.
@@ -38,6 +41,7 @@ class Witnesses {
                   double limit, Progress& progress) const;
 
  private:
+  void addBorders(const FeatureMesh& mesh);
   double lacking_ = 0.0;
   std::vector<glm::vec3> surface_, borders_;
 };

@@ -151,4 +151,10 @@ ColorErrors measureColors(const HalfEdgeMesh& mesh, float tolerance, const Local
   return result;
 }
 
+bool keepsColors(const FeatureMesh& mesh, double tolerance, const LocalField& field, Progress& progress) {
+  std::vector<TriangleColors> known;
+  return measureColors(HalfEdgeMesh(mesh), static_cast<float>(tolerance), field, known, progress)
+      .exceeding.empty();
+}
+
 }  // namespace sdf

@@ -45,4 +45,7 @@ struct TriangleColors {
 ColorErrors measureColors(const HalfEdgeMesh& mesh, float tolerance, const LocalField& field,
                           std::vector<TriangleColors>& known, Progress& progress);
 
+/// Do all triangles with a side longer than a voxel show the colours of the surface, within kColorTolerance?
+bool keepsColors(const FeatureMesh& mesh, double tolerance, const LocalField& field, Progress& progress);
+
 }  // namespace sdf

@@ -1,0 +1,125 @@
+#include "sdf/mesh/refine/sampled_mesh.h"
+
+#include <glm/geometric.hpp>
+
+#include "sdf/mesh/surface/project.h"
+
+namespace sdf {
+glm::vec3 barycentric(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 u = b - a, v = c - a, n = glm::cross(u, v), d = p - a;
+  const float square = glm::dot(n, n), beta = glm::dot(glm::cross(d, v), n) / square,
+              gamma = glm::dot(glm::cross(u, d), n) / square;
+  return {1.0f - beta - gamma, beta, gamma};
+}
+
+SampledMesh::SampledMesh(const FeatureMesh& given, const LocalField& field, Progress& progress)
+    : mesh(given), creaseOf(mesh.halfEdges(), kNone) {
+  std::vector<char> onCreases(given.positions.size(), 0);
+  for (const auto& [a, b] : given.creases) onCreases[a] = onCreases[b] = 1;
+  std::vector<glm::vec3> points = given.positions, unit;
+  std::vector<Index> triangleOf(points.size(), kNone);
+  for (Index v = 0; v < mesh.vertices(); ++v)
+    if (!onCreases[v] && mesh.vertexAlive(v)) triangleOf[v] = mesh.outgoing(v) / 3;
+  for (Index h = 0; h < mesh.halfEdges(); ++h) {
+    if (h % 3 == 0) {
+      const auto [a, b, c] = mesh.corners(h);
+      points.push_back((a + b + c) / 3.0f);
+      triangleOf.push_back(h / 3);
+    }
+    if (h > mesh.twin(h) || mesh.isCrease(h)) continue;
+    points.push_back(0.5f * (mesh.positions[mesh.from(h)] + mesh.positions[mesh.to(h)]));
+    triangleOf.push_back(h / 3);
+  }
+  refineVertices(points, unit, field, progress);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    samples.push_back({i < given.positions.size() ? given.positions[i] : points[i], unit[i]});
+  normals.assign(unit.begin(), unit.begin() + static_cast<std::ptrdiff_t>(given.positions.size()));
+  onTriangle.grow(given.triangles.size(), samples.size());
+  for (Index i = 0; i < samples.size(); ++i)
+    if (triangleOf[i] != kNone) put(triangleOf[i], i);
+  addCreases(given);
+}
+
+void SampledMesh::addCreases(const FeatureMesh& given) {
+  Index count = 0;
+  for (Index h = 0; h < mesh.halfEdges(); ++h)
+    if (mesh.isCrease(h) && creaseOf[h] == kNone) creaseOf[h] = creaseOf[mesh.twin(h)] = count++;
+  onCrease.grow(count, samples.size());
+  std::vector<char> taken(given.positions.size(), 0);
+  for (Index h = 0; h < mesh.halfEdges(); ++h) {
+    const Index v = mesh.from(h);
+    if (creaseOf[h] == kNone || taken[v]) continue;
+    taken[v] = 1;
+    onCrease.add(creaseOf[h], v);
+  }
+}
+
+bool SampledMesh::isTip(Index v) const {
+  if (mesh.creasesAt(v) < 3) return false;
+  const Index first = mesh.outgoing(v);
+  Index e = first;
+  do {
+    if (mesh.isCrease(e)) return false;
+    e = mesh.turned(e);
+  } while (e != first);
+  return true;
+}
+
+SampledMesh::Index SampledMesh::newSample(const SurfaceSample& sample) {
+  samples.push_back(sample);
+  onTriangle.grow(onTriangle.count(), samples.size());
+  onCrease.grow(onCrease.count(), samples.size());
+  return static_cast<Index>(samples.size() - 1);
+}
+
+void SampledMesh::put(Index triangle, Index sample) {
+  const auto [a, b, c] = mesh.corners(3 * triangle);
+  if (!isFacing(glm::cross(b - a, c - a), samples[sample].normal)) samples[sample].normal = glm::vec3(0.0f);
+  onTriangle.add(triangle, sample);
+}
+
+void SampledMesh::add(Index triangle, const SurfaceSample& sample) { put(triangle, newSample(sample)); }
+
+void SampledMesh::addToCrease(Index edge, const SurfaceSample& sample) {
+  onCrease.add(edge, newSample(sample));
+}
+
+SampledMesh::Index SampledMesh::split(Index h, const glm::vec3& p) {
+  const Index first = mesh.halfEdges(), a = mesh.from(h), b = mesh.to(h);
+  const Index edge = creaseOf[h], bc = mesh.twin(mesh.next(h)), db = mesh.twin(mesh.previous(mesh.twin(h)));
+  const glm::vec3 sum = normals[a] + normals[b];
+  normals.push_back(glm::length(sum) > 0.0f ? glm::normalize(sum) : normals[a]);
+  const Index v = mesh.split(h, p);
+  creaseOf.resize(mesh.halfEdges(), kNone);
+  onTriangle.grow(mesh.halfEdges() / 3, samples.size());
+  // The two new triangles are v b c and b v d (HalfEdgeMesh::split).
+  creaseOf[mesh.twin(bc)] = creaseOf[bc], creaseOf[mesh.twin(db)] = creaseOf[db];
+  creaseOf[mesh.next(h)] = creaseOf[mesh.previous(mesh.twin(h))] = kNone;
+  if (edge == kNone) return v;
+  const auto half = static_cast<Index>(onCrease.count());
+  onCrease.grow(half + 1, samples.size());
+  creaseOf[first] = creaseOf[mesh.twin(first)] = half;
+  return v;
+}
+
+void SampledMesh::flip(Index h) {
+  const Index g = mesh.twin(h);
+  mesh.flip(h);
+  for (const Index e : {mesh.next(h), mesh.previous(h), mesh.next(g), mesh.previous(g)})
+    creaseOf[e] = creaseOf[mesh.twin(e)];
+  creaseOf[h] = creaseOf[g] = kNone;
+}
+
+void SampledMesh::collapse(Index h, const glm::vec3& p) {
+  const Index u = mesh.from(h), v = mesh.to(h);
+  for (const Index side : {h, mesh.twin(h)}) {
+    const Index n = mesh.twin(mesh.next(side)), o = mesh.twin(mesh.previous(side));
+    creaseOf[n] = creaseOf[o] = creaseOf[n] != kNone ? creaseOf[n] : creaseOf[o];
+  }
+  const glm::vec3 sum = normals[u] + normals[v];
+  if (isSmooth(u) && isSmooth(v) && glm::length(sum) > 0.0f) normals[v] = glm::normalize(sum);
+  mesh.collapse(h);
+  mesh.positions[v] = p;
+}
+
+}  // namespace sdf
