@@ -124,7 +124,7 @@ TEST(Simplify, AMeshThatIsTooCoarseIsRefined) {
 
 TEST(Simplify, NoTriangleIsTurned) {
   const Shape shape = melt();
-  const FeatureMesh mesh = simplified(Fine(shape, 0.05), 3e-3);
+  const FeatureMesh mesh = simplified(Fine(shape, 0.04), 3e-3);
   const TapePtr tape = tapeOf(shape)->firstOutputOnly();
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);

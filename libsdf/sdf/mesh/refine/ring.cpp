@@ -169,6 +169,21 @@ bool Ring::placeSector(std::size_t number, float limit) {
     if (gone_[which] != kNone && sectorOfGone(which) == number && !take(gone_[which], 0)) return false;
   for (Index i = s.first; i < s.last; ++i)
     if (!spokes_[i].isNew && !take(spokes_[i].halfEdge / 3, i - s.first)) return false;
+  return isEmptyFacing(s);
+}
+
+// What has no samples is held to the normals at its vertices.
+bool Ring::isEmptyFacing(const Sector& s) {
+  const auto n = static_cast<Index>(spokes_.size());
+  counts_.assign(n, 0);
+  for (const Placed& p : placed_) ++counts_[p.spoke];
+  for (Index i = s.first; i < s.last && !isTip_; ++i) {
+    if (counts_[i] > 0) continue;
+    glm::vec3 around(0.0f);
+    for (const Index k : {i, i + 1})
+      if (const Index v = spokes_[k == n ? 0 : k].vertex; sampled_.isSmooth(v)) around += sampled_.normals[v];
+    if (!isNone(around) && !isFacing(normals_[i - s.first], glm::normalize(around))) return false;
+  }
   return true;
 }
 

@@ -112,12 +112,12 @@ class Ring {
   void add(Index begin, Index end);
   bool placeSector(std::size_t number, float limit);
   bool placeTriangle(Index triangle, Index guess, const Sector& sector);
+  bool isEmptyFacing(const Sector& sector);
   bool placeOnCreases(float limit);
   bool placeOnEdge(Index edge, Index from, Index to);
   void findWay();
   void findNearest();
   std::size_t sectorOfGone(int which) const;
-  bool take(const Placed& placed, float limit);
 
   SampledMesh& sampled_;
   float tolerance_;

@@ -17,8 +17,6 @@ namespace {
 
 using Index = SampledMesh::Index;
 
-// The share of the tolerance that samples are held to, for what lies between them.
-constexpr double kHeldTo = 0.999;
 // Shares of it that collapses are held to one after the other: what costs least goes first. In the end they
 // go beyond it, as flips and moves bring most back; of balls and blends 1.35 leaves the fewest triangles,
 // of 1.2, 1.35 and 1.5.
@@ -50,13 +48,14 @@ class Simplifier {
         field_(field),
         surface_(surface),
         mesh_(sampled_.mesh),
-        tolerance_(static_cast<float>(kHeldTo * tolerance)),
+        tolerance_(static_cast<float>(tolerance)),
         ring_(sampled_, tolerance_),
         limit_(tolerance_),
         progress_(progress),
         taken_(mesh.positions.size(), 0),
         changed_(mesh.positions.size(), 1),
         settled_(mesh.positions.size(), 0),
+        near_(mesh.positions.size(), 0),
         failed_(mesh_.halfEdges(), 0),
         unflipped_(mesh_.halfEdges(), 0) {}
 
@@ -383,13 +382,16 @@ class Simplifier {
   }
 
   // ---- splits ------------------------------------------------------------------------------------------
-  // Returns how often something was split.
+  // Returns how often something was split or moved for it.
   std::size_t splitExceeding() {
     std::size_t all = 0;
     for (int i = 0; i < kSplitRounds && !progress_.stopped(); ++i) {
-      for (Index v = 0; v < mesh_.vertices(); ++v)
-        if (isMovable(v)) moveNear(v);
       std::size_t made = 0;
+      for (Index v = 0; v < mesh_.vertices(); ++v) {
+        if (!isMovable(v) || near_[v] >= changed_[v]) continue;
+        near_[v] = pass_;
+        if (moveNear(v) && i == 0) ++made;
+      }
       const Index end = mesh_.halfEdges();
       for (Index h = 0; h < end; ++h)
         if (mesh_.alive(h) && mesh_.isCrease(h) && h < mesh_.twin(h) && splitCreaseIfExceeding(h)) ++made;
@@ -403,16 +405,17 @@ class Simplifier {
   }
 
   // Moves a vertex that is too far from the surface itself, at the cost of the triangles around.
-  void moveNear(Index v) {
+  bool moveNear(Index v) {
     glm::vec3 at = mesh_.positions[v];
     ring_.setAround(v);
-    if (!ring_.cut(at) || !ring_.place(at) || ring_.centreDistance() <= tolerance_) return;
+    if (!ring_.cut(at) || !ring_.place(at) || ring_.centreDistance() <= tolerance_) return false;
     const float too = ring_.centreDistance() - tolerance_, was = std::max(limit_, largestAround(v));
     at += too / ring_.centreDistance() * ring_.centreOff();
-    if (!ring_.place(at) || ring_.largest() > was + too) return;
+    if (!ring_.place(at) || ring_.largest() > was + too) return false;
     ring_.assign(limit_);
     mesh_.positions[v] = at;
     touch(v);
+    return true;
   }
 
   // Splits the side of the triangle that is next to its farthest sample, there.
@@ -433,8 +436,26 @@ class Simplifier {
       sides[k] = {glm::length(glm::cross(p - from, way)) / glm::length(way), h + k};
     }
     std::ranges::sort(sides);
-    return std::ranges::any_of(
-        sides, [&](const auto& s) { return !mesh_.isCrease(s.second) && split(s.second, p); });
+    // There, else in the middle of a side; on a crease at one of its samples.
+    const auto atSample = [&](const auto& s) {
+      return mesh_.isCrease(s.second) ? splitCreaseNear(s.second, p) : split(s.second, p);
+    };
+    const auto atMiddle = [&](const auto& s) {
+      const Index from = mesh_.from(s.second), to = mesh_.to(s.second);
+      return !mesh_.isCrease(s.second) &&
+             split(s.second, 0.5f * (mesh_.positions[from] + mesh_.positions[to]));
+    };
+    return std::ranges::any_of(sides, atSample) || std::ranges::any_of(sides, atMiddle);
+  }
+
+  // Splits an edge on a crease at its sample that is nearest to p.
+  bool splitCreaseNear(Index h, const glm::vec3& p) {
+    Index nearest = Lists::kNone;
+    float least = HUGE_VALF;
+    const Index edge = sampled_.creaseOf[h];
+    for (Index w = sampled_.onCrease.first(edge); w != Lists::kNone; w = sampled_.onCrease.after(w))
+      if (const float d = glm::distance(sampled_.samples[w].at, p); d < least) least = d, nearest = w;
+    return nearest != Lists::kNone && split(h, sampled_.samples[nearest].at);
   }
 
   // Splits an edge on a crease at its farthest sample.
@@ -459,7 +480,7 @@ class Simplifier {
     if (!ring_.place(at) || !ring_.isWithin(was)) return false;
     const Index v = sampled_.split(h, at);
     taken_.resize(mesh_.vertices(), 0), changed_.resize(mesh_.vertices(), pass_ + 1);
-    settled_.resize(mesh_.vertices(), 0);
+    settled_.resize(mesh_.vertices(), 0), near_.resize(mesh_.vertices(), 0);
     failed_.resize(mesh_.halfEdges(), 0), unflipped_.resize(mesh_.halfEdges(), 0);
     ring_.assign(limit_);
     touch(v);
@@ -479,6 +500,7 @@ class Simplifier {
   std::vector<Index> taken_;      // by vertex: the last pass in which a collapse changed it
   std::vector<Index> changed_;    // by vertex: the pass before which something around it was last changed
   std::vector<Index> settled_;    // by vertex: the last pass in which it was to be moved
+  std::vector<Index> near_;       // by vertex: the last pass in which its distance was looked at
   std::vector<Index> failed_;     // by half-edge: the last pass in which its collapse failed
   std::vector<Index> unflipped_;  // by half-edge: the last pass in which it was to be flipped
   std::vector<std::pair<Index, Index>> handed_;  // samples, and half-edges of the triangles that get them
