@@ -476,7 +476,7 @@ TEST(MeshShape, KeepsAToleranceWithFewTriangles) {
   EXPECT_EQ(cuboid.stats.tolerance, 1e-3);
   const MeshedShape ball = meshed(sphere(1.0), {.voxelSize = 0.04, .tolerance = 1e-3});
   EXPECT_LE(ball.stats.maxDistance, 1e-3);
-  EXPECT_LE(ball.mesh.triangles.size(), 3225u);  // four thirds of the fewest, 0.1925 * 4 pi / 1e-3
+  EXPECT_LE(ball.mesh.triangles.size(), 3200u);  // 1.32 times the fewest, 0.1925 * 4 pi / 1e-3
   EXPECT_TRUE(ball.stats.watertight && ball.stats.manifold);
   EXPECT_EQ(meshed(sphere(1.0), {.voxelSize = 0.04}).stats.tolerance, 0.0);
 }

@@ -24,6 +24,7 @@
 #include "sdf/mesh/measure/witnesses.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/refine/balance.h"
+#include "sdf/mesh/refine/close_creases.h"
 #include "sdf/mesh/refine/remesh_paint.h"
 #include "sdf/mesh/refine/simplify.h"
 #include "sdf/mesh/refine/thin.h"
@@ -320,10 +321,11 @@ class Mesher {
     measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
     if (stats.maxDistance > limit || witnesses.toSurface(mesh, progress_).max > limit) return false;
     if (witnesses.toBorders(mesh, progress_) > tolerance) return false;
+    closeCreases(mesh);
     const FeatureMesh before = mesh;
     for (const double share : kHeldTo) {
       mesh = before;
-      simplify(mesh, field, share * tolerance, surface_, progress_);
+      simplify(mesh, field, share * tolerance, witnesses.surface(), progress_);
       if (progress_.stopped()) return false;
       measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
       witnessed_ = witnesses.toSurface(mesh, progress_);

@@ -21,6 +21,9 @@ class Witnesses {
   Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, double limit, bool withBorders,
             Progress& progress);
 
+  /// Points of the surface.
+  const std::vector<glm::vec3>& surface() const { return surface_; }
+
   /// The largest distance from a point on the surface to the mesh, of all of them; 0 where there was no
   /// limit.
   double lacking() const { return lacking_; }

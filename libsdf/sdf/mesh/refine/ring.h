@@ -25,12 +25,18 @@ struct Range {
   float middle() const { return std::isfinite(lo) && std::isfinite(hi) ? 0.5f * (lo + hi) : 0.0f; }
 };
 
+/// Where |height - weight * t| is within the limit.
+Range feasibleAlong(float height, float weight, float limit);
+/// Where |off - weight * t * way| is, for a unit way or none.
+Range feasibleAlong(const glm::vec3& off, float weight, const glm::vec3& way, float limit);
+
 /// Spokes from a centre to the vertices around it, counter-clockwise. Those that are creases cut the ring
 /// into sectors, and samples stay in theirs. The centre may go along a way: along the normal on a smooth
 /// piece, to where a crease bends on that, nowhere at corners.
 class Ring {
  public:
   using Index = SampledMesh::Index;
+  static constexpr Index kNone = SampledMesh::kNone;
 
   /// The centre itself is to be no farther from the surface than the tolerance.
   Ring(SampledMesh& sampled, float tolerance) : sampled_(sampled), tolerance_(tolerance) {}

@@ -1,15 +1,20 @@
 #include "sdf/mesh/refine/sampled_mesh.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "sdf/mesh/surface/project.h"
+#include "sdf/triangles/tree.h"
 
 namespace sdf {
-glm::vec3 barycentric(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  const glm::vec3 u = b - a, v = c - a, n = glm::cross(u, v), d = p - a;
+OverTriangle over(const glm::vec3& p, const Corners& t) {
+  const glm::vec3 u = t[1] - t[0], v = t[2] - t[0], n = glm::cross(u, v), d = p - t[0];
   const float square = glm::dot(n, n), beta = glm::dot(glm::cross(d, v), n) / square,
-              gamma = glm::dot(glm::cross(u, d), n) / square;
-  return {1.0f - beta - gamma, beta, gamma};
+              gamma = glm::dot(glm::cross(u, d), n) / square,
+              inside = std::min({1.0f - beta - gamma, beta, gamma});
+  if (inside >= 0.0f) return {inside, std::abs(glm::dot(d, n)) / std::sqrt(square)};
+  return {inside, static_cast<float>(std::sqrt(nearestOf(p, t[0], t[1], t[2]).squared))};
 }
 
 SampledMesh::SampledMesh(const FeatureMesh& given, const LocalField& field, Progress& progress)
@@ -52,6 +57,16 @@ void SampledMesh::addCreases(const FeatureMesh& given) {
     taken[v] = 1;
     onCrease.add(creaseOf[h], v);
   }
+}
+
+SampledMesh::Farthest SampledMesh::farthestOf(Index triangle) const {
+  const Corners corners = mesh.corners(3 * triangle);
+  Farthest farthest;
+  for (Index w = onTriangle.first(triangle); w != Lists::kNone; w = onTriangle.after(w))
+    if (const float d = over(samples[w].at, corners).distance;
+        farthest.sample == kNone || d > farthest.distance)
+      farthest = {w, d};
+  return farthest;
 }
 
 bool SampledMesh::isTip(Index v) const {

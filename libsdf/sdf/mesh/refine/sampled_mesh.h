@@ -1,8 +1,8 @@
 // A mesh each of whose triangles and creases has the points of the surface that it stands for.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "sdf/base/progress.h"
@@ -61,6 +61,13 @@ struct SampledMesh {
   /// Merges from(h) into to(h), which moves to p. Samples stay where they are, as with `split`.
   void collapse(Index h, const glm::vec3& p);
 
+  /// The sample of a triangle that is farthest from it.
+  struct Farthest {
+    Index sample = kNone;  ///< kNone: it has none
+    float distance = 0.0f;
+  };
+  Farthest farthestOf(Index triangle) const;
+
   HalfEdgeMesh mesh;
   std::vector<SurfaceSample> samples;
   std::vector<glm::vec3> normals;  ///< of the surface at each vertex, unit; one side's on a crease
@@ -74,7 +81,14 @@ struct SampledMesh {
   Index newSample(const SurfaceSample& sample);
 };
 
-/// The weights of a triangle's corners that make the point of its plane that is nearest to p.
-glm::vec3 barycentric(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+using Corners = std::array<glm::vec3, 3>;
+
+/// A point beside a triangle.
+struct OverTriangle {
+  float inside;    ///< the least barycentric coordinate of the plane's nearest point: negative beside the
+                   ///< triangle
+  float distance;  ///< scene units
+};
+OverTriangle over(const glm::vec3& p, const Corners& triangle);
 
 }  // namespace sdf

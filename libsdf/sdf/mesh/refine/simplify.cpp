@@ -5,50 +5,38 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "sdf/mesh/creases/crease.h"
-#include "sdf/mesh/measure/to_mesh.h"
+#include "sdf/mesh/refine/flip.h"
+#include "sdf/mesh/refine/missed.h"
 #include "sdf/mesh/refine/ring.h"
 #include "sdf/mesh/refine/sampled_mesh.h"
-#include "sdf/mesh/surface/project.h"
-#include "sdf/triangles/tree.h"
 
 namespace sdf {
 namespace {
 
 using Index = SampledMesh::Index;
 
-// Shares of it that collapses are held to one after the other: what costs least goes first. In the end they
-// go beyond it, as flips and moves bring most back; of balls and blends 1.35 leaves the fewest triangles,
-// of 1.2, 1.35 and 1.5.
+// Shares of the tolerance that collapses are held to one after the other: what costs least goes first. In the
+// end they go beyond it, as flips and moves bring most back; of 1.2 to 1.5, 1.3 leaves the fewest triangles
+// of balls and blends.
 constexpr float kShares[] = {0.06f, 0.25f, 1.0f, 1.3f};
 // Rounds of improving and collapsing, the second half of them to the tolerance itself, and sweeps over the
 // mesh in each. Twice as many leave 1 % fewer triangles.
 constexpr int kImprovements = 4, kSmoothings = 3, kAfterSplits = 2;
 // A pass of collapses that takes away less than this share of the triangles is the last.
 constexpr std::size_t kWorthIt = 50;
-// Rounds of splitting what is too far, and of reading the field all over the mesh.
+// Rounds of splitting what is too far, and of reading the field all over the mesh, at most.
 constexpr int kSplitRounds = 12, kLooks = 6;
-// Points of the surface whose squared distance is less than this share of the tolerance's are not looked at
-// again.
-constexpr double kWatched = 0.25;
 // Of the tolerance: what is no farther off is flat.
 constexpr float kFlat = 0.01f;
-// Steps of the grids that triangles are looked at in, the finer one where more than this share of the
-// tolerance was seen in the coarser one.
-constexpr int kCoarseSteps = 3, kFineSteps = 7;
-constexpr float kClose = 0.75f;
-// A flip has to lessen the largest distance by so much: otherwise two may take turns.
-constexpr float kLess = 0.98f;
 
 class Simplifier {
  public:
   Simplifier(const FeatureMesh& mesh, const LocalField& field, double tolerance,
              const std::vector<glm::vec3>& surface, Progress& progress)
       : sampled_(mesh, field, progress),
-        field_(field),
-        surface_(surface),
         mesh_(sampled_.mesh),
         tolerance_(static_cast<float>(tolerance)),
+        missed_(sampled_, field, surface, tolerance_, progress),
         ring_(sampled_, tolerance_),
         limit_(tolerance_),
         progress_(progress),
@@ -83,8 +71,12 @@ class Simplifier {
   // Splits what is too far, here or seen by the field.
   void keep() {
     splitExceeding();
-    for (int i = 0; i < kLooks && !progress_.stopped(); ++i)
-      if (addMissed() == 0 || splitExceeding() == 0) break;
+    for (int i = 0; i < kLooks && !progress_.stopped(); ++i) {
+      const std::vector<Index> missed = missed_.add();
+      for (const Index h : missed)
+        for (Index k = 0; k < 3; ++k) changed_[mesh_.from(h + k)] = pass_ + 1;
+      if (missed.empty() || splitExceeding() == 0) break;
+    }
   }
 
   void improve() {
@@ -156,10 +148,6 @@ class Simplifier {
     for (std::size_t i = 0; i < ring_.size(); ++i) changed_[ring_.vertex(i)] = pass_ + 1;
   }
 
-  void touchTriangle(Index h) {
-    for (Index k = 0; k < 3; ++k) changed_[mesh_.from(h + k)] = pass_ + 1;
-  }
-
   void moveAll() {
     ++pass_;
     for (Index v = 0; v < mesh_.vertices() && !progress_.stopped(); ++v) {
@@ -203,24 +191,16 @@ class Simplifier {
   }
 
   // The largest distance of a sample from its triangle.
-  float largestOf(Index triangle) const {
-    const auto [a, b, c] = mesh_.corners(3 * triangle);
-    float most = 0.0f;
-    for (Index w = sampled_.onTriangle.first(triangle); w != Lists::kNone; w = sampled_.onTriangle.after(w))
-      most = std::max(most, over(sampled_.samples[w].at, {a, b, c}).distance);
-    return most;
-  }
   float largestAround(Index v) const {
     float most = 0.0f;
     Index e = mesh_.outgoing(v);
     do {
-      most = std::max(most, largestOf(e / 3));
+      most = std::max(most, sampled_.farthestOf(e / 3).distance);
       e = mesh_.turned(e);
     } while (e != mesh_.outgoing(v));
     return most;
   }
 
-  // ---- flips -------------------------------------------------------------------------------------------
   void flipAll() {
     ++pass_;
     for (Index h = 0; h < mesh_.halfEdges() && !progress_.stopped(); ++h) {
@@ -229,159 +209,12 @@ class Simplifier {
                                       changed_[mesh_.apex(mesh_.twin(h))]});
       if (unflipped_[h] >= changed || !mesh_.canFlip(h)) continue;
       unflipped_[h] = pass_;
-      tryFlip(h);
+      if (!flipIfBetter(sampled_, h, kFlat * tolerance_)) continue;
+      for (const Index v : {mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(mesh_.twin(h))})
+        changed_[v] = pass_ + 1;
     }
   }
 
-  struct Triangle {
-    glm::vec3 a, b, c;
-    glm::vec3 area() const { return glm::cross(b - a, c - a); }
-    // Twice the area over the longest side's square.
-    float flatness() const {
-      const float longest =
-          std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-      return longest > 0.0f ? glm::length(area()) / longest : 0.0f;
-    }
-  };
-  struct Over {
-    glm::vec3 weights;  // barycentric
-    float distance;
-    float inside() const { return std::min({weights.x, weights.y, weights.z}); }
-  };
-  static Over over(const glm::vec3& p, const Triangle& t) {
-    const glm::vec3 weights = barycentric(p, t.a, t.b, t.c);
-    const Over over{weights, glm::distance(p, weights.x * t.a + weights.y * t.b + weights.z * t.c)};
-    if (over.inside() >= 0.0f) return over;
-    return {weights, static_cast<float>(std::sqrt(nearestOf(p, t.a, t.b, t.c).squared))};
-  }
-  void tryFlip(Index h) {
-    const Index g = mesh_.twin(h);
-    const auto at = [&](Index v) { return mesh_.positions[v]; };
-    const glm::vec3 a = at(mesh_.from(h)), b = at(mesh_.to(h)), c = at(mesh_.apex(h)), d = at(mesh_.apex(g));
-    const Triangle before[2] = {{a, b, c}, {b, a, d}}, after[2] = {{d, c, a}, {c, d, b}};
-    const glm::vec3 normal = before[0].area() + before[1].area();
-    for (const Triangle& t : after)
-      if (!(t.flatness() > 2.0f * kFlattest) || !isFacing(t.area(), glm::normalize(normal))) return;
-    float was = 0.0f, is = 0.0f;
-    handed_.clear();
-    for (int side = 0; side < 2; ++side)
-      for (Index w = sampled_.onTriangle.first((side ? g : h) / 3); w != Lists::kNone;
-           w = sampled_.onTriangle.after(w)) {
-        const glm::vec3& p = sampled_.samples[w].at;
-        was = std::max(was, over(p, before[side]).distance);
-        const Over first = over(p, after[0]), second = over(p, after[1]);
-        const bool toFirst = first.inside() > second.inside();
-        const glm::vec3& n = sampled_.samples[w].normal;
-        if (!isNone(n) && !isFacing(after[toFirst ? 0 : 1].area(), n)) return;
-        handed_.push_back({w, toFirst ? h : g});
-        is = std::max(is, toFirst ? first.distance : second.distance);
-      }
-    // Where both lie on a plane the shape decides: needles there are in the way of proofs.
-    const bool isFlat = std::max(is, was) < kFlat * tolerance_;
-    const float shape = std::min(after[0].flatness(), after[1].flatness()),
-                shapeBefore = std::min(before[0].flatness(), before[1].flatness());
-    if (isFlat ? !(kLess * shape > shapeBefore) : !(is < kLess * was)) return;
-    for (const Index v : {mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(g)}) changed_[v] = pass_ + 1;
-    sampled_.onTriangle.clear(h / 3), sampled_.onTriangle.clear(g / 3);
-    sampled_.flip(h);
-    for (const auto& [sample, to] : handed_) sampled_.onTriangle.add(to / 3, sample);
-  }
-
-  // ---- readings of the field -----------------------------------------------------------------------------
-  // Adds the surface's points next to places on the mesh, and points next to the mesh on the surface, that
-  // are farther off than the tolerance; returns how many.
-  std::size_t addMissed() {
-    std::vector<Index> all;
-    for (Index h = 0; h < mesh_.halfEdges(); h += 3)
-      if (mesh_.alive(h)) all.push_back(h);
-    std::vector<Index> close;
-    std::size_t added = addMissedAt(all, kCoarseSteps, &close);
-    added += addMissedAt(close, kFineSteps, nullptr);
-    return added + addMissedOfSurface() + addMissedOfCreases();
-  }
-
-  // The same of a grid over some triangles; `close` receives those that nearly are.
-  std::size_t addMissedAt(const std::vector<Index>& triangles, int steps, std::vector<Index>* close) {
-    std::vector<glm::vec3> places, feet, normals;
-    for (const Index h : triangles) {
-      const auto [a, b, c] = mesh_.corners(h);
-      for (int i = 0; i <= steps; ++i)
-        for (int k = 0; k <= steps - i; ++k) {
-          const float u = static_cast<float>(i) / static_cast<float>(steps),
-                      v = static_cast<float>(k) / static_cast<float>(steps);
-          places.push_back((1.0f - u - v) * a + u * b + v * c);
-        }
-    }
-    feet = places;
-    refineVertices(feet, normals, field_, progress_);
-    if (progress_.stopped()) return 0;
-    const std::size_t each = triangles.empty() ? 1 : places.size() / triangles.size();
-    std::size_t added = 0;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      float most = 0.0f;
-      for (std::size_t i = t * each; i < (t + 1) * each; ++i) {
-        const float off = glm::distance(feet[i], places[i]);
-        most = std::max(most, off);
-        if (off <= tolerance_) continue;
-        sampled_.add(triangles[t] / 3, {feet[i], normals[i]});
-        touchTriangle(triangles[t]);
-        ++added;
-      }
-      if (close && most > kClose * tolerance_) close->push_back(triangles[t]);
-    }
-    return added;
-  }
-
-  // Points of creases next to the middles of their edges.
-  std::size_t addMissedOfCreases() {
-    std::vector<CreasePoint> points;
-    std::vector<Index> edges;
-    for (Index h = 0; h < mesh_.halfEdges(); ++h) {
-      if (!mesh_.alive(h) || !mesh_.isCrease(h) || h > mesh_.twin(h)) continue;
-      const auto [a, b, c] = mesh_.corners(h - h % 3);
-      const auto [d, e, f] = mesh_.corners(mesh_.twin(h) - mesh_.twin(h) % 3);
-      const glm::vec3 middle = 0.5f * (mesh_.positions[mesh_.from(h)] + mesh_.positions[mesh_.to(h)]);
-      points.push_back({middle,
-                        {glm::normalize(glm::cross(b - a, c - a)), glm::normalize(glm::cross(e - d, f - d))},
-                        glm::normalize(mesh_.positions[mesh_.apex(h)] - middle)});
-      edges.push_back(h);
-    }
-    std::vector<CreasePoint> placed = points;
-    placeOnCreases(placed, field_, progress_);
-    std::size_t added = 0;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      if (!placed[i].placed || !(glm::distance(placed[i].at, points[i].at) > tolerance_)) continue;
-      sampled_.addToCrease(sampled_.creaseOf[edges[i]], {placed[i].at, placed[i].normal[0]});
-      touchTriangle(edges[i] - edges[i] % 3);
-      ++added;
-    }
-    return added;
-  }
-
-  std::size_t addMissedOfSurface() {
-    std::vector<glm::uvec3> triangles;
-    std::vector<Index> from;
-    for (Index h = 0; h < mesh_.halfEdges(); h += 3)
-      if (mesh_.alive(h))
-        triangles.emplace_back(mesh_.from(h), mesh_.from(h + 1), mesh_.from(h + 2)), from.push_back(h / 3);
-    const std::vector<NearestPoint> nearest =
-        nearestTriangles(surface_, mesh_.positions, triangles, progress_);
-    if (progress_.stopped()) return 0;
-    const double limit = static_cast<double>(tolerance_) * tolerance_;
-    std::vector<glm::vec3> missed, normals, near;
-    std::vector<Index> of;
-    for (std::size_t i = 0; i < surface_.size(); ++i) {
-      if (nearest[i].squared > limit) missed.push_back(surface_[i]), of.push_back(from[nearest[i].triangle]);
-      if (nearest[i].squared > kWatched * limit) near.push_back(surface_[i]);
-    }
-    surface_ = std::move(near);
-    gradientNormals(missed, field_, progress_, normals);
-    for (std::size_t i = 0; i < missed.size(); ++i)
-      sampled_.add(of[i], {missed[i], normals[i]}), touchTriangle(3 * of[i]);
-    return missed.size();
-  }
-
-  // ---- splits ------------------------------------------------------------------------------------------
   // Returns how often something was split or moved for it.
   std::size_t splitExceeding() {
     std::size_t all = 0;
@@ -420,15 +253,9 @@ class Simplifier {
 
   // Splits the side of the triangle that is next to its farthest sample, there.
   bool splitIfExceeding(Index h) {
-    const auto [a, b, c] = mesh_.corners(h);
-    const Triangle triangle{a, b, c};
-    float most = tolerance_;
-    Index worst = Lists::kNone;
-    for (Index w = sampled_.onTriangle.first(h / 3); w != Lists::kNone; w = sampled_.onTriangle.after(w))
-      if (const float off = over(sampled_.samples[w].at, triangle).distance; off > most)
-        most = off, worst = w;
-    if (worst == Lists::kNone) return false;
-    const glm::vec3 p = sampled_.samples[worst].at;
+    const SampledMesh::Farthest farthest = sampled_.farthestOf(h / 3);
+    if (!(farthest.distance > tolerance_)) return false;
+    const glm::vec3 p = sampled_.samples[farthest.sample].at;
     std::array<std::pair<float, Index>, 3> sides;
     for (Index k = 0; k < 3; ++k) {
       const glm::vec3 from = mesh_.positions[mesh_.from(h + k)],
@@ -472,9 +299,13 @@ class Simplifier {
     return most > tolerance_ && split(h, worst);
   }
 
+  // Not where it is so short that nothing along it is farther off than the tolerance.
   bool split(Index h, const glm::vec3& p) {
+    if (glm::distance(mesh_.positions[mesh_.from(h)], mesh_.positions[mesh_.to(h)]) < 2.0f * tolerance_)
+      return false;
     ring_.setSplit(h);
-    const float was = std::max({tolerance_, largestOf(h / 3), largestOf(mesh_.twin(h) / 3)});
+    const float was = std::max(
+        {tolerance_, sampled_.farthestOf(h / 3).distance, sampled_.farthestOf(mesh_.twin(h) / 3).distance});
     if (!ring_.cut(p) || !ring_.place(p)) return false;
     const glm::vec3 at = p + ring_.balanced() * ring_.way();
     if (!ring_.place(at) || !ring_.isWithin(was)) return false;
@@ -488,10 +319,9 @@ class Simplifier {
   }
 
   SampledMesh sampled_;
-  const LocalField& field_;
-  std::vector<glm::vec3> surface_;  // points that may come to be too far
   HalfEdgeMesh& mesh_;
   float tolerance_;
+  MissedSamples missed_;
   Ring ring_;
   float limit_;
   Progress& progress_;
@@ -503,7 +333,6 @@ class Simplifier {
   std::vector<Index> near_;       // by vertex: the last pass in which its distance was looked at
   std::vector<Index> failed_;     // by half-edge: the last pass in which its collapse failed
   std::vector<Index> unflipped_;  // by half-edge: the last pass in which it was to be flipped
-  std::vector<std::pair<Index, Index>> handed_;  // samples, and half-edges of the triangles that get them
 };
 
 }  // namespace

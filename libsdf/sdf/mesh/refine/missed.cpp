@@ -1,0 +1,109 @@
+#include "sdf/mesh/refine/missed.h"
+
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "sdf/mesh/creases/crease.h"
+#include "sdf/mesh/measure/to_mesh.h"
+#include "sdf/mesh/surface/project.h"
+
+namespace sdf {
+namespace {
+
+// Steps of the grids that triangles are looked at in, the finer one where more than this share of the
+// tolerance was seen in the coarser one: a parabola's largest value is a ninth more than between three steps.
+constexpr int kCoarseSteps = 3, kFineSteps = 7;
+constexpr float kClose = 0.75f;
+// Points of the surface whose squared distance is less than this share of the tolerance's are not looked at
+// again.
+constexpr double kWatched = 0.64;
+
+}  // namespace
+
+std::vector<SampledMesh::Index> MissedSamples::add() {
+  added_.clear();
+  std::vector<Index> all, close;
+  for (Index h = 0; h < sampled_.mesh.halfEdges(); h += 3)
+    if (sampled_.mesh.alive(h)) all.push_back(h);
+  addAt(all, kCoarseSteps, &close);
+  addAt(close, kFineSteps, nullptr);
+  addOfSurface(all);
+  addOfCreases();
+  return std::exchange(added_, {});
+}
+
+// At a grid over some triangles; `close` receives those that are nearly too far.
+void MissedSamples::addAt(const std::vector<Index>& triangles, int steps, std::vector<Index>* close) {
+  std::vector<glm::vec3> places, normals;
+  for (const Index h : triangles) {
+    const auto [a, b, c] = sampled_.mesh.corners(h);
+    for (int i = 0; i <= steps; ++i)
+      for (int k = 0; k <= steps - i; ++k) {
+        const float u = static_cast<float>(i) / static_cast<float>(steps),
+                    v = static_cast<float>(k) / static_cast<float>(steps);
+        places.push_back((1.0f - u - v) * a + u * b + v * c);
+      }
+  }
+  std::vector<glm::vec3> feet = places;
+  refineVertices(feet, normals, field_, progress_);
+  if (progress_.stopped()) return;
+  const std::size_t each = triangles.empty() ? 1 : places.size() / triangles.size();
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    float most = 0.0f;
+    for (std::size_t i = t * each; i < (t + 1) * each; ++i) {
+      const float off = glm::distance(feet[i], places[i]);
+      most = std::max(most, off);
+      if (off <= tolerance_) continue;
+      sampled_.add(triangles[t] / 3, {feet[i], normals[i]});
+      added_.push_back(triangles[t]);
+    }
+    if (close && most > kClose * tolerance_) close->push_back(triangles[t]);
+  }
+}
+
+void MissedSamples::addOfCreases() {
+  const HalfEdgeMesh& mesh = sampled_.mesh;
+  const auto normal = [&](Index h) {
+    const auto [a, b, c] = mesh.corners(h - h % 3);
+    return glm::normalize(glm::cross(b - a, c - a));
+  };
+  std::vector<CreasePoint> points;
+  std::vector<Index> edges;
+  for (Index h = 0; h < mesh.halfEdges(); ++h) {
+    if (!mesh.alive(h) || !mesh.isCrease(h) || h > mesh.twin(h)) continue;
+    const glm::vec3 middle = 0.5f * (mesh.positions[mesh.from(h)] + mesh.positions[mesh.to(h)]);
+    points.push_back(
+        {middle, {normal(h), normal(mesh.twin(h))}, glm::normalize(mesh.positions[mesh.apex(h)] - middle)});
+    edges.push_back(h);
+  }
+  std::vector<CreasePoint> placed = points;
+  placeOnCreases(placed, field_, progress_);
+  if (progress_.stopped()) return;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (!placed[i].placed || !(glm::distance(placed[i].at, points[i].at) > tolerance_)) continue;
+    sampled_.addToCrease(sampled_.creaseOf[edges[i]], {placed[i].at, placed[i].normal[0]});
+    added_.push_back(edges[i] - edges[i] % 3);
+  }
+}
+
+void MissedSamples::addOfSurface(const std::vector<Index>& triangles) {
+  const HalfEdgeMesh& mesh = sampled_.mesh;
+  std::vector<glm::uvec3> corners;
+  for (const Index h : triangles) corners.emplace_back(mesh.from(h), mesh.from(h + 1), mesh.from(h + 2));
+  const std::vector<NearestPoint> nearest = nearestTriangles(surface_, mesh.positions, corners, progress_);
+  if (progress_.stopped()) return;
+  const double limit = static_cast<double>(tolerance_) * tolerance_;
+  std::vector<glm::vec3> missed, normals, near;
+  std::vector<Index> of;
+  for (std::size_t i = 0; i < surface_.size(); ++i) {
+    if (nearest[i].squared > limit)
+      missed.push_back(surface_[i]), of.push_back(triangles[nearest[i].triangle]);
+    if (nearest[i].squared > kWatched * limit) near.push_back(surface_[i]);
+  }
+  surface_ = std::move(near);
+  gradientNormals(missed, field_, progress_, normals);
+  for (std::size_t i = 0; i < missed.size(); ++i) sampled_.add(of[i] / 3, {missed[i], normals[i]});
+  added_.insert(added_.end(), of.begin(), of.end());
+}
+
+}  // namespace sdf
