@@ -169,22 +169,20 @@ class Simplifier {
                            : ring_.creases() == 2 ? ring_.moveAlongCrease()
                                                   : glm::vec3(0.0f);
     // Where the ring is so bent that samples are seen over other triangles than their own it is left.
-    const float was = std::max(limit_, largestAround(v)), off = std::max(tolerance_, ring_.centreDistance());
+    const float was = ring_.largest() > limit_ ? std::max(limit_, largestAround(v)) : limit_,
+                off = std::max(tolerance_, ring_.centreDistance());
     if (ring_.largest() > was) return;
-    float least = ring_.energy(limit_);
+    const float energy = ring_.energy(limit_);
     glm::vec3 best = before;
-    for (const float share : {1.0f, 0.5f, 0.2f, 0.0f}) {
+    for (const float share : {1.0f, 0.4f, 0.0f}) {
       glm::vec3 at = before + share * move;
       if (!ring_.place(at)) continue;
       at += ring_.balanced() * ring_.way();
-      if (!ring_.place(at)) continue;
-      if (const float energy = ring_.energy(limit_); energy < least) {
-        least = energy, best = at;
-        break;
-      }
+      if (!ring_.place(at) || !(ring_.energy(limit_) < energy)) continue;
+      best = at;
+      break;
     }
-    if (best == before || !ring_.place(best)) return;
-    if (ring_.largest() > was || ring_.centreDistance() > off) return;
+    if (best == before || ring_.largest() > was || ring_.centreDistance() > off) return;
     ring_.assign(limit_);
     mesh_.positions[v] = best;
     touch(v);
