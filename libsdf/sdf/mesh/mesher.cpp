@@ -95,6 +95,8 @@ constexpr double kCoarsest = 16.0, kFollowed = 2.0;
 // Simplifying holds samples to these shares of the tolerance, one after the other, for what lies between
 // them: a few places in some scenes are off by up to so many tolerances.
 constexpr double kHeldTo[] = {0.999, 0.9}, kLittle = 1.25;
+// The finest voxels, times those that were asked for, that are thinned for their colours before these are.
+constexpr double kFinestPainted = 4.0;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
@@ -280,7 +282,9 @@ class Mesher {
                        const Box& bounds) {
     const std::size_t seen = fine->mesh.positions.size();
     const Witnesses witnesses(surface_, fine->mesh, painted_);
-    for (double times = coarsest; times >= 1.0 && !progress_.stopped(); times /= 2.0) {
+    bool blurred = false;  // do colours need more than the shape?
+    for (double times = coarsest; times >= (blurred ? kFinestPainted : 1.0) && !progress_.stopped();
+         times /= 2.0) {
       std::unique_ptr<Lattice> coarse;
       if (times > 1.0) {
         Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());
@@ -293,15 +297,12 @@ class Mesher {
       }
       const Lattice& lattice = coarse ? *coarse : *fine;
       FeatureMesh mesh = lattice.mesh;
-      if (mesh.triangles.empty() || !simplifyTo(mesh, lattice.field, witnesses)) continue;
+      if (mesh.triangles.empty() || !follows(mesh, lattice.field, witnesses)) continue;
+      if (!blurred && !simplifyTo(mesh, lattice.field, witnesses)) continue;
       // What is painted is looked at as closely as in the finest lattice.
-      if (painted_ && !keepsPaint(mesh, witnesses, fine->field)) {
-        mesh = lattice.mesh;
-        const ThinOptions options{options_.tolerance, lattice.band.voxelSize(), true, false};
-        if (!thin(mesh, fine->field, witnesses, options, progress_)) continue;
-        witnessed_ = witnesses.toSurface(mesh, progress_);
-        if (witnessed_.max > options_.tolerance) continue;
-      }
+      blurred = blurred || (painted_ && !keepsPaint(mesh, witnesses, fine->field));
+      if (blurred && (times < kFinestPainted || !thinPainted(mesh, lattice, witnesses, fine->field)))
+        continue;
       witnessed_.points = seen;  // the others are looked at again
       if (painted_ || !coarse)
         fine->mesh = std::move(mesh);
@@ -313,14 +314,31 @@ class Mesher {
     return false;
   }
 
-  // Simplifies a lattice's mesh; returns whether the tolerance is kept, both ways.
-  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
+  // Is a lattice's mesh near enough for simplifying to mend it?
+  bool follows(const FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
     begin("remeshing");
-    const double tolerance = options_.tolerance, limit = kFollowed * tolerance;
+    const double limit = kFollowed * options_.tolerance;
     MeshStats stats;
     measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
-    if (stats.maxDistance > limit || witnesses.toSurface(mesh, progress_).max > limit) return false;
-    if (witnesses.toBorders(mesh, progress_) > tolerance) return false;
+    return stats.maxDistance <= limit && witnesses.toSurface(mesh, progress_).max <= limit &&
+           witnesses.toBorders(mesh, progress_) <= options_.tolerance;
+  }
+
+  // The mesh becomes that of the lattice, thinned by readings of shape and colours; returns whether the
+  // tolerance is kept.
+  bool thinPainted(FeatureMesh& mesh, const Lattice& lattice, const Witnesses& witnesses,
+                   const BandField& fine) {
+    mesh = lattice.mesh;
+    const ThinOptions options{options_.tolerance, lattice.band.voxelSize(), true, false};
+    if (!thin(mesh, fine, witnesses, options, progress_)) return false;
+    witnessed_ = witnesses.toSurface(mesh, progress_);
+    return witnessed_.max <= options_.tolerance;
+  }
+
+  // Simplifies a lattice's mesh; returns whether the tolerance is kept, both ways.
+  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
+    const double tolerance = options_.tolerance;
+    MeshStats stats;
     closeCreases(mesh);
     const FeatureMesh before = mesh;
     for (const double share : kHeldTo) {
