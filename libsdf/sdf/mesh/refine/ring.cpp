@@ -100,8 +100,6 @@ void Ring::assign(float limit) {
   for (const Spoke& s : spokes_) sampled_.onTriangle.clear(s.halfEdge / 3);
   for (const Index g : gone_)
     if (g != kNone) sampled_.onTriangle.clear(g);
-  counts_.assign(spokes_.size(), 0);
-  for (const Placed& p : placed_) ++counts_[p.spoke];
   bool second = false;
   for (const Placed& p : placed_) {
     if (counts_[p.spoke] > kMostSamples && std::abs(p.height) < 0.5f * limit && (second = !second)) continue;

@@ -1,6 +1,7 @@
 // The triangles around a vertex, as they are or as a change would make them, and how far they are from the
 // samples of the surface that they would have.
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -118,10 +119,11 @@ class Ring {
   void add(Index begin, Index end);
   bool placeSector(std::size_t number, float limit);
   bool placeTriangle(Index triangle, Index guess, const Sector& sector);
-  bool isEmptyFacing(const Sector& sector);
+  bool isEmptyFacing(const Sector& sector) const;
   bool placeOnCreases(float limit);
   bool placeOnEdge(Index edge, Index from, Index to);
   void findWay();
+  std::array<glm::vec3, 2> creaseEnds() const;
   void findNearest();
   std::size_t sectorOfGone(int which) const;
 
@@ -144,9 +146,9 @@ class Ring {
   std::vector<glm::vec3> normals_;  // its triangles'
   std::vector<Placed> placed_;
   std::vector<PlacedOnCrease> placedOnCreases_;
-  Range feasible_;       // so far
-  glm::vec3 centreOff_;  // from the centre to the surface, by the sample next to it
-  std::vector<std::uint32_t> counts_;
+  Range feasible_;                     // so far
+  glm::vec3 centreOff_;                // from the centre to the surface, by the sample next to it
+  std::vector<std::uint32_t> counts_;  // of the placed samples, by spoke
 };
 
 }  // namespace sdf

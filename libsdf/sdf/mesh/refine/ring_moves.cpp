@@ -30,20 +30,26 @@ Range feasibleAlong(float height, float weight, float limit) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+// The neighbours on the crease that passes through the centre.
+std::array<glm::vec3, 2> Ring::creaseEnds() const {
+  std::array<glm::vec3, 2> ends{};
+  int count = 0;
+  for (const Spoke& s : spokes_)
+    if (s.crease) ends[count++] = s.at;
+  return ends;
+}
+
 // Along a crease the way is where its samples are on the whole, across the line through its neighbours.
 void Ring::findWay() {
   way_ = creases_ == 0 && !isTip_ ? sectors_[0].normal : glm::vec3(0.0f);
   chord_ = glm::vec3(0.0f);
   if (creases_ != 2) return;
-  glm::vec3 ends[2], sum(0.0f);
-  int count = 0;
-  for (const Spoke& s : spokes_)
-    if (s.crease) ends[count++] = s.at;
+  const auto ends = creaseEnds();
   const glm::vec3 chord = ends[1] - ends[0], out = centre_ - ends[0];
   const float square = glm::dot(chord, chord);
   if (!(square > 0.0f)) return;
   chord_ = chord / std::sqrt(square);
-  sum = out - glm::dot(out, chord) / square * chord;
+  glm::vec3 sum = out - glm::dot(out, chord) / square * chord;
   for (const PlacedOnCrease& p : placedOnCreases_) sum += p.weight * p.off;
   sum -= glm::dot(sum, chord) / square * chord;
   // Of the chord: a crease that bends less is straight but for rounding.
@@ -160,10 +166,8 @@ glm::vec3 Ring::optimalMove(const glm::vec3& normal) const {
 }
 
 glm::vec3 Ring::moveAlongCrease() const {
-  glm::vec3 sum(0.0f), ends[2];
-  int count = 0;
-  for (const Spoke& s : spokes_)
-    if (s.crease && count < 2) ends[count++] = s.at, sum += s.at - centre_;
+  const auto ends = creaseEnds();
+  const glm::vec3 sum = (ends[0] - centre_) + (ends[1] - centre_);
   const glm::vec3 chord = ends[1] - ends[0];
   return 0.5f * glm::dot(sum, chord) / glm::dot(chord, chord) * chord;
 }

@@ -17,6 +17,7 @@ constexpr float kOutside = 0.5f;
 bool Ring::place(const glm::vec3& centre, float limit) {
   centre_ = centre;
   placed_.clear();
+  counts_.assign(spokes_.size(), 0);
   feasible_ = {};
   if (!placeOnCreases(limit)) return false;
   for (std::size_t k = 0; k < sectors_.size(); ++k)
@@ -38,10 +39,10 @@ bool Ring::placeSector(std::size_t number, float limit) {
     const glm::vec3 &a = rim_[i], &b = rim_[i + 1], c = b - a, area = glm::cross(a, b);
     const float longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
     if (!(area.z > kFlattest * longest)) return false;
-    const float cosine = area.z / glm::length(area);
+    const float size = glm::length(area), cosine = area.z / size;
     if (!(cosine > kFacing) && !isTip_) return false;
     areas_.push_back(1.0f / area.z), cosines_.push_back(cosine);
-    normals_.push_back((area.x * s.x + area.y * s.y + area.z * s.normal) / glm::length(area));
+    normals_.push_back((area.x * s.x + area.y * s.y + area.z * s.normal) / size);
   }
   const auto take = [&](Index triangle, Index guess) {
     const std::size_t before = placed_.size();
@@ -62,10 +63,8 @@ bool Ring::placeSector(std::size_t number, float limit) {
 }
 
 // What has no samples is held to the normals at its vertices.
-bool Ring::isEmptyFacing(const Sector& s) {
+bool Ring::isEmptyFacing(const Sector& s) const {
   const auto n = static_cast<Index>(spokes_.size());
-  counts_.assign(n, 0);
-  for (const Placed& p : placed_) ++counts_[p.spoke];
   for (Index i = s.first; i < s.last && !isTip_; ++i) {
     if (counts_[i] > 0) continue;
     glm::vec3 around(0.0f);
@@ -102,6 +101,7 @@ bool Ring::placeTriangle(Index triangle, Index guess, const Sector& s) {
       placed.height = std::copysign(static_cast<float>(std::sqrt(square)), placed.height);
     }
     placed_.push_back(placed);
+    ++counts_[placed.spoke];
   }
   return true;
 }

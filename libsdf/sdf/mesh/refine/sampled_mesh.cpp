@@ -8,6 +8,7 @@
 #include "sdf/triangles/tree.h"
 
 namespace sdf {
+
 OverTriangle over(const glm::vec3& p, const Corners& t) {
   const glm::vec3 u = t[1] - t[0], v = t[2] - t[0], n = glm::cross(u, v), d = p - t[0];
   const float square = glm::dot(n, n), beta = glm::dot(glm::cross(d, v), n) / square,

@@ -112,12 +112,14 @@ class Simplifier {
     glm::vec3 at = mesh_.positions[v];
     if (alike) at = 0.5f * (mesh_.positions[u] + at);
     if (ring_.size() < 3 || !ring_.cut(at)) return;
+    bool placed = false;
     if (alike && isSmooth && limit_ >= tolerance_ && ring_.place(at)) {
       const glm::vec3 better =
           at + ring_.optimalMove(glm::normalize(sampled_.normals[u] + sampled_.normals[v]));
-      if (ring_.place(better, limit_)) at = better;
+      placed = ring_.place(better, limit_);
+      if (placed) at = better;
     }
-    if (!ring_.place(at, limit_)) return;
+    if (!placed && !ring_.place(at, limit_)) return;
     if (!moveToMiddle(at)) return;
     ring_.assign(limit_);
     sampled_.collapse(h, at);
