@@ -30,7 +30,7 @@ struct Options : PictureOptions {
   std::optional<int> frames;
   double framesPerSecond = 24.0;
   bool quiet = false;  ///< no word of how far the work is
-  bool fit = false;  ///< moves the eye, the scene's or this one, to where all is in view
+  bool fit = false;    ///< moves the eye, the scene's or this one, to where all is in view
 };
 
 /// Reads the command line, or answers it where it asks for help or the version. Errors: Usage.
