@@ -60,7 +60,8 @@ struct Outcome {
 Outcome holdToSearch(unsigned seed) {
   Random random(seed);
   const double size = std::pow(10.0, between(random, -2.0, 2.0));
-  Expr f = formula(random, 1 + below(random, 2)) * std::pow(10.0, between(random, -6.0, 6.0));
+  const Expr drawn = formula(random, 1 + below(random, 2));
+  const Expr f = drawn * std::pow(10.0, between(random, -6.0, 6.0));
   const Expr scaled = remap(f, {position().x / size, position().y / size, position().z / size}, 1.0 / size);
   const Box bounds = Box::centred(glm::dvec3(2.0 * size));
   const double voxel = 4.0 * size / (16 + below(random, 24));

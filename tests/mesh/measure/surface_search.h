@@ -61,9 +61,10 @@ class Search {
     double spread = 0.15;
     for (int round = 0; round < kRounds; ++round, spread *= 0.4) {
       const glm::dvec3 middle = best;
-      for (int i = 0; i < kAround; ++i)
-        look(glm::normalize(middle + spread * glm::dvec3(between(random, -1, 1), between(random, -1, 1),
-                                                         between(random, -1, 1))));
+      for (int i = 0; i < kAround; ++i) {
+        const glm::dvec3 aside{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
+        look(glm::normalize(middle + spread * aside));
+      }
     }
     return least;
   }
