@@ -143,5 +143,22 @@ TEST(Films, SolidsThatTouchInAPointOfTheLatticeStayTwo) {
   EXPECT_EQ(stats.eulerCharacteristic, 4);
 }
 
+// The bounds' own distance, a unit or so, is what is left of a formula whose value is in thousands; and its
+// slope is ten thousand times as much at their corners.
+TEST(Films, AreNotSeenWhereAFormulaIsOnlySteeperElsewhere) {
+  const Vec3E p = position(), squares{square(p.x), square(p.y), square(p.z)};
+  const Expr quartic = dot(squares, squares) - 0.25;
+  for (const double scale : {1.0, 1e4, 1e6}) {
+    const double voxel = 0.15;
+    Progress progress;
+    const auto made = meshShape(field(scale * quartic, Box::centred(glm::dvec3(2.0))), "cube",
+                                {.voxelSize = voxel}, progress);
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    EXPECT_LT(made->stats.maxDistance, 0.1 * voxel) << scale;
+    EXPECT_EQ(made->stats.components, 1) << scale;
+    EXPECT_EQ(made->stats.eulerCharacteristic, 2) << scale;
+  }
+}
+
 }  // namespace unresolved_test
 }  // namespace sdf

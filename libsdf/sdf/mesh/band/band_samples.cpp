@@ -100,6 +100,18 @@ int settledSign(const Samples& samples, const Coord& c, float film, float steep)
   return sheet || (slit && open) ? 1 : slit ? -1 : signAround(samples, c, film);
 }
 
+/// The most that the distance changes by from a sample to both of its neighbours on a line.
+float steepnessAround(const Samples& samples, const Coord& c) {
+  const float value = samples.at(c);
+  float most = 0.0f;
+  for (int i = 14; i < 27; ++i) {
+    const Coord way(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
+    const float before = std::abs(samples.at(c - way) - value), after = std::abs(samples.at(c + way) - value);
+    most = std::max(most, std::min(before, after));
+  }
+  return most;
+}
+
 /// Could the lattice edge from `value` to `next` cross the surface twice? The distance falls towards the edge
 /// from both sides, and the two distances fit into it.
 bool mayCrossTwice(float before, float value, float next, float after, float slope) {
@@ -171,6 +183,8 @@ float nearness(const Samples& samples, const Coord& c, float voxel) {
 
 // Where two solids touch in a face, or a cut ends in one, the distance is zero up to rounding on a film that
 // is no part of the surface. Which sign its samples have would be chance; both neighbours along an axis tell.
+// What is near to zero goes by how steep the distance is around it: of a formula the bound may be that of a
+// place far away, thousands of times more.
 void NarrowBand::settleZeros() {
   struct Change {
     Coord at;
@@ -180,11 +194,13 @@ void NarrowBand::settleZeros() {
   const auto changes = overLeaves<Change>(tree, [&](const Leaf& leaf, auto& found) {
     if (!leaf.transientData()) return;
     const float slope = static_cast<float>(grid_->slopeAt(leaf.origin()) * grid_->voxelSize);
-    const float film = kFilm * slope;
     const Samples samples(leaf, tree);
-    const auto near = [&](int x, int y, int z) { return std::abs(samples.at(x, y, z)) <= film; };
+    const auto near = [&](int x, int y, int z) { return std::abs(samples.at(x, y, z)) <= kFilm * slope; };
     forEach(near, [&](int x, int y, int z) {
-      const int sign = settledSign(samples, Coord(x, y, z), film, kSteep * slope);
+      const Coord c(x, y, z);
+      const float steep = std::min(slope, steepnessAround(samples, c)), film = kFilm * steep;
+      if (std::abs(samples.at(c)) > film) return;
+      const int sign = settledSign(samples, c, film, kSteep * steep);
       if (sign != 0) found.push_back({samples.coord(x, y, z), static_cast<float>(sign) * film});
     });
   });

@@ -29,13 +29,15 @@ double steepest(const Expr& formula, const Box& region) {
 }
 
 // The formula where it is asked for near its bounds, which alone has a slope: elsewhere it is looked up at
-// the nearest point of them, and is no less than the way there. A point of a box moves no more than the one
-// that it is nearest to.
+// the nearest point of them, and is no less than the way there, times the slope: within, where the solid is,
+// this is below the formula, which it leaves as it is. A point of a box moves no more than the one that it is
+// nearest to.
 Expr nearBounds(const Expr& formula, const Box& bounds) {
   const Box near = bounds.grown(kMargin * bounds.longestSide());
   const double slope = steepest(formula, near);
   if (slope == kInfinity) return formula;
-  return max(heldWithin(formula, near).claimLipschitz(slope), *outsideBox(near));
+  const double rise = slope > 0.0 ? slope : 1.0;
+  return max(heldWithin(formula, near).claimLipschitz(slope), rise * *outsideBox(near));
 }
 
 // The slope at a point, of all values of the parameters.
