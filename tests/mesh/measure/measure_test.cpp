@@ -288,5 +288,20 @@ TEST(MeasureDistance, BeyondAThinRimIsThatToTheRim) {
     }
 }
 
+// Inside of two balls, two voxels from the circle in which they meet: nothing of them is nearer.
+TEST(MeasureDistance, FromWithinAUnionIsThatToWhereItsPartsMeet) {
+  const Vec3E p = position(), apart(0.8, 0.0, 0.0), a = p - apart, b = p + apart;
+  const Expr formula = min(dot(a, a) - 1.0, dot(b, b) - 1.0);
+  const double h = 0.15;
+  for (const double turn : {0.2, 0.9, 2.0, 3.5, 5.1})
+    for (const double x : {-0.07, 0.0, 0.04})
+      for (const double radius : {0.3, 0.4}) {
+        const glm::dvec3 from(x, radius * std::cos(turn), radius * std::sin(turn));
+        const double truth = std::hypot(x, 0.6 - radius);
+        EXPECT_NEAR(distanceOfPoint(formula, h, from).maxDistance, truth, 0.01 * truth)
+            << turn << ", " << x << ", " << radius;
+      }
+}
+
 }  // namespace measure_test
 }  // namespace sdf::test

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "sdf/mesh/measure/read_values.h"
+#include "sdf/mesh/measure/search.h"
 #include "sdf/mesh/surface/surface_points.h"
 
 namespace sdf {
@@ -16,9 +17,6 @@ namespace {
 constexpr std::size_t kAlong = 9;
 constexpr int kIsolations = 5;
 constexpr int kBisections = 24;
-// Of the largest coordinate or the shape's size: some times what lies between it and the next float. The
-// numbers of two shapes that touch are rounded each by themselves.
-constexpr float kFilm = 8.0f * 0x1p-23f;
 
 }  // namespace
 
@@ -114,7 +112,7 @@ void CellRoots::bisect(const Tape& tape) {
 void CellRoots::takePoints(const Tape& tape) {
   std::vector<Reading> beside;
   for (const Bracket& b : brackets_) {
-    const glm::vec3 film = kFilm * std::max(largestCoordinate(b.outside), size_) * b.way;
+    const glm::vec3 film = filmAt(b.outside, size_) * b.way;
     beside.push_back({b.inside - film, 0.0f});
     beside.push_back({b.outside + film, 0.0f});
   }

@@ -99,43 +99,63 @@ class FarPoints {
   /// Of those so far.
   float largest() const { return largest_; }
 
-  /// Each is as far as it was added with or nearer: looked for in all directions from the farthest on, until
-  /// no other can be farther.
+  /// Each is as far as it was added with or nearer. The surface is looked for in all directions from the
+  /// farthest on, and closely from the farthest of these, until no other can be farther.
   Far farthest(const LocalField& field, Progress& progress) {
     Far farthest;
+    std::vector<Far> looked;
     std::ranges::make_heap(points_, {}, &Far::distance);
-    while (!points_.empty() && points_.front().distance > farthest.distance && !progress.stopped()) {
-      const std::vector<Far> next = takeNext();
-      forEachRun(
-          next.size(), [&](std::size_t i) { return next[i].at; }, field, progress,
-          [&](const PointRun& run) {
-            float distances[kBatchPoints];
-            findSurfaceAllAround(run, distances);
-            for (std::size_t i = 0; i < run.count; ++i) looked_[run.first + i] = std::abs(distances[i]);
-          });
-      for (std::size_t i = 0; i < next.size(); ++i)
-        if (const float d = std::min(looked_[i], next[i].distance); d > farthest.distance)
-          farthest = {d, next[i].at};
+    for (std::size_t count = kFewest; !progress.stopped(); count = std::min(2 * count, kMost)) {
+      while (distanceOf(points_) > std::max(distanceOf(looked), farthest.distance) && !progress.stopped())
+        for (const Far& far : look(Look::AllAround, takeFrom(points_, kMost), field, progress)) {
+          looked.push_back(far);
+          std::ranges::push_heap(looked, {}, &Far::distance);
+        }
+      if (distanceOf(looked) <= kSame * farthest.distance) break;
+      for (const Far& far : look(Look::Closely, takeFrom(looked, count), field, progress))
+        if (far.distance > farthest.distance) farthest = far;
     }
-    return farthest;
+    return distanceOf(looked) > farthest.distance ? looked.front() : farthest;
   }
 
  private:
-  static constexpr std::size_t kAtATime = 2 * kBatchPoints;
+  static constexpr std::size_t kFewest = 16, kMost = 2 * kBatchPoints;  // at a time
+  // What is farther by less is not looked at closely, and taken as it is.
+  static constexpr float kSame = 1.001f;
 
-  std::vector<Far> takeNext() {
-    std::vector<Far> next;
-    while (next.size() < kAtATime && !points_.empty()) {
-      std::ranges::pop_heap(points_, {}, &Far::distance);
-      next.push_back(points_.back());
-      points_.pop_back();
+  // Of the farthest in a heap.
+  static float distanceOf(const std::vector<Far>& heap) {
+    return heap.empty() ? 0.0f : heap.front().distance;
+  }
+
+  static std::vector<Far> takeFrom(std::vector<Far>& heap, std::size_t count) {
+    std::vector<Far> taken;
+    while (taken.size() < count && !heap.empty()) {
+      std::ranges::pop_heap(heap, {}, &Far::distance);
+      taken.push_back(heap.back());
+      heap.pop_back();
     }
-    return next;
+    return taken;
+  }
+
+  static std::vector<Far> look(Look look, std::vector<Far> points, const LocalField& field,
+                               Progress& progress) {
+    forEachRun(
+        points.size(), [&](std::size_t i) { return points[i].at; }, field, progress,
+        [&](const PointRun& run) {
+          float distances[kBatchPoints];
+          findSurface(run, distances, look);
+          for (std::size_t i = 0; i < run.count; ++i) {
+            float& d = points[run.first + i].distance;
+            const float found = std::abs(distances[i]);
+            if (found < d || (look == Look::Closely && found > d)) d = found;
+          }
+        });
+    return points;
   }
 
   std::vector<Far> points_;
   float largest_ = 0.0f;
-  float looked_[kAtATime];
 };
 
 }  // namespace

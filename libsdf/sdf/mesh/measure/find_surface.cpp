@@ -32,8 +32,8 @@ constexpr double kAsExpected = 2.0;
 // the gradient is none, and there is no surface in reach.
 class RunDistances {
  public:
-  RunDistances(const PointRun& run, const RunGradients& g, bool allAround, float* distances)
-      : run_(run), g_(g), allAround_(allAround), distances_(distances) {}
+  RunDistances(const PointRun& run, const RunGradients& g, Look look, float* distances)
+      : run_(run), g_(g), look_(look), distances_(distances) {}
 
   void find() {
     std::vector<std::size_t> unmet = takeFirstOrder();
@@ -49,7 +49,7 @@ class RunDistances {
     std::vector<std::size_t> unmet;
     for (std::size_t i = 0; i < run_.count; ++i) {
       distances_[i] = std::abs(g_.distance(i));
-      const bool isTaken = isMet(i) && distances_[i] <= kNear * run_.voxel && !allAround_;
+      const bool isTaken = isMet(i) && distances_[i] <= kNear * run_.voxel && look_ == Look::Near;
       if (distances_[i] != 0.0f && !isTaken) unmet.push_back(i);
     }
     return unmet;
@@ -103,7 +103,8 @@ class RunDistances {
     for (std::size_t k = 0; k < ways.size(); ++k) {
       met[k] = nearer(met[k], along[k]);
       const double distance = met[k].distance;
-      if (distance <= kAsExpected * distances_[unmet[k]] && distance <= kNear * run_.voxel && !allAround_)
+      if (distance <= kAsExpected * distances_[unmet[k]] && distance <= kNear * run_.voxel &&
+          look_ == Look::Near)
         continue;
       open.push_back(k);
       around.push_back(ways[k]);
@@ -111,37 +112,37 @@ class RunDistances {
     }
     met = meetNearer(run_, ways, std::move(met));
     std::vector<Met> nearest = meetAround(run_, around);
-    const std::vector<Met> all = meetAllAround(run_, around);
+    const std::vector<Met> all = meetAllAround(run_, around, look_ == Look::Closely ? 2 : 1);
     for (std::size_t k = 0; k < open.size(); ++k) nearest[k] = nearer(nearest[k], all[k]);
     nearest = meetNearer(run_, around, std::move(nearest));
+    if (look_ == Look::Closely) {
+      for (std::size_t k = 0; k < open.size(); ++k) nearest[k] = nearer(nearest[k], met[open[k]]);
+      nearest = meetBeside(run_, around, std::move(nearest));
+    }
     for (std::size_t k = 0; k < open.size(); ++k) met[open[k]] = nearer(met[open[k]], nearest[k]);
     for (std::size_t k = 0; k < ways.size(); ++k) take(unmet[k], met[k].distance);
   }
 
   // Where nothing is found the first-order figure stays.
   void take(std::size_t i, double found) {
-    if (isMet(i)) found = std::min(found, double{distances_[i]});
+    if (isMet(i) && look_ != Look::Closely) found = std::min(found, double{distances_[i]});
     if (found < kInfinity) distances_[i] = static_cast<float>(found);
   }
 
   const PointRun& run_;
   const RunGradients& g_;
-  bool allAround_;
+  Look look_;
   float* distances_;
   float short_[kBatchPoints], long_[kBatchPoints];
 };
 
-void find(const PointRun& run, bool allAround, float* distances) {
-  RunGradients g;
-  g.evaluate(run, run.points);
-  RunDistances(run, g, allAround, distances).find();
-  for (std::size_t i = 0; i < run.count; ++i) distances[i] = std::copysign(distances[i], g.value[i]);
-}
-
 }  // namespace
 
-void findSurface(const PointRun& run, float* distances) { find(run, false, distances); }
-
-void findSurfaceAllAround(const PointRun& run, float* distances) { find(run, true, distances); }
+void findSurface(const PointRun& run, float* distances, Look look) {
+  RunGradients g;
+  g.evaluate(run, run.points);
+  RunDistances(run, g, look, distances).find();
+  for (std::size_t i = 0; i < run.count; ++i) distances[i] = std::copysign(distances[i], g.value[i]);
+}
 
 }  // namespace sdf

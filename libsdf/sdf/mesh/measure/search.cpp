@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -82,6 +84,13 @@ std::vector<Piece> piecesOf(const PointRun& run, const std::vector<Way>& ways) {
 }
 
 }  // namespace
+
+glm::dvec3 leastAxis(const glm::dvec3& way) {
+  const glm::dvec3 size = glm::abs(way);
+  glm::dvec3 axis(0.0);
+  axis[size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2] = 1.0;
+  return axis;
+}
 
 std::vector<Met> meetAlong(const PointRun& run, const std::vector<Way>& ways) {
   std::vector<Piece> pieces = piecesOf(run, ways);
@@ -165,15 +174,24 @@ std::vector<Met> meetAround(const PointRun& run, const std::vector<Way>& points)
   return met;
 }
 
-std::vector<Met> meetAllAround(const PointRun& run, const std::vector<Way>& points) {
-  constexpr int kLines = kNeighbourhood / 2;  // through the middle
+std::vector<Met> meetAllAround(const PointRun& run, const std::vector<Way>& points, int fineness) {
+  std::vector<glm::dvec3> lines;
+  for (int x = -fineness; x <= fineness; ++x)
+    for (int y = -fineness; y <= fineness; ++y)
+      for (int z = -fineness; z <= fineness; ++z) {
+        const bool isOutermost = std::max({std::abs(x), std::abs(y), std::abs(z)}) == fineness;
+        const bool isSecondEnd = x > 0 || (x == 0 && (y > 0 || (y == 0 && z > 0)));
+        if (isOutermost && isSecondEnd) lines.push_back(glm::normalize(glm::dvec3(x, y, z)));
+      }
   std::vector<Way> ways;
   for (const Way& point : points)
-    for (int i = kLines + 1; i < kNeighbourhood; ++i)
-      ways.push_back({point.from, point.inside, glm::normalize(glm::dvec3(neighbour(i))), point.reach});
+    for (const glm::dvec3& line : lines) ways.push_back({point.from, point.inside, line, point.reach});
   const std::vector<Met> along = meetAlong(run, ways);
   std::vector<Met> met(points.size());
-  for (std::size_t i = 0; i < along.size(); ++i) met[i / kLines] = nearer(met[i / kLines], along[i]);
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    Met& m = met[i / lines.size()];
+    m = nearer(m, along[i]);
+  }
   return met;
 }
 
@@ -209,6 +227,37 @@ std::vector<Met> meetNearer(const PointRun& run, const std::vector<Way>& points,
       if (along[k].distance < kWorthwhile * m.distance) open.push_back(which[k]);
       m = nearer(m, along[k]);
     }
+  }
+  return met;
+}
+
+std::vector<Met> meetBeside(const PointRun& run, const std::vector<Way>& points, std::vector<Met> met) {
+  constexpr int kSides = 6;
+  constexpr double kFirst = 0.5, kLast = 0x1p-7;  // tangents of the angles to a direction
+  constexpr double kWorthwhile = 0.999;
+  std::vector<double> aside(points.size(), kFirst);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < met.size(); ++i)
+    if (met[i].distance > 0.0 && met[i].distance < kInfinity) open.push_back(i);
+  for (int round = 0; !open.empty(); ++round) {
+    std::vector<Way> ways;
+    for (const std::size_t i : open) {
+      const glm::dvec3 way = met[i].direction;
+      const glm::dvec3 u = glm::normalize(glm::cross(way, leastAxis(way))), v = glm::cross(way, u);
+      for (int k = 0; k < kSides; ++k) {
+        const double turn = (k + 0.5 * (round % 2)) * 2.0 * std::numbers::pi / kSides;
+        const glm::dvec3 beside = way + aside[i] * (std::cos(turn) * u + std::sin(turn) * v);
+        ways.push_back({points[i].from, points[i].inside, glm::normalize(beside), met[i].distance});
+      }
+    }
+    const std::vector<Met> along = meetAlong(run, ways);
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      Met& m = met[open[k]];
+      const double before = m.distance;
+      for (int side = 0; side < kSides; ++side) m = nearer(m, along[kSides * k + side]);
+      if (!(m.distance < kWorthwhile * before)) aside[open[k]] /= 2.0;
+    }
+    std::erase_if(open, [&](std::size_t i) { return aside[i] < kLast || !(met[i].distance > 0.0); });
   }
   return met;
 }
