@@ -281,7 +281,7 @@ class Mesher {
   bool simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, const ModelTapes& model,
                        const Box& bounds) {
     const std::size_t seen = fine->mesh.positions.size();
-    const Witnesses witnesses(surface_, fine->mesh, painted_);
+    Witnesses witnesses(surface_, fine->mesh, painted_);
     bool blurred = false;  // do colours need more than the shape?
     for (double times = coarsest; times >= (blurred ? kFinestPainted : 1.0) && !progress_.stopped();
          times /= 2.0) {
@@ -298,10 +298,10 @@ class Mesher {
       const Lattice& lattice = coarse ? *coarse : *fine;
       FeatureMesh mesh = lattice.mesh;
       if (mesh.triangles.empty() || !follows(mesh, lattice.field, witnesses)) continue;
-      if (!blurred && !simplifyTo(mesh, lattice.field, witnesses)) continue;
+      if (!blurred && !simplifyTo(mesh, lattice.field, bounds, witnesses)) continue;
       // What is painted is looked at as closely as in the finest lattice.
       blurred = blurred || (painted_ && !keepsPaint(mesh, witnesses, fine->field));
-      if (blurred && (times < kFinestPainted || !thinPainted(mesh, lattice, witnesses, fine->field)))
+      if (blurred && (times < kFinestPainted || !thinPainted(mesh, lattice, bounds, witnesses, fine->field)))
         continue;
       witnessed_.points = seen;  // the others are looked at again
       if (painted_ || !coarse)
@@ -326,17 +326,31 @@ class Mesher {
 
   // The mesh becomes that of the lattice, thinned by readings of shape and colours; returns whether the
   // tolerance is kept.
-  bool thinPainted(FeatureMesh& mesh, const Lattice& lattice, const Witnesses& witnesses,
+  bool thinPainted(FeatureMesh& mesh, const Lattice& lattice, const Box& bounds, Witnesses& witnesses,
                    const BandField& fine) {
     mesh = lattice.mesh;
     const ThinOptions options{options_.tolerance, lattice.band.voxelSize(), true, false};
     if (!thin(mesh, fine, witnesses, options, progress_)) return false;
     witnessed_ = witnesses.toSurface(mesh, progress_);
-    return witnessed_.max <= options_.tolerance;
+    return witnessed_.max <= options_.tolerance &&
+           witness(mesh, fine, bounds, witnesses) <= options_.tolerance;
+  }
+
+  // How far the surface is from the mesh between the witnesses. What is so far that the mesh may come to miss
+  // it is one of them from now on.
+  double witness(const FeatureMesh& mesh, const BandField& field, const Box& bounds, Witnesses& witnesses) {
+    const std::vector<FarPoint> far =
+        farthestOfSurface(surface_, field, bounds.longestSide(), mesh.positions, mesh.triangles, progress_);
+    std::vector<glm::vec3> missed;
+    for (std::size_t i = surface_.size(); i < far.size(); ++i)
+      if (far[i].distance > kHeldTo[1] * options_.tolerance) missed.push_back(far[i].at);
+    surface_.insert(surface_.end(), missed.begin(), missed.end());
+    witnesses.add(missed);
+    return farthestOf(far).max;
   }
 
   // Simplifies a lattice's mesh; returns whether the tolerance is kept, both ways.
-  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
+  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const Box& bounds, Witnesses& witnesses) {
     const double tolerance = options_.tolerance;
     MeshStats stats;
     closeCreases(mesh);
@@ -347,7 +361,8 @@ class Mesher {
       if (progress_.stopped()) return false;
       measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
       witnessed_ = witnesses.toSurface(mesh, progress_);
-      const double off = std::max(stats.maxDistance, witnessed_.max);
+      double off = std::max(stats.maxDistance, witnessed_.max);
+      if (off <= tolerance) off = std::max(off, witness(mesh, field, bounds, witnesses));
       if (off <= tolerance && crossingTriangles(mesh.positions, mesh.triangles).empty()) return true;
       if (off > kLittle * tolerance) return false;
     }
@@ -392,7 +407,7 @@ class Mesher {
     measureCrossings(features);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
-    measureToMesh(features, model, bounds);
+    measureToMesh(features, field, model, bounds);
     if (Status s = checkTolerance(); !s) return s.error();
     if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
     begin("normals");
@@ -409,13 +424,16 @@ class Mesher {
   }
 
   // What the mesh lacks is seen from the surface only.
-  void measureToMesh(const FeatureMesh& mesh, const ModelTapes& model, const Box& bounds) {
+  void measureToMesh(const FeatureMesh& mesh, const BandField& field, const ModelTapes& model,
+                     const Box& bounds) {
     if (surface_.empty()) surface_ = surfacePoints(model, bounds, progress_);
     MeshStats& stats = result_.stats;
     // A cell's diagonal, beyond which there is no vertex in a cell; few triangles may be as far as the
     // tolerance.
     const double limit = std::max(std::numbers::sqrt3 * stats.voxelSize, stats.tolerance);
-    const SurfaceDistance missed = distanceToMesh(surface_, mesh.positions, mesh.triangles, progress_, limit);
+    const SurfaceDistance missed = farthestOf(
+        farthestOfSurface(surface_, field, bounds.longestSide(), mesh.positions, mesh.triangles, progress_),
+        limit);
     if (stats.unresolved == 0 && missed.beyond > 0)
       stats.unresolved = missed.beyond, stats.firstUnresolved = missed.farthest;
     stats.surfacePoints = missed.points + witnessed_.points;

@@ -5,6 +5,7 @@
 #include "mesh/scenes.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/pattern.h"
 #include "sdf/shape/solids/flats.h"
 
 namespace sdf::test {
@@ -111,6 +112,40 @@ TEST(DistanceToMesh, IsTheLargestOfKnownPoints) {
   EXPECT_EQ(distanceToMesh({}, corners(glm::vec3(1.0f)), kSides, progress).points, 0u);
 }
 
+// A corner of a box is cut off, and an edge: points in cells of 0.04 miss what is farthest.
+TEST(FarthestOfSurface, IsClimbedTo) {
+  const glm::vec3 half(1.0f, 0.5f, 0.25f);
+  const Shape shape = box(Vec3E(glm::dvec3(half)));
+  const double voxel = 0.02;
+  const NarrowBand band = bandOf(shape, shape.bounds, voxel);
+  const BandField field(band, wholeTapes(tapeOf(shape)));
+  for (const std::vector<int>& moved : {std::vector{7}, std::vector{3, 7}, std::vector{0}}) {
+    std::vector<glm::vec3> positions = corners(half);
+    for (const int k : moved) positions[k] -= 0.02f * glm::sign(positions[k]) * glm::vec3(0.0f, 1.0f, 1.0f);
+    Progress progress;
+    const double truth = distanceToMesh({corners(half)[moved[0]]}, positions, kSides, progress).max;
+    const std::vector<glm::vec3> points = surfacePoints(Model(shape).at(), shape.bounds, progress);
+    const SurfaceDistance d = farthestOf(farthestOfSurface(points, field, 2.0, positions, kSides, progress));
+    EXPECT_NEAR(d.max, truth, 0.01 * truth) << moved.size();
+    // What is reached lies on the surface.
+    const glm::vec3 away = glm::abs(glm::abs(d.farthest) - half);
+    EXPECT_LE(std::min({away.x, away.y, away.z}), 1e-6f);
+  }
+}
+
+// Three discs are drawn out by a twist: what voxels as coarse as these cut off of their rims, points in cells
+// do not see.
+TEST(FarthestOfSurface, OfATwistedRimIsWhatTheMeshLacks) {
+  const Shape disc = cylinder(1.0, 0.0642);
+  const Shape row = repeatGrid(disc, {0.0, 0.639, 0.499}, glm::ivec3(1, 3, 1));
+  const Shape shape = twist(round(row, 0.425), -86.6 * kPi / 180.0) & box(Vec3E(4.0));
+  Progress progress;
+  const auto made = meshShape(shape, "row", {.voxelSize = findBounds(shape).longestSide() / 18.0}, progress);
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  // Points alone say 0.017.
+  EXPECT_NEAR(made->stats.maxDistance, 0.0191, 2e-4);
+}
+
 TEST(DistanceToMesh, DoesNotDependOnTheNumberOfThreads) {
   const auto run = [](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -128,7 +163,7 @@ TEST(DistanceToMesh, DoesNotDependOnTheNumberOfThreads) {
 TEST(DistanceToMesh, OfAPieceThatVoxelsPassCountsAsUnresolved) {
   const Vec3E p = position(), q = p - Vec3E(1.5, 0.0, 0.0);
   const Shape both = field(min(dot(p, p) - 1.0, dot(q, q) - 1e-4), {{-1.2, -1.2, -1.2}, {1.8, 1.2, 1.2}});
-  for (const double voxel : {0.2, 0.15, 0.07}) {
+  for (const double voxel : {0.2, 0.16, 0.07}) {
     Progress progress;
     const auto meshed = meshShape(both, "both", {.voxelSize = voxel}, progress);
     ASSERT_TRUE(meshed.ok()) << meshed.error().message;

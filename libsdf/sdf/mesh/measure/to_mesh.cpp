@@ -5,10 +5,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "sdf/eval/scalar_reading.h"
@@ -146,11 +149,11 @@ std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds,
   return all;
 }
 
-std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
-                                           const std::vector<glm::vec3>& positions,
-                                           const std::vector<glm::uvec3>& triangles, Progress& progress) {
+namespace {
+
+std::vector<NearestPoint> nearestIn(const TriangleTree& tree, const std::vector<glm::vec3>& points,
+                                    Progress& progress) {
   constexpr std::size_t kAtATime = 256;
-  const TriangleTree tree(positions, triangles);
   std::vector<NearestPoint> nearest(points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kAtATime), [&](const auto& range) {
     std::uint32_t hint = 0;
@@ -162,15 +165,64 @@ std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
   return nearest;
 }
 
+std::vector<FarPoint> farPoints(const std::vector<glm::vec3>& points,
+                                const std::vector<NearestPoint>& nearest) {
+  std::vector<FarPoint> all;
+  for (std::size_t i = 0; i < points.size(); ++i) all.push_back({points[i], std::sqrt(nearest[i].squared)});
+  return all;
+}
+
+// Those to climb from: half of them the farthest in each of the cells of a grid over the shape, from the
+// farthest on, and then the farthest of the others.
+std::vector<FarPoint> startsAmong(std::vector<FarPoint> points, double size, std::size_t count) {
+  constexpr double kCellsAlong = 32.0;
+  std::ranges::stable_sort(points, std::ranges::greater{}, &FarPoint::distance);
+  std::set<std::array<double, 3>> taken;
+  std::vector<FarPoint> starts, others;
+  for (const FarPoint& p : points) {
+    const glm::dvec3 cell = glm::floor(glm::dvec3(p.at) * (kCellsAlong / size));
+    if (starts.size() < count / 2 && taken.insert({cell.x, cell.y, cell.z}).second)
+      starts.push_back(p);
+    else if (others.size() < count / 2)
+      others.push_back(p);
+  }
+  starts.insert(starts.end(), others.begin(), others.end());
+  return starts;
+}
+
+}  // namespace
+
+std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
+                                           const std::vector<glm::vec3>& positions,
+                                           const std::vector<glm::uvec3>& triangles, Progress& progress) {
+  return nearestIn(TriangleTree(positions, triangles), points, progress);
+}
+
 SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& positions,
                                const std::vector<glm::uvec3>& triangles, Progress& progress, double limit) {
   const std::vector<NearestPoint> nearest = nearestTriangles(points, positions, triangles, progress);
+  if (progress.stopped()) return {.points = points.size()};
+  return farthestOf(farPoints(points, nearest), limit);
+}
+
+std::vector<FarPoint> farthestOfSurface(const std::vector<glm::vec3>& points, const LocalField& field,
+                                        double size, const std::vector<glm::vec3>& positions,
+                                        const std::vector<glm::uvec3>& triangles, Progress& progress,
+                                        std::size_t climbers) {
+  const TriangleTree tree(positions, triangles);
+  const std::vector<NearestPoint> nearest = nearestIn(tree, points, progress);
+  if (progress.stopped()) return {};
+  std::vector<FarPoint> all = farPoints(points, nearest), climbed = startsAmong(all, size, climbers);
+  climb(climbed, field, size, tree, progress);
+  all.insert(all.end(), climbed.begin(), climbed.end());
+  return all;
+}
+
+SurfaceDistance farthestOf(const std::vector<FarPoint>& points, double limit) {
   SurfaceDistance all{.points = points.size()};
-  if (progress.stopped()) return all;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double d = std::sqrt(nearest[i].squared);
-    if (d > all.max) all.max = d, all.farthest = points[i];
-    if (d > limit) ++all.beyond;
+  for (const FarPoint& p : points) {
+    if (p.distance > all.max) all.max = p.distance, all.farthest = p.at;
+    if (p.distance > limit) ++all.beyond;
   }
   return all;
 }

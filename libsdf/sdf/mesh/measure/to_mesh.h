@@ -6,6 +6,8 @@
 
 #include "sdf/base/box.h"
 #include "sdf/base/progress.h"
+#include "sdf/mesh/measure/climb.h"
+#include "sdf/mesh/surface/local_field.h"
 #include "sdf/model/model.h"
 #include "sdf/triangles/tree.h"
 
@@ -32,9 +34,20 @@ std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
                                            const std::vector<glm::vec3>& positions,
                                            const std::vector<glm::uvec3>& triangles, Progress& progress);
 
-/// The largest of these distances, and how many are larger than `limit`.
+/// The largest of these points' distances, and how many are larger than `limit`.
 SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& positions,
                                const std::vector<glm::uvec3>& triangles, Progress& progress,
                                double limit = kInfinity);
+
+/// Points of the surface of a shape as large as that, and how far they are from a mesh: those that are known,
+/// and what is reached by climbing (climb.h) from so many of the farthest all over the shape. Fewer miss
+/// some.
+std::vector<FarPoint> farthestOfSurface(const std::vector<glm::vec3>& points, const LocalField& field,
+                                        double size, const std::vector<glm::vec3>& positions,
+                                        const std::vector<glm::uvec3>& triangles, Progress& progress,
+                                        std::size_t climbers = 256);
+
+/// The largest of these distances, and how many are larger than `limit`.
+SurfaceDistance farthestOf(const std::vector<FarPoint>& points, double limit = kInfinity);
 
 }  // namespace sdf

@@ -24,6 +24,10 @@ Witnesses::Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& m
   if (withBorders) addBorders(mesh);
 }
 
+void Witnesses::add(const std::vector<glm::vec3>& surface) {
+  surface_.insert(surface_.end(), surface.begin(), surface.end());
+}
+
 void Witnesses::addBorders(const FeatureMesh& mesh) {
   std::vector<char> onCrease(mesh.positions.size(), 0);
   for (const auto& [a, b] : mesh.creases) onCrease[a] = onCrease[b] = 1;

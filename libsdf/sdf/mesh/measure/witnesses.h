@@ -21,6 +21,9 @@ class Witnesses {
   Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, double limit, bool withBorders,
             Progress& progress);
 
+  /// Points of the surface, that were found since.
+  void add(const std::vector<glm::vec3>& surface);
+
   /// Points of the surface.
   const std::vector<glm::vec3>& surface() const { return surface_; }
 

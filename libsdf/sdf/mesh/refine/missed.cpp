@@ -17,6 +17,8 @@ constexpr float kClose = 0.75f;
 // Points of the surface whose squared distance is less than this share of the tolerance's are not looked at
 // again.
 constexpr double kWatched = 0.64;
+// Few, as they set out again from what the last ones found.
+constexpr std::size_t kClimbers = 64;
 
 }  // namespace
 
@@ -29,6 +31,7 @@ std::vector<SampledMesh::Index> MissedSamples::add() {
   addAt(close, kFineSteps, nullptr);
   addOfSurface(all);
   addOfCreases();
+  if (++sinceClimb_ > fruitless_) addClimbed(all);
   return std::exchange(added_, {});
 }
 
@@ -86,10 +89,34 @@ void MissedSamples::addOfCreases() {
   }
 }
 
-void MissedSamples::addOfSurface(const std::vector<Index>& triangles) {
+std::vector<glm::uvec3> MissedSamples::cornersOf(const std::vector<Index>& triangles) const {
   const HalfEdgeMesh& mesh = sampled_.mesh;
   std::vector<glm::uvec3> corners;
   for (const Index h : triangles) corners.emplace_back(mesh.from(h), mesh.from(h + 1), mesh.from(h + 2));
+  return corners;
+}
+
+// What lies between the surface's points and is farther than they are.
+void MissedSamples::addClimbed(const std::vector<Index>& triangles) {
+  const std::vector<glm::uvec3> corners = cornersOf(triangles);
+  Box bounds;
+  for (const glm::uvec3& t : corners) {
+    const glm::dvec3 at(sampled_.mesh.positions[t.x]);
+    bounds = unite(bounds, {at, at});
+  }
+  const std::vector<FarPoint> far = farthestOfSurface(surface_, field_, bounds.longestSide(),
+                                                      sampled_.mesh.positions, corners, progress_, kClimbers);
+  const std::size_t known = surface_.size();
+  for (std::size_t i = known; i < far.size(); ++i)
+    if (far[i].distance > tolerance_) surface_.push_back(far[i].at);
+  sinceClimb_ = 0;
+  fruitless_ = surface_.size() > known ? 0 : fruitless_ + 1;
+  if (surface_.size() > known) addOfSurface(triangles);
+}
+
+void MissedSamples::addOfSurface(const std::vector<Index>& triangles) {
+  const HalfEdgeMesh& mesh = sampled_.mesh;
+  const std::vector<glm::uvec3> corners = cornersOf(triangles);
   const std::vector<NearestPoint> nearest = nearestTriangles(surface_, mesh.positions, corners, progress_);
   if (progress_.stopped()) return;
   const double limit = static_cast<double>(tolerance_) * tolerance_;

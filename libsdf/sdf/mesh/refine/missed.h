@@ -18,8 +18,9 @@ class MissedSamples {
       : sampled_(sampled), field_(field), surface_(surface), tolerance_(tolerance), progress_(progress) {}
 
   /// Adds the surface's points next to places all over the triangles and next to the middles of creases'
-  /// edges, and points next to the mesh on the surface, that are too far off. Returns the triangles, by their
-  /// first half-edges, that have more samples now. Cost: 10 to 46 points a triangle, a few readings each.
+  /// edges, and points next to the mesh on the surface, that are too far off, and those that are climbed to
+  /// from them (farthestOfSurface). Returns the triangles, by their first
+  /// half-edges, that have more samples now. Cost: 10 to 46 points a triangle, a few readings each.
   std::vector<SampledMesh::Index> add();
 
  private:
@@ -27,6 +28,8 @@ class MissedSamples {
   void addAt(const std::vector<Index>& triangles, int steps, std::vector<Index>* close);
   void addOfCreases();
   void addOfSurface(const std::vector<Index>& triangles);
+  void addClimbed(const std::vector<Index>& triangles);
+  std::vector<glm::uvec3> cornersOf(const std::vector<Index>& triangles) const;
 
   SampledMesh& sampled_;
   const LocalField& field_;
@@ -34,6 +37,7 @@ class MissedSamples {
   float tolerance_;
   Progress& progress_;
   std::vector<Index> added_;
+  int fruitless_ = 0, sinceClimb_ = 0;  // climbs that found nothing, and looks since: ever more of them
 };
 
 }  // namespace sdf
