@@ -82,8 +82,8 @@ Outcome holdToSearch(unsigned seed) {
     EXPECT_LE(stats.maxDistance, 1.15 * found + rounding) << "too large, seed " << seed;
   } else {
     EXPECT_NEAR(stats.maxDistance, toMesh, rounding) << seed;
-    // So flat a field may be 0 for floats where it is not in double.
-    const bool isRead = static_cast<float>(search.value(farthest)) == 0.0f;
+    // What is below the least normal float may be 0 for floats, as in so flat a field.
+    const bool isRead = std::abs(search.value(farthest)) < 0x1p-126;
     EXPECT_TRUE(isRead || search.nearest(farthest, 4.0 * voxel, random) <= rounding)
         << "no surface there, seed " << seed;
   }
@@ -107,9 +107,11 @@ TEST(RandomFields, AreAsFarOffAsReported) {
   for (unsigned seed = 1; seed <= count; ++seed) {
     const Outcome outcome = holdToSearch(seed);
     meshed += outcome.meshed;
-    // One solid less another, or what two share, may be nothing, or nearly so.
+    // One solid less another, or what two share, may be nothing, or nearly so; waves may be all that is left
+    // of a formula far away.
     const auto says = [&](const char* words) { return outcome.message.find(words) != std::string::npos; };
-    EXPECT_TRUE(outcome.meshed || says("no surface inside the bounds") || says("too thin to be seen"))
+    EXPECT_TRUE(outcome.meshed || says("no surface inside the bounds") || says("too thin to be seen") ||
+                says("leaves the bounds"))
         << outcome.message << ", seed " << seed;
   }
   EXPECT_GE(meshed, count * 9 / 10);
