@@ -165,7 +165,7 @@ class Mesher {
         const bool resolved = halvings == 0 && result_.stats.unresolved == 0;
         if (simplifyCoarser(*sampled, resolved ? kCoarsest : 1.0, model, *bounds))
           return finish(shape, model, *bounds, **sampled);
-        const Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
+        Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
         begin("remeshing");
         if (Status s = checkLattice(mesh, *bounds, h, lattice.field); !s) return s.error();
         const bool finer = !last && (options_.strict || cheap);
@@ -174,8 +174,14 @@ class Mesher {
                             !placesBeyond(limit, mesh, lattice.field, h, progress_).empty();
         if (broken && finer) continue;
         if (broken && options_.strict) return checkTolerance().error();
-        const bool kept = thin(mesh, lattice.field, witnesses,
-                               {options_.tolerance, h, painted_, options_.strict, broken}, progress_);
+        const ThinOptions thinning{options_.tolerance, h, painted_, options_.strict, broken};
+        const FeatureMesh before = mesh;
+        bool kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
+        // Once more with what lay between its witnesses.
+        if (kept && witness(mesh, lattice.field, *bounds, witnesses) > options_.tolerance) {
+          mesh = before;
+          kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
+        }
         if (!kept && finer && options_.strict) continue;
       }
       return finish(shape, model, *bounds, lattice);
