@@ -16,7 +16,7 @@ namespace sdf {
 ///
 /// False where some triangle faces the other way, for the outline crosses itself: where no corner can be cut
 /// off, the rest is cut by the diagonals' lengths alone. Coordinates that are no finite numbers may give any
-/// triangles. Cost: n log n, but for outlines that wind about each other on purpose.
+/// triangles. Cost: n log n; up to n^1.5 where needles lie beside one another.
 bool cutPolygon(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> corners,
                 std::vector<glm::uvec3>& triangles);
 
