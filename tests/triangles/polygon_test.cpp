@@ -159,6 +159,13 @@ TEST(CutPolygon, MakesNoFlatTriangleOfCornersOnOneSide) {
   }
 }
 
+// The shortest diagonal of all runs along the lower side, where the others lie.
+TEST(CutPolygon, DoesNotCutOffCornersAlongOthers) {
+  const Cut cut = cutOf(turned({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1.5, 9}}));
+  expectFilled(cut);
+  for (const glm::uvec3& t : cut.triangles) EXPECT_GT(glm::length(areaOf(cut, t)), 1.0);
+}
+
 // An edge leads to the hole and back: its ends are corners twice.
 TEST(CutPolygon, FillsARingWhoseHoleAnEdgeLeadsTo) {
   for (const std::uint32_t count : {3u, 4u, 50u, 1000u}) {

@@ -196,10 +196,8 @@ class PolygonCutter {
         sides[k] = orientation(ear[k], ear[(k + 1) % 3], flat_[other]);
         if (sides[k] < 0) return false;
       }
-      const bool onDiagonal = sides[2] == 0, atItsEnd = onDiagonal && (sides[0] == 0 || sides[1] == 0);
-      if (atItsEnd) return false;  // what enters from there has another corner in the triangle
       if (enters(before_[other], ear, sides) || enters(after_[other], ear, sides)) block.by = other;
-      block.touched = block.touched || onDiagonal;
+      block.touched = block.touched || sides[2] == 0;
       return block.by != kNone;
     });
     return block;

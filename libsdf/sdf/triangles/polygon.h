@@ -12,7 +12,8 @@ namespace sdf {
 /// normal they fill the polygon and do not overlap: corners are cut off where nothing else of the outline
 /// lies in the triangle, those with the shortest diagonal first; of equal ones that whose point comes first.
 /// So the triangles are the same wherever the corners begin, and whichever way they run, and few of many
-/// corners meet in one. Corners may touch the outline, as where an edge leads to a hole and back.
+/// corners meet in one. Four corners are cut along the shorter diagonal. Corners may touch the outline, as
+/// where an edge leads to a hole and back.
 ///
 /// False where some triangle faces the other way, for the outline crosses itself: where no corner can be cut
 /// off, the rest is cut by the diagonals' lengths alone. Coordinates that are no finite numbers may give any
