@@ -27,6 +27,38 @@ TEST(ReadObj, CutsPolygonsIntoTriangles) {
   EXPECT_TRUE(mesh.normals.empty() && mesh.colors.empty() && mesh.textureAt.empty());
 }
 
+// As a fan two of its triangles would lie outside of the face, and turned over.
+TEST(ReadObj, CutsConcaveFacesAlongDiagonalsInside) {
+  const Folder folder;
+  const std::string points = "v 0 0 1\nv 3 0 1\nv 3 1 1\nv 1 1 1\nv 1 3 1\nv 0 3 1\n";
+  for (int first = 0; first < 6; ++first) {
+    std::string face = "f";
+    for (int i = 0; i < 6; ++i) face += " " + std::to_string((first + i) % 6 + 1);
+    const std::vector<glm::vec3> corners =
+        cornersOf(readPlainly(written(folder / "a.obj", points + face + "\n")));
+    ASSERT_EQ(corners.size(), 12u);
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+      const glm::vec3 u = corners[i + 1] - corners[i], v = corners[i + 2] - corners[i];
+      EXPECT_GT(u.x * v.y - u.y * v.x, 0.0f);
+      sum += 0.5f * (u.x * v.y - u.y * v.x);
+    }
+    EXPECT_FLOAT_EQ(sum, 5.0f);
+  }
+}
+
+TEST(ReadObj, SaysWhichFacesCrossThemselves) {
+  const Folder folder;
+  const auto file =
+      written(folder / "a.obj", kSquareObj + "v 0.5 -1 0\nf 1 2 3 4\nf 1 2 4 3\nf 1 2 3 5 4\nf 2 1 4 3\n");
+  const ReadMesh read = readWell(file);
+  EXPECT_EQ(read.warnings,
+            (std::vector<std::string>{
+                "line 7: a face of 4 corners crosses itself, so its triangles overlap; divide it",
+                "line 8: a face of 5 corners crosses itself, so its triangles overlap; divide it"}));
+  EXPECT_EQ(read.mesh.triangles.size(), 9u);
+}
+
 TEST(ReadObj, CountsBackFromWhereItIs) {
   const Folder folder;
   const auto file = written(folder / "a.obj", "v 9 9 9\n" + kSquareObj + "f -4 -3 -2 -1\nv 5 5 5\n");
@@ -297,6 +329,16 @@ TEST(ReadPly, SaysWhatIsWrong) {
             "it is cut off: 1 elements 'face' are promised, and fewer are there");
   EXPECT_EQ(whyBody("0 0 0\n1 0 0\n1 one 0\n0 1 0\n3 0 1 2\n"), "'one' is no number, in 'vertex' 2");
   EXPECT_EQ(why(kTextPly + kPlyVertices + "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"), "it has no triangles");
+}
+
+TEST(ReadPly, SaysWhichFacesCrossThemselves) {
+  const Folder folder;
+  const std::string faces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto file = written(folder / "a.ply", kTextPly + kPlyVertices + faces +
+                                                  "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n4 0 1 3 2\n");
+  EXPECT_EQ(readWell(file).warnings,
+            std::vector<std::string>{
+                "face 1: a face of 4 corners crosses itself, so its triangles overlap; divide it"});
 }
 
 }  // namespace read_mesh_plain_test

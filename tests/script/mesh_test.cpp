@@ -88,6 +88,47 @@ TEST_F(Meshes, WhatWasMendedIsNoted) {
             "winds around");
 }
 
+// Two prisms over an L, whose lids are faces of six corners each. As fans they would be webs across the
+// corner.
+TEST_F(Meshes, OfConcaveFacesAreTheSolidsThatTheseBound) {
+  std::ofstream out(scenes() / "concave.obj");
+  for (const int x : {0, 5})
+    for (const int z : {0, 1})
+      for (const auto& [dx, y] :
+           std::vector<std::pair<int, int>>{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}})
+        out << "v " << x + dx << ' ' << y << ' ' << z << '\n';
+  for (const int first : {1, 13}) {
+    out << 'f';
+    for (int i = 5; i >= 0; --i) out << ' ' << first + i;
+    out << "\nf";
+    for (int i = 0; i < 6; ++i) out << ' ' << first + 6 + i;
+    for (int i = 0; i < 6; ++i) {
+      const int next = (i + 1) % 6;
+      out << "\nf " << first + i << ' ' << first + next << ' ' << first + 6 + next << ' ' << first + 6 + i;
+    }
+    out << '\n';
+  }
+  out.close();
+  const Scene read = sceneOf(R"(return mesh("concave.obj"):round(0.1))"), meant = sceneOf(R"(
+    local L = polygon{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}:extrude(0.5)
+    return (L:translate(0, 0, 0.5) | L:translate(5, 0, 0.5)):round(0.1))");
+  EXPECT_EQ(read.notes, std::vector<std::string>());
+  const Expr distance = read.whole().distance, right = meant.whole().distance;
+  // Volumes by the share of points inside, one to a cell of a grid.
+  constexpr int kCells = 24;
+  const glm::dvec3 low(-0.2, -0.2, -0.2), size(8.4, 3.4, 1.4);
+  std::mt19937 random(1);
+  int inside = 0;
+  for (int i = 0; i < kCells * kCells * kCells; ++i) {
+    const glm::dvec3 cell(i % kCells, i / kCells % kCells, i / kCells / kCells);
+    const glm::dvec3 p = low + size * (cell + 0.5 + randomIn(random, 0.5)) / double{kCells};
+    const double f = at(distance, p.x, p.y, p.z);
+    ASSERT_NEAR(f, at(right, p.x, p.y, p.z), 1e-12);
+    inside += f < 0.0;
+  }
+  EXPECT_NEAR(size.x * size.y * size.z * inside / (kCells * kCells * kCells), 14.832, 0.1);
+}
+
 TEST_F(Meshes, WithoutAnInsideAreRefused) {
   const std::string film = (std::filesystem::canonical(scenes()) / "film.obj").string();
   EXPECT_EQ(errorOf(R"(return mesh("film.obj"))"),

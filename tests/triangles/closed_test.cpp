@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
-#include "sdf/triangles/polygon.h"
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
@@ -161,48 +159,6 @@ TEST(Closed, ABookOfManyLeavesIsNothing) {
   const ClosedTriangles all = closed(book);
   EXPECT_TRUE(all.triangles.empty());
   EXPECT_EQ(all.films, kLeaves);
-}
-
-std::vector<std::uint32_t> ring(std::uint32_t count, TriangleMesh& mesh) {
-  std::vector<std::uint32_t> corners;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / count;
-    corners.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-    mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
-  }
-  return corners;
-}
-
-double areaOf(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const glm::uvec3& t : mesh.triangles)
-    sum += 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t.y] - mesh.positions[t.x]),
-                                        glm::dvec3(mesh.positions[t.z] - mesh.positions[t.x])));
-  return sum;
-}
-
-TEST(CutPolygon, CutsARoundOneIntoTrianglesThatFillIt) {
-  TriangleMesh mesh;
-  constexpr std::uint32_t kCorners = 5000;
-  const std::vector<std::uint32_t> corners = ring(kCorners, mesh);
-  cutPolygon(mesh.positions, corners, mesh.triangles);
-  EXPECT_EQ(mesh.triangles.size(), kCorners - 2);
-  EXPECT_NEAR(areaOf(mesh), std::numbers::pi, 1e-5);
-  std::vector<int> around(kCorners, 0);
-  for (const glm::uvec3& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++around[t[k]];
-  EXPECT_LE(*std::ranges::max_element(around), 40);  // a fan's are kCorners - 2
-}
-
-// So what is before a polygon and what is behind it cancel out.
-TEST(CutPolygon, CutsThePolygonAlikeFromBehind) {
-  TriangleMesh mesh;
-  std::vector<std::uint32_t> corners = ring(3000, mesh);
-  cutPolygon(mesh.positions, corners, mesh.triangles);
-  std::ranges::reverse(corners);
-  std::rotate(corners.begin(), corners.begin() + 1000, corners.end());
-  cutPolygon(mesh.positions, corners, mesh.triangles);
-  EXPECT_TRUE(closed(mesh).triangles.empty());
 }
 
 // Any heap of triangles: borders that meet in points, edges of many triangles, holes within holes.

@@ -20,8 +20,15 @@ Result<ReadMesh> readStl(const MeshFile& file);
 /// arrays of one length each.
 Status tidy(const std::filesystem::path& file, ReadMesh& read);
 
-/// Cuts a polygon into a fan of triangles, one of more than 1,000 corners as cutPolygon does; the mesh has
-/// its vertices, and a material for each triangle so far. False where there are too many triangles then.
-bool addPolygon(const std::vector<std::uint32_t>& corners, std::uint32_t material, TriangleMesh& mesh);
+/// Where a file has a face, for messages: "line" 7.
+struct FacePlace {
+  const char* unit;
+  std::size_t number;
+};
+
+/// Cuts a polygon into triangles (cutPolygon), and warns of one that crosses itself; the mesh has its
+/// vertices, and a material for each triangle so far. False where there are too many triangles then.
+bool addPolygon(const std::vector<std::uint32_t>& corners, std::uint32_t material, const FacePlace& place,
+                ReadMesh& read);
 
 }  // namespace sdf

@@ -24,9 +24,9 @@ inline constexpr float kFarthestCoordinate = 1e15f;
 Status checkReadable(const std::filesystem::path& file);
 
 /// Reads the triangles of a file, whose extension says what it holds. Triangles of zero area are dropped, and
-/// counted in a warning; polygons are cut into triangles, those of up
-/// to 1,000 corners as a fan, larger ones from their border inward; no other triangle is lost, however many
-/// meet at an edge. Normals are unit: where some vertices have none that is usable, it is the mean of the
+/// counted in a warning; polygons are cut along diagonals inside of them, and those that cross themselves are
+/// named in a warning; no other triangle is lost, however many meet at an
+/// edge. Normals are unit: where some vertices have none that is usable, it is the mean of the
 /// triangles' around them, by area. Vertices that no triangle has are dropped.
 /// - .glb, .gltf (Khronos, glTF 2.0 Specification, 2021): the default scene, else the first, else all nodes;
 ///   triangles, strips and fans; sparse accessors; base colour, metalness, roughness, emission, COLOR_0, the

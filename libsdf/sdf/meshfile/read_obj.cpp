@@ -109,7 +109,7 @@ class ObjReader {
         corners.push_back(vertex(of));
       }
       if (corners.size() < 3) return wrong(text.line(), "a face of fewer than 3 corners");
-      if (!addPolygon(corners, material_, read_.mesh)) return tooManyTriangles(file_.path);
+      if (!addPolygon(corners, material_, {"line", text.line()}, read_)) return tooManyTriangles(file_.path);
     }
     return okStatus();
   }

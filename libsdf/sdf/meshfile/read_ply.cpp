@@ -289,7 +289,7 @@ class PlyReader {
             if (!(index >= 0.0 && index < vertices) || index != std::floor(index)) return noVertex(index);
             corners.push_back(static_cast<std::uint32_t>(index));
           }
-          if (!addPolygon(corners, 0, read_.mesh)) return tooManyTriangles(file_.path);
+          if (!addPolygon(corners, 0, {"face", f}, read_)) return tooManyTriangles(file_.path);
         }
         if (!values.ok()) return broken(element, f, values);
       }

@@ -93,7 +93,7 @@ class StlReader {
         corners.push_back(vertex(p));
       } else if (isWord(word, "endloop")) {
         if (corners.size() != 3) return wrong("a facet of " + std::to_string(corners.size()) + " corners");
-        if (!addPolygon(corners, 0, read_.mesh)) return tooManyTriangles(file_.path);
+        if (!addPolygon(corners, 0, {"line", text.line()}, read_)) return tooManyTriangles(file_.path);
       } else if (isWord(word, "endfacet")) {
         inFacet = false;
       } else {

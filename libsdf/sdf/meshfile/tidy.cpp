@@ -104,17 +104,15 @@ void clampLook(TriangleMesh& mesh) {
 
 }  // namespace
 
-// In a fan all triangles meet in one corner, and so do the boxes around them: of n triangles that is n^2 / 2
-// pairs, at 20 ns each when crossings are looked for. From some 1,000 on that is more than the 10
-// microseconds which each of them takes besides.
-bool addPolygon(const std::vector<std::uint32_t>& corners, std::uint32_t material, TriangleMesh& mesh) {
-  constexpr std::size_t kLargestFan = 1000;
+bool addPolygon(const std::vector<std::uint32_t>& corners, std::uint32_t material, const FacePlace& place,
+                ReadMesh& read) {
+  TriangleMesh& mesh = read.mesh;
   if (corners.size() > kMostReadTriangles) return false;
-  if (corners.size() > kLargestFan)
-    cutPolygon(mesh.positions, corners, mesh.triangles);
-  else
-    for (std::size_t i = 2; i < corners.size(); ++i)
-      mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+  if (!cutPolygon(mesh.positions, corners, mesh.triangles)) {
+    warn(read.warnings, std::string(place.unit) + " " + std::to_string(place.number) + ": a face of " +
+                            std::to_string(corners.size()) +
+                            " corners crosses itself, so its triangles overlap; divide it");
+  }
   mesh.materialOf.resize(mesh.triangles.size(), material);
   return mesh.triangles.size() <= kMostReadTriangles;
 }

@@ -36,6 +36,10 @@ Extent extentOf(const std::vector<glm::vec3>& points, const glm::uvec3& t) {
   return e;
 }
 
+bool apart(const Extent& a, const Extent& b) {
+  return glm::any(glm::lessThan(a.max, b.min)) || glm::any(glm::lessThan(b.max, a.min));
+}
+
 bool hasCorner(const glm::uvec3& t, std::uint32_t corner) {
   return t.x == corner || t.y == corner || t.z == corner;
 }
@@ -321,14 +325,14 @@ void TriangleTree::findHubs() {
 // Does `visit` hold for any triangle whose box meets this one, but those of nodes that are skipped?
 template <class Skip, class Visit>
 bool TriangleTree::anyNear(const glm::vec3& min, const glm::vec3& max, Skip skip, Visit visit) const {
+  const Extent own{min, max};
   std::array<std::uint32_t, kDeepest> open;
   std::size_t left = 0;
   open[left++] = 0;
   while (left > 0) {
     const std::uint32_t number = open[--left];
     const Node& node = nodes_[number];
-    const bool apart = glm::any(glm::lessThan(node.max, min)) || glm::any(glm::lessThan(max, node.min));
-    if (apart || skip(number)) continue;
+    if (apart({node.min, node.max}, own) || skip(number)) continue;
     if (node.count == 0) open[left++] = node.first, open[left++] = node.first + 1;
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
       if (visit(order_[i])) return true;
@@ -337,9 +341,10 @@ bool TriangleTree::anyNear(const glm::vec3& min, const glm::vec3& max, Skip skip
 }
 
 bool TriangleTree::crosses(std::uint32_t triangle, std::uint32_t other, bool onlyLater) const {
-  if (other == triangle || (onlyLater && other < triangle) || hasNoArea(points_, triangles_[other]))
-    return false;
-  return cross(points_, triangles_[triangle], triangles_[other]);
+  if (other == triangle || (onlyLater && other < triangle)) return false;
+  const glm::uvec3 &s = triangles_[triangle], &t = triangles_[other];
+  // The last is seldom asked.
+  return !apart(extentOf(points_, s), extentOf(points_, t)) && cross(points_, s, t) && !hasNoArea(points_, t);
 }
 
 bool TriangleTree::crossesAround(std::uint32_t corner, std::uint32_t triangle, bool onlyLater) const {

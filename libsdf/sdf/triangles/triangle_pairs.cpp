@@ -5,38 +5,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/triangles/exact_sum.h"
+#include "sdf/triangles/orientation.h"
+
 namespace sdf {
 namespace {
 
 using Corners = std::array<glm::vec3, 3>;
 using Wide = std::array<glm::dvec3, 3>;
-
-/// A sum that is never rounded: numbers that do not overlap, the smallest first (Shewchuk's grow-expansion).
-class ExactSum {
- public:
-  void add(double x) {
-    int kept = 0;
-    for (int i = 0; i < count_; ++i) {
-      const double sum = x + part_[i], virtualX = sum - part_[i];
-      const double lost = (x - virtualX) + (part_[i] - (sum - virtualX));
-      if (lost != 0.0) part_[kept++] = lost;
-      x = sum;
-    }
-    if (x != 0.0) part_[kept++] = x;
-    count_ = kept;
-  }
-  /// Products of floats are exact in double, those of three are two doubles.
-  void addProduct(double exact, double factor) {
-    const double product = exact * factor;
-    add(std::fma(exact, factor, -product));
-    add(product);
-  }
-  int sign() const { return count_ == 0 ? 0 : part_[count_ - 1] > 0.0 ? 1 : -1; }
-
- private:
-  std::array<double, 48> part_;
-  int count_ = 0;
-};
 
 int signOf(double x) { return x > 0.0 ? 1 : x < 0.0 ? -1 : 0; }
 
@@ -68,14 +44,8 @@ int side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::
 
 /// Seen along an axis, does a, b, c turn to the left?
 int turn(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int axis) {
-  constexpr double kFilter = 4e-16;  // (3 + 16 e) e
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-  const double ax = a[i], ay = a[j], bx = b[i], by = b[j], cx = c[i], cy = c[j];
-  const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax), area = left - right;
-  if (std::abs(area) > kFilter * (std::abs(left) + std::abs(right))) return signOf(area);
-  ExactSum sum;
-  for (const double term : {bx * cy, -bx * ay, -ax * cy, -by * cx, by * ax, ay * cx}) sum.add(term);
-  return sum.sign();
+  return orientation({a[i], a[j]}, {b[i], b[j]}, {c[i], c[j]});
 }
 
 /// An axis along which the triangle has an area; none (3) where it has no area at all.
