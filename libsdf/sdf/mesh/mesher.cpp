@@ -92,9 +92,10 @@ constexpr double kResolved = 0.25;
 // be off for simplifying to mend it. Measured on the samples: beyond, it fails or leaves more triangles than
 // half the voxels do.
 constexpr double kCoarsest = 16.0, kFollowed = 2.0;
-// Simplifying holds samples to these shares of the tolerance, one after the other, for what lies between
-// them: a few places in some scenes are off by up to so many tolerances.
-constexpr double kHeldTo[] = {0.999, 0.9}, kLittle = 1.25;
+// Simplifying holds samples to this share of the tolerance, for the rounding of what is measured.
+constexpr double kHeldTo = 0.999;
+// Of the tolerance: what is as far from a mesh of the surface may come to be beyond it in the next.
+constexpr double kClose = 0.9;
 // The finest voxels, times those that were asked for, that are thinned for their colours before these are.
 constexpr double kFinestPainted = 4.0;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
@@ -163,12 +164,14 @@ class Mesher {
         if (surface_.empty()) surface_ = surfacePoints(model, *bounds, progress_);
         // Where this lattice does not see all that there is, coarser ones see less.
         const bool resolved = halvings == 0 && result_.stats.unresolved == 0;
-        if (simplifyCoarser(*sampled, resolved ? kCoarsest : 1.0, model, *bounds))
-          return finish(shape, model, *bounds, **sampled);
+        const bool finer = !last && (options_.strict || cheap);
+        const Simplified simplified =
+            simplifyCoarser(*sampled, resolved ? kCoarsest : 1.0, finer, model, *bounds);
+        if (simplified == Simplified::Taken) return finish(shape, model, *bounds, **sampled);
+        if (simplified == Simplified::NeedsFiner) continue;
         Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
         begin("remeshing");
         if (Status s = checkLattice(mesh, *bounds, h, lattice.field); !s) return s.error();
-        const bool finer = !last && (options_.strict || cheap);
         if (finer && witnesses.lacking() > limit) continue;
         const bool broken = result_.stats.maxDistance > limit &&
                             !placesBeyond(limit, mesh, lattice.field, h, progress_).empty();
@@ -178,7 +181,7 @@ class Mesher {
         const FeatureMesh before = mesh;
         bool kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
         // Once more with what lay between its witnesses.
-        if (kept && witness(mesh, lattice.field, *bounds, witnesses) > options_.tolerance) {
+        if (kept && !witness(mesh, lattice.field, *bounds, witnesses).empty()) {
           mesh = before;
           kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
         }
@@ -280,12 +283,18 @@ class Mesher {
     lattice.mesh = std::move(mesh);
   }
 
+  enum class Simplified {
+    Taken,       // the mesh is replaced
+    NeedsFiner,  // none keeps the tolerance, and finer voxels are to be tried
+    IsBlurred    // colours need more than the shape does
+  };
+
   // Replaces the mesh by one that is simplified from the largest voxels that do, up to some times as large as
-  // these; returns whether there are any. What these voxels see none may miss: the vertices of this mesh are
-  // points of the surface, and where it is painted those of its creases points of borders, which are to be
-  // met within the tolerance.
-  bool simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, const ModelTapes& model,
-                       const Box& bounds) {
+  // these. The last, from these voxels, is taken as it is, unless finer ones are to be tried. What these
+  // voxels see none may miss: the vertices of this mesh are points of the surface, and where it is painted
+  // those of its creases points of borders, which are to be met within the tolerance.
+  Simplified simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, bool finer,
+                             const ModelTapes& model, const Box& bounds) {
     const std::size_t seen = fine->mesh.positions.size();
     Witnesses witnesses(surface_, fine->mesh, painted_);
     bool blurred = false;  // do colours need more than the shape?
@@ -302,9 +311,10 @@ class Mesher {
         extract(*coarse, false);
       }
       const Lattice& lattice = coarse ? *coarse : *fine;
+      const bool isLast = !coarse && !finer;
       FeatureMesh mesh = lattice.mesh;
-      if (mesh.triangles.empty() || !follows(mesh, lattice.field, witnesses)) continue;
-      if (!blurred && !simplifyTo(mesh, lattice.field, bounds, witnesses)) continue;
+      if (!isClosed(mesh) || !(follows(mesh, lattice.field, witnesses) || isLast)) continue;
+      if (!blurred && !simplifyTo(mesh, lattice.field, fine->field, bounds, witnesses) && !isLast) continue;
       // What is painted is looked at as closely as in the finest lattice.
       blurred = blurred || (painted_ && !keepsPaint(mesh, witnesses, fine->field));
       if (blurred && (times < kFinestPainted || !thinPainted(mesh, lattice, bounds, witnesses, fine->field)))
@@ -314,10 +324,16 @@ class Mesher {
         fine->mesh = std::move(mesh);
       else
         coarse->mesh = std::move(mesh), fine = std::move(coarse);
-      return true;
+      return Simplified::Taken;
     }
     witnessed_ = {};
-    return false;
+    return finer && !blurred && isClosed(fine->mesh) ? Simplified::NeedsFiner : Simplified::IsBlurred;
+  }
+
+  static bool isClosed(const FeatureMesh& mesh) {
+    MeshStats stats;
+    measureTopology(mesh.triangles, mesh.positions.size(), stats);
+    return !mesh.triangles.empty() && stats.watertight;
   }
 
   // Is a lattice's mesh near enough for simplifying to mend it?
@@ -338,49 +354,50 @@ class Mesher {
     const ThinOptions options{options_.tolerance, lattice.band.voxelSize(), true, false};
     if (!thin(mesh, fine, witnesses, options, progress_)) return false;
     witnessed_ = witnesses.toSurface(mesh, progress_);
-    return witnessed_.max <= options_.tolerance &&
-           witness(mesh, fine, bounds, witnesses) <= options_.tolerance;
+    return witnessed_.max <= options_.tolerance && witness(mesh, fine, bounds, witnesses).empty();
   }
 
-  // How far the surface is from the mesh between the witnesses. What is so far that the mesh may come to miss
-  // it is one of them from now on.
-  double witness(const FeatureMesh& mesh, const BandField& field, const Box& bounds, Witnesses& witnesses) {
+  // Points of the surface between the witnesses that are farther from the mesh than the tolerance. What is so
+  // far that the mesh may come to miss it is one of the witnesses from now on.
+  std::vector<glm::vec3> witness(const FeatureMesh& mesh, const BandField& field, const Box& bounds,
+                                 Witnesses& witnesses) {
     const std::vector<FarPoint> far =
         farthestOfSurface(surface_, field, bounds.longestSide(), mesh.positions, mesh.triangles, progress_);
-    std::vector<glm::vec3> missed;
-    for (std::size_t i = surface_.size(); i < far.size(); ++i)
-      if (far[i].distance > kHeldTo[1] * options_.tolerance) missed.push_back(far[i].at);
-    surface_.insert(surface_.end(), missed.begin(), missed.end());
-    witnesses.add(missed);
-    return farthestOf(far).max;
+    std::vector<glm::vec3> close, missed;
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      if (i >= surface_.size() && far[i].distance > kClose * options_.tolerance) close.push_back(far[i].at);
+      if (far[i].distance > options_.tolerance) missed.push_back(far[i].at);
+    }
+    surface_.insert(surface_.end(), close.begin(), close.end());
+    witnesses.add(close);
+    return missed;
   }
 
   // Simplifies a lattice's mesh; returns whether the tolerance is kept, both ways.
-  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const Box& bounds, Witnesses& witnesses) {
-    const double tolerance = options_.tolerance;
-    MeshStats stats;
+  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const BandField& fine, const Box& bounds,
+                  Witnesses& witnesses) {
     closeCreases(mesh);
-    const FeatureMesh before = mesh;
-    for (const double share : kHeldTo) {
-      mesh = before;
-      simplify(mesh, field, share * tolerance, witnesses.surface(), progress_);
-      if (progress_.stopped()) return false;
-      measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
-      witnessed_ = witnesses.toSurface(mesh, progress_);
-      double off = std::max(stats.maxDistance, witnessed_.max);
-      if (off <= tolerance) off = std::max(off, witness(mesh, field, bounds, witnesses));
-      if (off <= tolerance && crossingTriangles(mesh.positions, mesh.triangles).empty()) return true;
-      if (off > kLittle * tolerance) return false;
-    }
-    return false;
+    const auto exceeding = [&](const FeatureMesh& made) {
+      return placesBeyondTolerance(made, painted_ ? fine : field, bounds, witnesses);
+    };
+    return simplify(mesh, field, kHeldTo * options_.tolerance, witnesses.surface(), exceeding, progress_);
   }
 
-  // Does the mesh keep the tolerance as the field sees it, with its borders and colours?
-  bool keepsPaint(const FeatureMesh& mesh, const Witnesses& witnesses, const BandField& field) {
+  // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are
+  // any.
+  std::vector<glm::vec3> placesBeyondTolerance(const FeatureMesh& mesh, const BandField& field,
+                                               const Box& bounds, Witnesses& witnesses) {
     MeshStats stats;
     measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
-    return stats.maxDistance <= options_.tolerance &&
-           witnesses.toBorders(mesh, progress_) <= options_.tolerance &&
+    if (stats.maxDistance > options_.tolerance) return {stats.farthest};
+    witnessed_ = witnesses.toSurface(mesh, progress_);
+    if (witnessed_.max > options_.tolerance) return {witnessed_.farthest};
+    return witness(mesh, field, bounds, witnesses);
+  }
+
+  // Does the mesh keep borders and colours as the field sees them?
+  bool keepsPaint(const FeatureMesh& mesh, const Witnesses& witnesses, const BandField& field) {
+    return witnesses.toBorders(mesh, progress_) <= options_.tolerance &&
            keepsColors(mesh, options_.tolerance, field, progress_);
   }
 

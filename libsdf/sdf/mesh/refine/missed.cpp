@@ -35,6 +35,12 @@ std::vector<SampledMesh::Index> MissedSamples::add() {
   return std::exchange(added_, {});
 }
 
+void MissedSamples::watch(std::vector<glm::vec3> places) {
+  std::vector<glm::vec3> normals;
+  refineVertices(places, normals, field_, progress_);
+  surface_.insert(surface_.end(), places.begin(), places.end());
+}
+
 // At a grid over some triangles; `close` receives those that are nearly too far.
 void MissedSamples::addAt(const std::vector<Index>& triangles, int steps, std::vector<Index>* close) {
   std::vector<glm::vec3> places, normals;

@@ -22,6 +22,8 @@ class MissedSamples {
   /// from them (farthestOfSurface). Returns the triangles, by their first
   /// half-edges, that have more samples now. Cost: 10 to 46 points a triangle, a few readings each.
   std::vector<SampledMesh::Index> add();
+  /// The points of the surface next to these places are looked at from now on, too.
+  void watch(std::vector<glm::vec3> places);
 
  private:
   using Index = SampledMesh::Index;

@@ -26,6 +26,7 @@ void Ring::add(Index begin, Index end) {
 }
 
 void Ring::setAround(Index v) {
+  centreVertex_ = v;
   spokes_.clear();
   add(sampled_.mesh.outgoing(v), sampled_.mesh.outgoing(v));
   isTip_ = sampled_.isTip(v);
@@ -37,6 +38,7 @@ void Ring::setCollapsed(Index h) {
   const Index g = mesh.twin(h);
   // From the centre to the vertices opposite to the edge: c and d.
   const Index uc = mesh.turned(h), ud = mesh.next(g), vd = mesh.turned(g), vc = mesh.next(h);
+  centreVertex_ = mesh.to(h);
   spokes_.clear();
   if (uc != ud) add(uc, ud);
   if (vd != vc) add(vd, vc);
@@ -66,6 +68,7 @@ void Ring::setSplit(Index h) {
         {v, mesh.positions[v], halfEdge, isOnEdge && edge != kNone, isOnEdge ? edge : kNone, isNew});
   };
   // The numbers that HalfEdgeMesh::split gives.
+  centreVertex_ = mesh.vertices();
   spokes_.clear();
   spoke(mesh.to(h), mesh.halfEdges(), true, true);
   spoke(mesh.apex(h), HalfEdgeMesh::next(h), false, false);
@@ -73,6 +76,14 @@ void Ring::setSplit(Index h) {
   spoke(mesh.apex(g), mesh.halfEdges() + 4, false, true);
   isTip_ = false;
   gone_[0] = gone_[1] = goneEdge_ = goneEdgeNext_ = kNone;
+}
+
+std::vector<Ring::Index> Ring::triangles() const {
+  std::vector<Index> all;
+  for (const Spoke& s : spokes_) all.push_back(s.halfEdge / 3);
+  for (const Index g : gone_)
+    if (g != kNone) all.push_back(g);
+  return all;
 }
 
 bool Ring::cut(const glm::vec3& centre) {

@@ -48,7 +48,14 @@ class Ring {
   void setCollapsed(Index h);
   /// Those at a vertex that is put into an edge.
   void setSplit(Index h);
+  /// May triangles be turned by more than 60 degrees from their sector's normal, as long as samples face
+  /// them?
+  void mayBend(bool may) { mayBend_ = may; }
   std::size_t size() const { return spokes_.size(); }
+  /// The vertex in the middle; of a split the one that is to be made.
+  Index centre() const { return centreVertex_; }
+  /// Those that the ring's are made of, and those that are to be made.
+  std::vector<Index> triangles() const;
   Index vertex(std::size_t i) const { return spokes_[i].vertex; }
   bool isCrease(std::size_t i) const { return spokes_[i].crease; }
   const glm::vec3& position(std::size_t i) const { return spokes_[i].at; }
@@ -102,7 +109,8 @@ class Ring {
   struct Sector {
     Index first, last;  // triangle i is between spokes i and i + 1
     glm::vec3 normal, x, y;
-    float along = 1.0f;  // what the centre's way has of the normal
+    float along = 1.0f;   // what the centre's way has of the normal
+    bool isBent = false;  // are triangles not all seen along the normal?
   };
   // A sample over the triangle between spokes i and i + 1, or beside spoke i.
   struct Placed {
@@ -119,7 +127,8 @@ class Ring {
   void add(Index begin, Index end);
   bool placeSector(std::size_t number, float limit);
   bool placeTriangle(Index triangle, Index guess, const Sector& sector);
-  bool isEmptyFacing(const Sector& sector) const;
+  bool placeNearest(Index triangle, const Sector& sector);
+  bool isFacingVertices(const Sector& sector) const;
   bool placeOnCreases(float limit);
   bool placeOnEdge(Index edge, Index from, Index to);
   void findWay();
@@ -129,9 +138,11 @@ class Ring {
 
   SampledMesh& sampled_;
   float tolerance_;
+  Index centreVertex_;
   std::vector<Spoke> spokes_;
   std::vector<Sector> sectors_;
   int creases_ = 0;
+  bool mayBend_ = false;
   bool isTip_ = false;  // a point in which a smooth piece ends
   // Triangles that a collapse takes away, the vertices opposite to what is collapsed, and whether they lie
   // after these spokes, if those are creases. kNone: nothing is taken away.

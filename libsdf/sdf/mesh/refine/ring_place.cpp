@@ -35,18 +35,22 @@ bool Ring::placeSector(std::size_t number, float limit) {
     const glm::vec3 d = spokes_[i == n ? 0 : i].at - centre_;
     rim_.emplace_back(glm::dot(d, s.x), glm::dot(d, s.y), glm::dot(d, s.normal));
   }
+  s.isBent = false;
   for (std::size_t i = 0; i + 1 < rim_.size(); ++i) {
     const glm::vec3 &a = rim_[i], &b = rim_[i + 1], c = b - a, area = glm::cross(a, b);
-    const float longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
-    if (!(area.z > kFlattest * longest)) return false;
-    const float size = glm::length(area), cosine = area.z / size;
-    if (!(cosine > kFacing) && !isTip_) return false;
+    const float longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)}),
+                size = glm::length(area), cosine = area.z / size;
+    if (!(size > kFlattest * longest)) return false;
+    if (!(area.z > kFlattest * longest) || (!(cosine > kFacing) && !isTip_)) {
+      if (!mayBend_) return false;
+      s.isBent = true;
+    }
     areas_.push_back(1.0f / area.z), cosines_.push_back(cosine);
     normals_.push_back((area.x * s.x + area.y * s.y + area.z * s.normal) / size);
   }
   const auto take = [&](Index triangle, Index guess) {
     const std::size_t before = placed_.size();
-    if (!placeTriangle(triangle, guess, s)) return false;
+    if (s.isBent ? !placeNearest(triangle, s) : !placeTriangle(triangle, guess, s)) return false;
     if (limit == HUGE_VALF) return true;
     for (std::size_t i = before; i < placed_.size(); ++i) {
       const Range range = feasibleAlong(placed_[i].height, placed_[i].weight, limit);
@@ -59,17 +63,22 @@ bool Ring::placeSector(std::size_t number, float limit) {
     if (gone_[which] != kNone && sectorOfGone(which) == number && !take(gone_[which], 0)) return false;
   for (Index i = s.first; i < s.last; ++i)
     if (!spokes_[i].isNew && !take(spokes_[i].halfEdge / 3, i - s.first)) return false;
-  return isEmptyFacing(s);
+  return isFacingVertices(s);
 }
 
-// What has no samples is held to the normals at its vertices.
-bool Ring::isEmptyFacing(const Sector& s) const {
+// What has no samples is held to the normals at its vertices; what is bent has some, and is held to each.
+bool Ring::isFacingVertices(const Sector& s) const {
   const auto n = static_cast<Index>(spokes_.size());
   for (Index i = s.first; i < s.last && !isTip_; ++i) {
-    if (counts_[i] > 0) continue;
+    if (counts_[i] > 0 && !s.isBent) continue;
+    if (counts_[i] == 0 && s.isBent) return false;
     glm::vec3 around(0.0f);
-    for (const Index k : {i, i + 1})
-      if (const Index v = spokes_[k == n ? 0 : k].vertex; sampled_.isSmooth(v)) around += sampled_.normals[v];
+    for (const Index k : {i, i + 1}) {
+      const Index v = spokes_[k == n ? 0 : k].vertex;
+      if (!sampled_.isSmooth(v)) continue;
+      if (s.isBent && !isFacing(normals_[i - s.first], sampled_.normals[v])) return false;
+      around += sampled_.normals[v];
+    }
     if (!isNone(around) && !isFacing(normals_[i - s.first], glm::normalize(around))) return false;
   }
   return true;
@@ -102,6 +111,28 @@ bool Ring::placeTriangle(Index triangle, Index guess, const Sector& s) {
     }
     placed_.push_back(placed);
     ++counts_[placed.spoke];
+  }
+  return true;
+}
+
+// Each over the triangle that it is nearest to, of those that face it.
+bool Ring::placeNearest(Index triangle, const Sector& s) {
+  for (Index w = sampled_.onTriangle.first(triangle); w != kNone; w = sampled_.onTriangle.after(w)) {
+    const SurfaceSample& sample = sampled_.samples[w];
+    const glm::vec3 d = sample.at - centre_, p(glm::dot(d, s.x), glm::dot(d, s.y), glm::dot(d, s.normal));
+    float least = HUGE_VALF;
+    Index at = kNone;
+    for (Index i = 0; i + 1 < rim_.size(); ++i) {
+      if (!isNone(sample.normal) && glm::dot(sample.normal, normals_[i]) < kFacing) continue;
+      const float distance = over(p, {glm::vec3(0.0f), rim_[i], rim_[i + 1]}).distance;
+      if (distance < least) least = distance, at = i;
+    }
+    if (at == kNone) return false;
+    const glm::vec3 &a = rim_[at], &b = rim_[at + 1], n = glm::cross(a, b);
+    const float rim = (glm::dot(glm::cross(p, b), n) + glm::dot(glm::cross(a, p), n)) / glm::dot(n, n);
+    placed_.push_back({w, s.first + at, std::clamp(1.0f - rim, 0.0f, 1.0f) * glm::dot(way_, normals_[at]),
+                       std::copysign(least, glm::dot(p, n))});
+    ++counts_[s.first + at];
   }
   return true;
 }

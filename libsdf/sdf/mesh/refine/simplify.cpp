@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/mesh/refine/crowded.h"
 #include "sdf/mesh/refine/flip.h"
 #include "sdf/mesh/refine/missed.h"
 #include "sdf/mesh/refine/ring.h"
@@ -28,6 +29,14 @@ constexpr std::size_t kWorthIt = 50;
 constexpr int kSplitRounds = 12, kLooks = 6;
 // Of the tolerance: what is no farther off is flat.
 constexpr float kFlat = 0.01f;
+// What is left as it is may be off by more than it was by its rounding.
+constexpr float kRounded = 1.0f + 1e-5f;
+// Where two sheets cross each is within a tolerance of its surface, and a vertex of each within two voxels.
+constexpr float kBesides = 2.0f;
+
+float voxelAt(const LocalField& field, const glm::vec3& p) {
+  return static_cast<float>(field.finder()->at(p).voxel);
+}
 
 class Simplifier {
  public:
@@ -38,6 +47,7 @@ class Simplifier {
         tolerance_(static_cast<float>(tolerance)),
         missed_(sampled_, field, surface, tolerance_, progress),
         ring_(sampled_, tolerance_),
+        crowded_(sampled_, kBesides * (tolerance_ + voxelAt(field, mesh.positions[0]))),
         limit_(tolerance_),
         progress_(progress),
         taken_(mesh.positions.size(), 0),
@@ -65,18 +75,29 @@ class Simplifier {
     }
     progress_.update(1.0);
   }
+  // Returns whether anything was changed for these places that are too far off.
+  bool keep(const std::vector<glm::vec3>& exceeding) {
+    missed_.watch(exceeding);
+    return keep() > 0;
+  }
   FeatureMesh take() const { return mesh_.compacted(); }
 
  private:
-  // Splits what is too far, here or seen by the field.
-  void keep() {
-    splitExceeding();
+  // Splits what is too far, here or seen by the field. Returns how often.
+  std::size_t keep() {
+    ring_.mayBend(true);
+    std::size_t all = splitExceeding();
     for (int i = 0; i < kLooks && !progress_.stopped(); ++i) {
       const std::vector<Index> missed = missed_.add();
       for (const Index h : missed)
         for (Index k = 0; k < 3; ++k) changed_[mesh_.from(h + k)] = pass_ + 1;
-      if (missed.empty() || splitExceeding() == 0) break;
+      if (missed.empty()) break;
+      const std::size_t made = splitExceeding();
+      if (made == 0) break;
+      all += made;
     }
+    ring_.mayBend(false);
+    return all;
   }
 
   void improve() {
@@ -120,9 +141,10 @@ class Simplifier {
       if (placed) at = better;
     }
     if (!placed && !ring_.place(at, limit_)) return;
-    if (!moveToMiddle(at)) return;
+    if (!moveToMiddle(at) || crowded_.wouldCross(ring_, at)) return;
     ring_.assign(limit_);
     sampled_.collapse(h, at);
+    crowded_.replaced(ring_);
     touch(v);
     taken_[v] = pass_;
     for (std::size_t i = 0; i < ring_.size(); ++i) taken_[ring_.vertex(i)] = pass_;
@@ -185,9 +207,17 @@ class Simplifier {
       break;
     }
     if (best == before || ring_.largest() > was || ring_.centreDistance() > off) return;
+    moveTo(best);
+  }
+
+  // As it was placed; not where it would cross something.
+  bool moveTo(const glm::vec3& at) {
+    if (crowded_.wouldCross(ring_, at)) return false;
     ring_.assign(limit_);
-    mesh_.positions[v] = best;
-    touch(v);
+    mesh_.positions[ring_.centre()] = at;
+    crowded_.replaced(ring_);
+    touch(ring_.centre());
+    return true;
   }
 
   // The largest distance of a sample from its triangle.
@@ -209,7 +239,7 @@ class Simplifier {
                                       changed_[mesh_.apex(mesh_.twin(h))]});
       if (unflipped_[h] >= changed || !mesh_.canFlip(h)) continue;
       unflipped_[h] = pass_;
-      if (!flipIfBetter(sampled_, h, kFlat * tolerance_)) continue;
+      if (!flipIfBetter(sampled_, crowded_, h, kFlat * tolerance_)) continue;
       for (const Index v : {mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(mesh_.twin(h))})
         changed_[v] = pass_ + 1;
     }
@@ -244,11 +274,7 @@ class Simplifier {
     if (!ring_.cut(at) || !ring_.place(at) || ring_.centreDistance() <= tolerance_) return false;
     const float too = ring_.centreDistance() - tolerance_, was = std::max(limit_, largestAround(v));
     at += too / ring_.centreDistance() * ring_.centreOff();
-    if (!ring_.place(at) || ring_.largest() > was + too) return false;
-    ring_.assign(limit_);
-    mesh_.positions[v] = at;
-    touch(v);
-    return true;
+    return ring_.place(at) && ring_.largest() <= was + too && moveTo(at);
   }
 
   // Splits the side of the triangle that is next to its farthest sample, there.
@@ -308,12 +334,13 @@ class Simplifier {
         {tolerance_, sampled_.farthestOf(h / 3).distance, sampled_.farthestOf(mesh_.twin(h) / 3).distance});
     if (!ring_.cut(p) || !ring_.place(p)) return false;
     const glm::vec3 at = p + ring_.balanced() * ring_.way();
-    if (!ring_.place(at) || !ring_.isWithin(was)) return false;
+    if (!ring_.place(at) || !ring_.isWithin(kRounded * was) || crowded_.wouldCross(ring_, at)) return false;
     const Index v = sampled_.split(h, at);
     taken_.resize(mesh_.vertices(), 0), changed_.resize(mesh_.vertices(), pass_ + 1);
     settled_.resize(mesh_.vertices(), 0), near_.resize(mesh_.vertices(), 0);
     failed_.resize(mesh_.halfEdges(), 0), unflipped_.resize(mesh_.halfEdges(), 0);
     ring_.assign(limit_);
+    crowded_.replaced(ring_);
     touch(v);
     return true;
   }
@@ -323,6 +350,7 @@ class Simplifier {
   float tolerance_;
   MissedSamples missed_;
   Ring ring_;
+  CrowdedTriangles crowded_;
   float limit_;
   Progress& progress_;
   // A pass over the mesh has a number; 0 stands for none.
@@ -337,11 +365,19 @@ class Simplifier {
 
 }  // namespace
 
-void simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
-              const std::vector<glm::vec3>& surface, Progress& progress) {
+bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
+              const std::vector<glm::vec3>& surface,
+              const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding,
+              Progress& progress) {
   Simplifier simplifier(mesh, field, tolerance, surface, progress);
   simplifier.run();
-  mesh = simplifier.take();
+  for (std::vector<glm::vec3> before;;) {
+    mesh = simplifier.take();
+    std::vector<glm::vec3> places = exceeding(mesh);
+    if (places.empty() || progress.stopped()) return !progress.stopped();
+    if (places == before || !simplifier.keep(places)) return false;
+    before = std::move(places);
+  }
 }
 
 }  // namespace sdf

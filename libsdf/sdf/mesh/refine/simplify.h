@@ -1,5 +1,6 @@
 // From a fine mesh to one with few triangles that keeps a tolerance.
 #pragma once
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -16,10 +17,13 @@ namespace sdf {
 /// last moves leave too far is split. Then the field is read all over the mesh, and where it is off there are
 /// more samples. No triangle is a needle or turned by more than 60 degrees from those that it replaces.
 ///
-/// `surface` are points of the surface that the mesh is to come as near to. Once progress is stopped the mesh
-/// is closed and manifold still, but unfinished. Does not depend on the number of threads. Cost: linear; some
-/// microseconds for each triangle that there was.
-void simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
-              const std::vector<glm::vec3>& surface, Progress& progress);
+/// `surface` are points of the surface that the mesh is to come as near to. `exceeding` is asked for places
+/// on the mesh or the surface that are farther from the other than the tolerance, in a mesh that is done so
+/// far; those that it has are looked at again, as long as that changes anything there. Returns whether it has
+/// none. Once progress is stopped the mesh is closed and manifold still, but unfinished. Does not depend on
+/// the number of threads. Cost: linear; some microseconds for each triangle that there was.
+bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
+              const std::vector<glm::vec3>& surface,
+              const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding, Progress& progress);
 
 }  // namespace sdf

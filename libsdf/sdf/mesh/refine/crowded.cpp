@@ -1,0 +1,180 @@
+#include "sdf/mesh/refine/crowded.h"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+#include "sdf/triangles/triangle_pairs.h"
+
+namespace sdf {
+namespace {
+
+using Index = SampledMesh::Index;
+using BoxPoint = boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>;
+using BoxOf = boost::geometry::model::box<BoxPoint>;
+
+BoxOf boxOf(const Corners& t) {
+  const glm::vec3 low = glm::min(glm::min(t[0], t[1]), t[2]), high = glm::max(glm::max(t[0], t[1]), t[2]);
+  return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+}
+
+// Directions by the side of a cube that they leave it through, and the ninth of that side.
+class Directions {
+ public:
+  static constexpr int kCount = 54;
+
+  Directions() {
+    for (int a = 0; a < kCount; ++a)
+      for (int b = 0; b < kCount; ++b)
+        if (glm::dot(middle(a), middle(b)) < 0.0f) opposite_[a] |= std::uint64_t{1} << b;
+  }
+  static int of(const glm::vec3& n) {
+    const glm::vec3 size = glm::abs(n);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto third = [&](float x) {
+      return std::clamp(static_cast<int>((x / size[axis] + 1.0f) * 1.5f), 0, 2);
+    };
+    return ((axis * 2 + (n[axis] < 0.0f)) * 3 + third(n[(axis + 1) % 3])) * 3 + third(n[(axis + 2) % 3]);
+  }
+  /// The directions that are at more than a right angle to this one, a bit each.
+  std::uint64_t oppositeOf(int direction) const { return opposite_[direction]; }
+
+ private:
+  static glm::vec3 middle(int direction) {
+    const int axis = direction / 18;
+    glm::vec3 n;
+    n[axis] = direction / 9 % 2 ? -1.0f : 1.0f;
+    n[(axis + 1) % 3] = static_cast<float>(direction / 3 % 3 - 1) * 2.0f / 3.0f;
+    n[(axis + 2) % 3] = static_cast<float>(direction % 3 - 1) * 2.0f / 3.0f;
+    return glm::normalize(n);
+  }
+  std::uint64_t opposite_[kCount] = {};
+};
+
+struct CellHash {
+  std::size_t operator()(const glm::ivec3& c) const {
+    return static_cast<std::uint32_t>(c.x) * 73856093u ^ static_cast<std::uint32_t>(c.y) * 19349663u ^
+           static_cast<std::uint32_t>(c.z) * 83492791u;
+  }
+};
+
+// The vertices that have one with an opposite normal within a cell's length, and perhaps some more.
+std::vector<char> crowdedVertices(const SampledMesh& sampled, float cell) {
+  const Directions directions;
+  const HalfEdgeMesh& mesh = sampled.mesh;
+  const auto cellOf = [&](Index v) { return glm::ivec3(glm::floor(mesh.positions[v] / cell)); };
+  std::unordered_map<glm::ivec3, std::uint64_t, CellHash> seen;
+  for (Index v = 0; v < mesh.vertices(); ++v)
+    if (mesh.vertexAlive(v)) seen[cellOf(v)] |= std::uint64_t{1} << Directions::of(sampled.normals[v]);
+  std::vector<char> crowded(mesh.vertices(), 0);
+  for (Index v = 0; v < mesh.vertices(); ++v) {
+    if (!mesh.vertexAlive(v)) continue;
+    const glm::ivec3 at = cellOf(v);
+    const std::uint64_t opposite = directions.oppositeOf(Directions::of(sampled.normals[v]));
+    for (int i = 0; i < 27 && !crowded[v]; ++i) {
+      const auto found = seen.find(at + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+      crowded[v] = found != seen.end() && (found->second & opposite) != 0;
+    }
+  }
+  return crowded;
+}
+
+}  // namespace
+
+struct CrowdedTriangles::Tree {
+  using Entry = std::pair<BoxOf, Index>;
+  boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> entries;
+  std::vector<BoxOf> boxes;  // by triangle, of those in the tree
+};
+
+CrowdedTriangles::CrowdedTriangles(const SampledMesh& sampled, float reach)
+    : mesh_(sampled.mesh), crowded_(mesh_.halfEdges() / 3, 0), tree_(std::make_unique<Tree>()) {
+  const std::vector<char> vertices = crowdedVertices(sampled, reach);
+  std::vector<Tree::Entry> entries;
+  tree_->boxes.resize(crowded_.size());
+  for (Index h = 0; h < mesh_.halfEdges(); h += 3) {
+    if (!mesh_.alive(h) || !(vertices[mesh_.from(h)] || vertices[mesh_.to(h)] || vertices[mesh_.apex(h)]))
+      continue;
+    crowded_[h / 3] = 1;
+    tree_->boxes[h / 3] = boxOf(mesh_.corners(h));
+    entries.emplace_back(tree_->boxes[h / 3], h / 3);
+  }
+  tree_->entries = decltype(tree_->entries)(entries);
+}
+
+CrowdedTriangles::~CrowdedTriangles() = default;
+
+// `own` are the triangle's vertices, of which the first may be at another place than the mesh has it.
+bool CrowdedTriangles::crosses(const glm::uvec3& own, const Corners& at, std::span<const Index> but) const {
+  namespace index = boost::geometry::index;
+  std::vector<glm::vec3> positions(6);
+  std::ranges::copy(at, positions.begin());
+  const auto crosses = [&](const Tree::Entry& entry) {
+    if (std::ranges::find(but, entry.second) != but.end()) return false;
+    glm::uvec3 other;
+    for (int k = 0; k < 3; ++k) {
+      const Index v = mesh_.from(3 * entry.second + static_cast<Index>(k));
+      other[k] = v == own[0] ? 0 : v == own[1] ? 1 : v == own[2] ? 2 : 3 + static_cast<Index>(k);
+      if (other[k] >= 3) positions[other[k]] = mesh_.positions[v];
+    }
+    return cross(positions, {0, 1, 2}, other);
+  };
+  const auto near = index::intersects(boxOf(at)) && index::satisfies(crosses);
+  return tree_->entries.qbegin(near) != tree_->entries.qend();
+}
+
+bool CrowdedTriangles::wouldCross(const Ring& ring, const glm::vec3& centre) const {
+  if (tree_->entries.empty()) return false;
+  const std::vector<Index> replaced = ring.triangles();
+  if (std::ranges::none_of(replaced, [&](Index t) { return has(t); })) return false;
+  for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
+    const std::size_t k = (i + 1) % n;
+    if (crosses({ring.centre(), ring.vertex(i), ring.vertex(k)}, {centre, ring.position(i), ring.position(k)},
+                replaced))
+      return true;
+  }
+  return false;
+}
+
+bool CrowdedTriangles::wouldCross(Index h) const {
+  const Index g = HalfEdgeMesh::previous(h), twin = mesh_.twin(h), both[2] = {h / 3, twin / 3};
+  if (!has(both[0]) && !has(both[1])) return false;
+  const Index a = mesh_.from(h), b = mesh_.to(h), c = mesh_.from(g), d = mesh_.apex(twin);
+  const auto crossesAs = [&](const glm::uvec3& t) {
+    return crosses(t, {mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]}, both);
+  };
+  return crossesAs({d, c, a}) || crossesAs({c, d, b});
+}
+
+void CrowdedTriangles::replaced(const Ring& ring) {
+  if (tree_->entries.empty()) return;
+  const std::vector<Index> triangles = ring.triangles();
+  if (std::ranges::none_of(triangles, [&](Index t) { return has(t); })) return;
+  for (const Index t : triangles) put(t);
+}
+
+void CrowdedTriangles::flipped(Index h) {
+  const Index both[2] = {h / 3, mesh_.twin(h) / 3};
+  if (!has(both[0]) && !has(both[1])) return;
+  for (const Index t : both) put(t);
+}
+
+// As it is now, or not at all where it is gone.
+void CrowdedTriangles::put(Index triangle) {
+  if (triangle >= crowded_.size()) crowded_.resize(triangle + 1, 0), tree_->boxes.resize(triangle + 1);
+  BoxOf& box = tree_->boxes[triangle];
+  if (crowded_[triangle]) tree_->entries.remove({box, triangle});
+  crowded_[triangle] = mesh_.alive(3 * triangle);
+  if (!crowded_[triangle]) return;
+  box = boxOf(mesh_.corners(3 * triangle));
+  tree_->entries.insert({box, triangle});
+}
+
+}  // namespace sdf
