@@ -286,7 +286,7 @@ class Mesher {
   enum class Simplified {
     Taken,       // the mesh is replaced
     NeedsFiner,  // none keeps the tolerance, and finer voxels are to be tried
-    IsBlurred    // colours need more than the shape does
+    No           // these voxels are too coarse for the shape, or colours need more than the shape does
   };
 
   // Replaces the mesh by one that is simplified from the largest voxels that do, up to some times as large as
@@ -311,10 +311,12 @@ class Mesher {
         extract(*coarse, false);
       }
       const Lattice& lattice = coarse ? *coarse : *fine;
-      const bool isLast = !coarse && !finer;
       FeatureMesh mesh = lattice.mesh;
-      if (!isClosed(mesh) || !(follows(mesh, lattice.field, witnesses) || isLast)) continue;
-      if (!blurred && !simplifyTo(mesh, lattice.field, fine->field, bounds, witnesses) && !isLast) continue;
+      if (!isClosed(mesh) || !follows(mesh, lattice.field, witnesses)) continue;
+      if (!blurred && !simplifyTo(mesh, lattice.field, fine->field, bounds, witnesses)) {
+        if (coarse) continue;
+        if (finer) return Simplified::NeedsFiner;
+      }
       // What is painted is looked at as closely as in the finest lattice.
       blurred = blurred || (painted_ && !keepsPaint(mesh, witnesses, fine->field));
       if (blurred && (times < kFinestPainted || !thinPainted(mesh, lattice, bounds, witnesses, fine->field)))
@@ -327,7 +329,7 @@ class Mesher {
       return Simplified::Taken;
     }
     witnessed_ = {};
-    return finer && !blurred && isClosed(fine->mesh) ? Simplified::NeedsFiner : Simplified::IsBlurred;
+    return Simplified::No;
   }
 
   static bool isClosed(const FeatureMesh& mesh) {

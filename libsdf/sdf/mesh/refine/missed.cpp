@@ -24,9 +24,8 @@ constexpr std::size_t kClimbers = 64;
 
 std::vector<SampledMesh::Index> MissedSamples::add() {
   added_.clear();
-  std::vector<Index> all, close;
-  for (Index h = 0; h < sampled_.mesh.halfEdges(); h += 3)
-    if (sampled_.mesh.alive(h)) all.push_back(h);
+  const std::vector<Index> all = alive();
+  std::vector<Index> close;
   addAt(all, kCoarseSteps, &close);
   addAt(close, kFineSteps, nullptr);
   addOfSurface(all);
@@ -35,10 +34,26 @@ std::vector<SampledMesh::Index> MissedSamples::add() {
   return std::exchange(added_, {});
 }
 
-void MissedSamples::watch(std::vector<glm::vec3> places) {
-  std::vector<glm::vec3> normals;
-  refineVertices(places, normals, field_, progress_);
-  surface_.insert(surface_.end(), places.begin(), places.end());
+std::vector<SampledMesh::Index> MissedSamples::addNextTo(const std::vector<glm::vec3>& places) {
+  std::vector<Index> triangles = alive();
+  const std::vector<NearestPoint> nearest =
+      nearestTriangles(places, sampled_.mesh.positions, cornersOf(triangles), progress_);
+  std::vector<glm::vec3> feet = places, normals;
+  refineVertices(feet, normals, field_, progress_);
+  if (progress_.stopped()) return {};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    added_.push_back(triangles[nearest[i].triangle]);
+    sampled_.add(added_.back() / 3, {feet[i], normals[i]});
+  }
+  surface_.insert(surface_.end(), feet.begin(), feet.end());
+  return std::exchange(added_, {});
+}
+
+std::vector<SampledMesh::Index> MissedSamples::alive() const {
+  std::vector<Index> all;
+  for (Index h = 0; h < sampled_.mesh.halfEdges(); h += 3)
+    if (sampled_.mesh.alive(h)) all.push_back(h);
+  return all;
 }
 
 // At a grid over some triangles; `close` receives those that are nearly too far.

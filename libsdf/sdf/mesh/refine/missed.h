@@ -22,11 +22,13 @@ class MissedSamples {
   /// from them (farthestOfSurface). Returns the triangles, by their first
   /// half-edges, that have more samples now. Cost: 10 to 46 points a triangle, a few readings each.
   std::vector<SampledMesh::Index> add();
-  /// The points of the surface next to these places are looked at from now on, too.
-  void watch(std::vector<glm::vec3> places);
+  /// Adds the points of the surface next to these places to the triangles that are nearest to them. Returns
+  /// these.
+  std::vector<SampledMesh::Index> addNextTo(const std::vector<glm::vec3>& places);
 
  private:
   using Index = SampledMesh::Index;
+  std::vector<Index> alive() const;
   void addAt(const std::vector<Index>& triangles, int steps, std::vector<Index>* close);
   void addOfCreases();
   void addOfSurface(const std::vector<Index>& triangles);

@@ -27,6 +27,8 @@ constexpr int kImprovements = 4, kSmoothings = 3, kAfterSplits = 2;
 constexpr std::size_t kWorthIt = 50;
 // Rounds of splitting what is too far, and of reading the field all over the mesh, at most.
 constexpr int kSplitRounds = 12, kLooks = 6;
+// How often others are asked what exceeds the tolerance, at most.
+constexpr int kOtherLooks = 12;
 // Of the tolerance: what is no farther off is flat.
 constexpr float kFlat = 0.01f;
 // What is left as it is may be off by more than it was by its rounding.
@@ -77,7 +79,7 @@ class Simplifier {
   }
   // Returns whether anything was changed for these places that are too far off.
   bool keep(const std::vector<glm::vec3>& exceeding) {
-    missed_.watch(exceeding);
+    touch(missed_.addNextTo(exceeding));
     return keep() > 0;
   }
   FeatureMesh take() const { return mesh_.compacted(); }
@@ -89,8 +91,7 @@ class Simplifier {
     std::size_t all = splitExceeding();
     for (int i = 0; i < kLooks && !progress_.stopped(); ++i) {
       const std::vector<Index> missed = missed_.add();
-      for (const Index h : missed)
-        for (Index k = 0; k < 3; ++k) changed_[mesh_.from(h + k)] = pass_ + 1;
+      touch(missed);
       if (missed.empty()) break;
       const std::size_t made = splitExceeding();
       if (made == 0) break;
@@ -164,6 +165,12 @@ class Simplifier {
     if (!sampled_.isSmooth(u) || !sampled_.isSmooth(v)) return false;
     const glm::vec3 turn = sampled_.normals[v] - sampled_.normals[u];
     return std::abs(glm::dot(turn, mesh_.positions[v] - mesh_.positions[u])) > 8.0f * limit_;
+  }
+
+  // These triangles have more samples.
+  void touch(const std::vector<Index>& triangles) {
+    for (const Index h : triangles)
+      for (Index k = 0; k < 3; ++k) changed_[mesh_.from(h + k)] = pass_ + 1;
   }
 
   // What the ring shows was changed.
@@ -371,12 +378,15 @@ bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
               Progress& progress) {
   Simplifier simplifier(mesh, field, tolerance, surface, progress);
   simplifier.run();
-  for (std::vector<glm::vec3> before;;) {
+  std::vector<glm::vec3> asked;
+  const auto isAsked = [&](const glm::vec3& p) { return std::ranges::find(asked, p) != asked.end(); };
+  for (int i = 0;; ++i) {
     mesh = simplifier.take();
     std::vector<glm::vec3> places = exceeding(mesh);
     if (places.empty() || progress.stopped()) return !progress.stopped();
-    if (places == before || !simplifier.keep(places)) return false;
-    before = std::move(places);
+    std::erase_if(places, isAsked);
+    if (places.empty() || i == kOtherLooks || !simplifier.keep(places)) return false;
+    asked.insert(asked.end(), places.begin(), places.end());
   }
 }
 
