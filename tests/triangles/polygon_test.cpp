@@ -181,7 +181,7 @@ TEST(CutPolygon, FillsARingWhoseHoleAnEdgeLeadsTo) {
     std::mt19937 random(count);
     for (int i = 0; i < 5; ++i) {
       expectFilled(cutOf(turned(outline, randomTurn(random)), corners));
-      std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(count / 2));
+      std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count / 2), corners.end());
     }
   }
 }
@@ -223,7 +223,8 @@ TEST(CutPolygon, CutsThePolygonAlikeFromBehind) {
   for (const auto& points : {circle(3000), turned(starShaped(random, 500), randomTurn(random))}) {
     Cut cut = cutOf(points);
     std::ranges::reverse(cut.corners);
-    std::ranges::rotate(cut.corners, cut.corners.begin() + static_cast<std::ptrdiff_t>(points.size() / 3));
+    std::rotate(cut.corners.begin(), cut.corners.begin() + static_cast<std::ptrdiff_t>(points.size() / 3),
+                cut.corners.end());
     EXPECT_TRUE(cutPolygon(cut.points, cut.corners, cut.triangles));
     TriangleMesh both;
     both.positions = cut.points;
@@ -262,7 +263,7 @@ TEST(CutPolygon, CutsQuadsAlongTheSameDiagonalWhereverTheyBegin) {
       EXPECT_TRUE(cut.whole);
       expectEdges(cut);
       EXPECT_EQ(diagonalOf(cut), diagonal) << "quad " << &points - &quads[0].first << ", " << i;
-      std::ranges::rotate(corners, corners.begin() + 1);
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
       if (i == 3) std::ranges::reverse(corners);
     }
   }

@@ -94,6 +94,9 @@ constexpr double kResolved = 0.25;
 constexpr double kCoarsest = 16.0, kFollowed = 2.0;
 // Simplifying holds samples to this share of the tolerance, for the rounding of what is measured.
 constexpr double kHeldTo = 0.999;
+// The same of thinning, which does not climb to what lies between its witnesses: by default up to 1.7 %
+// there.
+constexpr double kThinnedTo = 0.98;
 // Of the tolerance: what is as far from a mesh of the surface may come to be beyond it in the next.
 constexpr double kClose = 0.9;
 // The finest voxels, times those that were asked for, that are thinned for their colours before these are.
@@ -177,11 +180,11 @@ class Mesher {
                             !placesBeyond(limit, mesh, lattice.field, h, progress_).empty();
         if (broken && finer) continue;
         if (broken && options_.strict) return checkTolerance().error();
-        const ThinOptions thinning{options_.tolerance, h, painted_, options_.strict, broken};
+        const ThinOptions thinning{kThinnedTo * options_.tolerance, h, painted_, options_.strict, broken};
         const FeatureMesh before = mesh;
         bool kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
-        // Once more with what lay between its witnesses.
-        if (kept && !witness(mesh, lattice.field, *bounds, witnesses).empty()) {
+        // Once more with what lay between its witnesses, where the tolerance was asked for.
+        if (kept && options_.strict && !witness(mesh, lattice.field, *bounds, witnesses).empty()) {
           mesh = before;
           kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
         }
@@ -353,7 +356,7 @@ class Mesher {
   bool thinPainted(FeatureMesh& mesh, const Lattice& lattice, const Box& bounds, Witnesses& witnesses,
                    const BandField& fine) {
     mesh = lattice.mesh;
-    const ThinOptions options{options_.tolerance, lattice.band.voxelSize(), true, false};
+    const ThinOptions options{kThinnedTo * options_.tolerance, lattice.band.voxelSize(), true, false};
     if (!thin(mesh, fine, witnesses, options, progress_)) return false;
     witnessed_ = witnesses.toSurface(mesh, progress_);
     return witnessed_.max <= options_.tolerance && witness(mesh, fine, bounds, witnesses).empty();
