@@ -94,8 +94,8 @@ constexpr double kResolved = 0.25;
 constexpr double kCoarsest = 16.0, kFollowed = 2.0;
 // Simplifying holds samples to this share of the tolerance, for the rounding of what is measured.
 constexpr double kHeldTo = 0.999;
-// The same of thinning, which does not climb to what lies between its witnesses: by default up to 1.7 %
-// there.
+// The same of thinning, which does not climb to what lies between its witnesses, by up to 1.7 % in samples,
+// where it is not done again for that.
 constexpr double kThinnedTo = 0.98;
 // Of the tolerance: what is as far from a mesh of the surface may come to be beyond it in the next.
 constexpr double kClose = 0.9;
@@ -180,7 +180,7 @@ class Mesher {
                             !placesBeyond(limit, mesh, lattice.field, h, progress_).empty();
         if (broken && finer) continue;
         if (broken && options_.strict) return checkTolerance().error();
-        const ThinOptions thinning{kThinnedTo * options_.tolerance, h, painted_, options_.strict, broken};
+        const ThinOptions thinning{thinnedTo(), h, painted_, options_.strict, broken};
         const FeatureMesh before = mesh;
         bool kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
         // Once more with what lay between its witnesses, where the tolerance was asked for.
@@ -351,12 +351,14 @@ class Mesher {
            witnesses.toBorders(mesh, progress_) <= options_.tolerance;
   }
 
+  double thinnedTo() const { return (options_.strict ? 1.0 : kThinnedTo) * options_.tolerance; }
+
   // The mesh becomes that of the lattice, thinned by readings of shape and colours; returns whether the
   // tolerance is kept.
   bool thinPainted(FeatureMesh& mesh, const Lattice& lattice, const Box& bounds, Witnesses& witnesses,
                    const BandField& fine) {
     mesh = lattice.mesh;
-    const ThinOptions options{kThinnedTo * options_.tolerance, lattice.band.voxelSize(), true, false};
+    const ThinOptions options{thinnedTo(), lattice.band.voxelSize(), true, false};
     if (!thin(mesh, fine, witnesses, options, progress_)) return false;
     witnessed_ = witnesses.toSurface(mesh, progress_);
     return witnessed_.max <= options_.tolerance && witness(mesh, fine, bounds, witnesses).empty();
