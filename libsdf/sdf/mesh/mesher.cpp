@@ -320,6 +320,7 @@ class Mesher {
         if (coarse) continue;
         if (finer) return Simplified::NeedsFiner;
       }
+      if (!blurred && !crossingTriangles(mesh.positions, mesh.triangles).empty()) continue;
       // What is painted is looked at as closely as in the finest lattice.
       blurred = blurred || (painted_ && !keepsPaint(mesh, witnesses, fine->field));
       if (blurred && (times < kFinestPainted || !thinPainted(mesh, lattice, bounds, witnesses, fine->field)))
