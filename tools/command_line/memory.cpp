@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -13,8 +14,12 @@ namespace {
 
 const char *thisProgram = "", *whatToDo = "";
 
-// Takes no memory itself.
+std::atomic_flag ending = ATOMIC_FLAG_INIT;
+
+// Takes no memory itself. Memory ends for all threads at once; the first one speaks, the others wait for the
+// end.
 void end() {
+  while (ending.test_and_set()) ::pause();
   for (const char* text : {thisProgram, ": the memory is used up; ", whatToDo, "\n"})
     if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
   std::_Exit(static_cast<int>(ErrorKind::Limits));
