@@ -181,7 +181,7 @@ class Mesher {
         if (broken && finer) continue;
         if (broken && options_.strict) return checkTolerance().error();
         const ThinOptions thinning{thinnedTo(), h, painted_, options_.strict, broken};
-        const FeatureMesh before = mesh;
+        const FeatureMesh before = options_.strict ? mesh : FeatureMesh();
         bool kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
         // Once more with what lay between its witnesses, where the tolerance was asked for.
         if (kept && options_.strict && !witness(mesh, lattice.field, *bounds, witnesses).empty()) {
@@ -337,9 +337,7 @@ class Mesher {
   }
 
   static bool isClosed(const FeatureMesh& mesh) {
-    MeshStats stats;
-    measureTopology(mesh.triangles, mesh.positions.size(), stats);
-    return !mesh.triangles.empty() && stats.watertight;
+    return !mesh.triangles.empty() && !openVertex(mesh.triangles, mesh.positions.size());
   }
 
   // Is a lattice's mesh near enough for simplifying to mend it?

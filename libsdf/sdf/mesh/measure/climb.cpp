@@ -35,14 +35,10 @@ std::vector<Way> waysAround(const PointRun& run, const std::vector<double>& step
   std::vector<Way> ways;
   for (std::size_t i = 0; i < run.count; ++i) {
     const glm::dvec3 at(run.points.at(i)), normal(gradients.normal(i, glm::vec3(0, 1, 0)));
-    const glm::dvec3 u = glm::normalize(glm::cross(normal, leastAxis(normal))), v = glm::cross(normal, u);
-    for (int k = 0; k < kSides; ++k) {
-      const double turn = (k + turned) * 2.0 * std::numbers::pi / kSides;
-      const glm::dvec3 aside = std::cos(turn) * u + std::sin(turn) * v;
+    for (const glm::dvec3& aside : allAround(normal, kSides, turned))
       for (const double side : {-1.0, 1.0})
         ways.push_back({glm::dvec3(glm::vec3(at + steps[i] * aside)), false,
                         (aside + side * normal) / std::numbers::sqrt2, std::numbers::sqrt2 * steps[i]});
-    }
   }
   readValues(
       run.batch, *run.tapes.distance, ways.size(), [&](std::size_t k) { return ways[k].from; },

@@ -85,11 +85,17 @@ std::vector<Piece> piecesOf(const PointRun& run, const std::vector<Way>& ways) {
 
 }  // namespace
 
-glm::dvec3 leastAxis(const glm::dvec3& way) {
+std::vector<glm::dvec3> allAround(const glm::dvec3& way, int count, double turned) {
   const glm::dvec3 size = glm::abs(way);
-  glm::dvec3 axis(0.0);
-  axis[size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2] = 1.0;
-  return axis;
+  glm::dvec3 least(0.0);  // the axis that it leads along the least
+  least[size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2] = 1.0;
+  const glm::dvec3 u = glm::normalize(glm::cross(way, least)), v = glm::cross(way, u);
+  std::vector<glm::dvec3> all;
+  for (int k = 0; k < count; ++k) {
+    const double turn = (k + turned) * 2.0 * std::numbers::pi / count;
+    all.push_back(std::cos(turn) * u + std::sin(turn) * v);
+  }
+  return all;
 }
 
 std::vector<Met> meetAlong(const PointRun& run, const std::vector<Way>& ways) {
@@ -243,12 +249,9 @@ std::vector<Met> meetBeside(const PointRun& run, const std::vector<Way>& points,
     std::vector<Way> ways;
     for (const std::size_t i : open) {
       const glm::dvec3 way = met[i].direction;
-      const glm::dvec3 u = glm::normalize(glm::cross(way, leastAxis(way))), v = glm::cross(way, u);
-      for (int k = 0; k < kSides; ++k) {
-        const double turn = (k + 0.5 * (round % 2)) * 2.0 * std::numbers::pi / kSides;
-        const glm::dvec3 beside = way + aside[i] * (std::cos(turn) * u + std::sin(turn) * v);
-        ways.push_back({points[i].from, points[i].inside, glm::normalize(beside), met[i].distance});
-      }
+      for (const glm::dvec3& side : allAround(way, kSides, 0.5 * (round % 2)))
+        ways.push_back(
+            {points[i].from, points[i].inside, glm::normalize(way + aside[i] * side), met[i].distance});
     }
     const std::vector<Met> along = meetAlong(run, ways);
     for (std::size_t k = 0; k < open.size(); ++k) {

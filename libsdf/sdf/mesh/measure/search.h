@@ -17,8 +17,8 @@ inline bool isAcross(float value, bool inside) { return inside ? !(value < 0.0f)
 inline constexpr int kNeighbourhood = 27;
 inline glm::vec3 neighbour(int i) { return glm::vec3(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1); }
 
-/// The axis that a direction leads along the least.
-glm::dvec3 leastAxis(const glm::dvec3& way);
+/// So many unit vectors across a direction, all around it; `turned` by this share of the angle between them.
+std::vector<glm::dvec3> allAround(const glm::dvec3& way, int count, double turned);
 
 /// What lies between the two sides of a surface there at least, of a shape as large as that: some times the
 /// way to the next float. The numbers of two shapes that touch are rounded each by themselves.

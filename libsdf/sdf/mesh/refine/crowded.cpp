@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
+#include "sdf/base/fnv.h"
 #include "sdf/triangles/triangle_pairs.h"
 
 namespace sdf {
@@ -60,8 +61,9 @@ class Directions {
 
 struct CellHash {
   std::size_t operator()(const glm::ivec3& c) const {
-    return static_cast<std::uint32_t>(c.x) * 73856093u ^ static_cast<std::uint32_t>(c.y) * 19349663u ^
-           static_cast<std::uint32_t>(c.z) * 83492791u;
+    std::size_t hash = kFnvBegin<std::size_t>;
+    for (int k = 0; k < 3; ++k) hash = fnv(hash, static_cast<std::size_t>(c[k]));
+    return hash;
   }
 };
 
@@ -130,10 +132,14 @@ bool CrowdedTriangles::crosses(const glm::uvec3& own, const Corners& at, std::sp
   return tree_->entries.qbegin(near) != tree_->entries.qend();
 }
 
+bool CrowdedTriangles::areCrowded(std::span<const Index> triangles) const {
+  return std::ranges::any_of(triangles, [&](Index t) { return t < crowded_.size() && crowded_[t]; });
+}
+
 bool CrowdedTriangles::wouldCross(const Ring& ring, const glm::vec3& centre) const {
   if (tree_->entries.empty()) return false;
   const std::vector<Index> replaced = ring.triangles();
-  if (std::ranges::none_of(replaced, [&](Index t) { return has(t); })) return false;
+  if (!areCrowded(replaced)) return false;
   for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
     const std::size_t k = (i + 1) % n;
     if (crosses({ring.centre(), ring.vertex(i), ring.vertex(k)}, {centre, ring.position(i), ring.position(k)},
@@ -144,9 +150,9 @@ bool CrowdedTriangles::wouldCross(const Ring& ring, const glm::vec3& centre) con
 }
 
 bool CrowdedTriangles::wouldCross(Index h) const {
-  const Index g = HalfEdgeMesh::previous(h), twin = mesh_.twin(h), both[2] = {h / 3, twin / 3};
-  if (!has(both[0]) && !has(both[1])) return false;
-  const Index a = mesh_.from(h), b = mesh_.to(h), c = mesh_.from(g), d = mesh_.apex(twin);
+  const Index g = mesh_.twin(h), both[2] = {h / 3, g / 3};
+  if (!areCrowded(both)) return false;
+  const Index a = mesh_.from(h), b = mesh_.to(h), c = mesh_.apex(h), d = mesh_.apex(g);
   const auto crossesAs = [&](const glm::uvec3& t) {
     return crosses(t, {mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]}, both);
   };
@@ -154,16 +160,18 @@ bool CrowdedTriangles::wouldCross(Index h) const {
 }
 
 void CrowdedTriangles::replaced(const Ring& ring) {
-  if (tree_->entries.empty()) return;
-  const std::vector<Index> triangles = ring.triangles();
-  if (std::ranges::none_of(triangles, [&](Index t) { return has(t); })) return;
-  for (const Index t : triangles) put(t);
+  if (!tree_->entries.empty()) put(ring.triangles());
 }
 
 void CrowdedTriangles::flipped(Index h) {
   const Index both[2] = {h / 3, mesh_.twin(h) / 3};
-  if (!has(both[0]) && !has(both[1])) return;
-  for (const Index t : both) put(t);
+  put(both);
+}
+
+// What is made of crowded triangles is crowded.
+void CrowdedTriangles::put(std::span<const Index> triangles) {
+  if (areCrowded(triangles))
+    for (const Index t : triangles) put(t);
 }
 
 // As it is now, or not at all where it is gone.

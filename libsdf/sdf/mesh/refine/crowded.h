@@ -1,6 +1,5 @@
 // Where sheets of a mesh lie close to one another, and what would make them cross.
 #pragma once
-#include <array>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -33,8 +32,9 @@ class CrowdedTriangles {
 
  private:
   struct Tree;
-  bool has(Index triangle) const { return triangle < crowded_.size() && crowded_[triangle]; }
+  bool areCrowded(std::span<const Index> triangles) const;  // any of them
   bool crosses(const glm::uvec3& own, const Corners& at, std::span<const Index> but) const;
+  void put(std::span<const Index> triangles);
   void put(Index triangle);
 
   const HalfEdgeMesh& mesh_;

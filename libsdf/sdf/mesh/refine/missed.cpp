@@ -35,7 +35,7 @@ std::vector<SampledMesh::Index> MissedSamples::add() {
 }
 
 std::vector<SampledMesh::Index> MissedSamples::addNextTo(const std::vector<glm::vec3>& places) {
-  std::vector<Index> triangles = alive();
+  const std::vector<Index> triangles = alive();
   const std::vector<NearestPoint> nearest =
       nearestTriangles(places, sampled_.mesh.positions, cornersOf(triangles), progress_);
   std::vector<glm::vec3> feet = places, normals;

@@ -15,7 +15,8 @@ namespace sdf {
 /// one triangle and is handed on when that changes (after Cohen, Olano, Manocha 1998). Edges are collapsed
 /// and flipped and vertices moved, to either side of the surface, only where all samples stay near; what the
 /// last moves leave too far is split. Then the field is read all over the mesh, and where it is off there are
-/// more samples. No triangle is a needle or turned by more than 60 degrees from those that it replaces.
+/// more samples. No triangle is a needle or turned by more than 60 degrees from those that it replaces, or
+/// where these are bent from the surface at its samples.
 ///
 /// `surface` are points of the surface that the mesh is to come as near to. `exceeding` is asked for places
 /// on the mesh or the surface that are farther from the other than the tolerance, in a mesh that is done so
