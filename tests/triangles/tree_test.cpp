@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <numbers>
@@ -73,12 +74,62 @@ TEST(TriangleTree, FindsWhatCrossesAroundACornerAsEachTwoTell) {
   for (const double twisted : {0.01, 0.1, 1.0}) {
     const TriangleMesh fan = triangleFan(200, twisted);
     const TriangleTree tree(fan.positions, fan.triangles);
+    const std::vector<char> crossing = tree.crossing();
     for (std::uint32_t i = 0; i < fan.triangles.size(); ++i) {
       bool crosses = false;
       for (std::uint32_t k = 0; k < fan.triangles.size(); ++k)
         crosses = crosses || (k != i && cross(fan.positions, fan.triangles[i], fan.triangles[k]));
       EXPECT_EQ(tree.crosses(i), crosses) << "triangle " << i << ", twisted by " << twisted;
+      EXPECT_EQ(crossing[i] != 0, crosses) << "triangle " << i << ", twisted by " << twisted;
     }
+  }
+}
+
+// Of two tips with a rim in common each triangle's box has those of a quarter of the others in it.
+TEST(TriangleTree, TakesTwoFansOfThousandsThatTouch) {
+  constexpr std::uint32_t kCount = 50'000;
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCount;
+    mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  mesh.positions.emplace_back(0.0f, 0.0f, 1.0f);
+  mesh.positions.emplace_back(0.0f, 0.0f, -1.0f);
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    mesh.triangles.emplace_back(i, (i + 1) % kCount, kCount);
+    mesh.triangles.emplace_back((i + 1) % kCount, i, kCount + 1);
+  }
+  EXPECT_FALSE(TriangleTree(mesh.positions, mesh.triangles).crosses());
+  mesh.positions[kCount / 2] = {0.9f, 0.0f, 0.9f};  // through the fan and out on the other side
+  EXPECT_TRUE(TriangleTree(mesh.positions, mesh.triangles).crosses());
+}
+
+// Heaps in which few, some and nearly all cross, and flat ones among them.
+TEST(TriangleTree, FindsWhatCrossesAsEachTwoTell) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    const double size = std::array{0.05, 0.3, 1.0}[seed % 3];
+    TriangleMesh heap;
+    for (std::uint32_t i = 0; i < 150; ++i) {
+      const glm::dvec3 at = randomIn(random, 1.0);
+      for (int k = 0; k < 3; ++k) heap.positions.emplace_back(at + randomIn(random, size));
+      heap.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    if (seed % 4 == 0)
+      for (glm::vec3& p : heap.positions) p = glm::round(8.0f * p) / glm::vec3(8.0f, 8.0f, 2.0f);
+    const TriangleTree tree(heap.positions, heap.triangles);
+    const std::vector<char> crossing = tree.crossing();
+    bool any = false;
+    for (std::uint32_t i = 0; i < heap.triangles.size(); ++i) {
+      bool crosses = hasNoArea(heap.positions, heap.triangles[i]);
+      for (std::uint32_t k = 0; k < heap.triangles.size() && !crosses; ++k)
+        crosses = k != i && !hasNoArea(heap.positions, heap.triangles[k]) &&
+                  cross(heap.positions, heap.triangles[i], heap.triangles[k]);
+      ASSERT_EQ(crossing[i] != 0, crosses) << "seed " << seed << ", triangle " << i;
+      ASSERT_EQ(tree.crosses(i), crosses) << "seed " << seed << ", triangle " << i;
+      any = any || crosses;
+    }
+    EXPECT_EQ(tree.crosses(), any) << "seed " << seed;
   }
 }
 

@@ -58,8 +58,10 @@ TriangleDistance::TriangleDistance(ClosedTriangles triangles)
       max_(boxOf(triangles_).second),
       tree_(triangles_.points, triangles_.triangles) {
   setNormals();
-  if (triangles_.manifold && !tree_.crosses() && normalsTellSides()) signBy_ = SignBy::Normals;
-  if (signBy_ == SignBy::Winding) setPatches();
+  const bool isSurface = triangles_.manifold && !tree_.crosses();
+  if (isSurface && normalsTellSides()) signBy_ = SignBy::Normals;
+  if (signBy_ == SignBy::Winding)
+    setPatches(isSurface ? std::vector<char>(triangles_.triangles.size(), 0) : tree_.crossing());
 }
 
 std::array<glm::dvec3, 3> TriangleDistance::corners(std::uint32_t triangle) const {
@@ -112,7 +114,7 @@ bool TriangleDistance::normalsTellSides() const {
   return true;
 }
 
-void TriangleDistance::setPatches() {
+void TriangleDistance::setPatches(const std::vector<char>& crossing) {
   const std::vector<glm::uvec3>& all = triangles_.triangles;
   const auto count = static_cast<std::uint32_t>(all.size());
   patches_.resize(count);
@@ -128,7 +130,7 @@ void TriangleDistance::setPatches() {
   for (std::uint32_t i = 0; i < count; ++i)
     for (int k = 0; k < 3; ++k) ++edgeAt(i, k).triangles;
   for (std::uint32_t i = 0; i < count; ++i) {
-    patches_[i].known = !tree_.crosses(i);
+    patches_[i].known = crossing[i] == 0;
     for (int k = 0; patches_[i].known && k < 3; ++k) {
       Edge& edge = edgeAt(i, k);
       if (edge.triangles != 2) continue;

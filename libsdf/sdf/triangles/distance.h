@@ -61,7 +61,8 @@ class TriangleDistance {
   /// Is the solid before a triangle, where its normal points to, and behind it?
   std::array<bool, 2> sidesOf(std::uint32_t triangle) const;
   bool isWoundAround(const glm::dvec3& p) const;
-  void setPatches();
+  /// `crossing` is 0 for each triangle that crosses no other one.
+  void setPatches(const std::vector<char>& crossing);
 
   ClosedTriangles triangles_;
   glm::dvec3 min_, max_;

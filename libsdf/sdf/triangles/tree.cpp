@@ -9,40 +9,14 @@
 #include <numbers>
 #include <numeric>
 
-#include "sdf/triangles/triangle_pairs.h"
+#include "sdf/triangles/tree-inl.h"
 
 namespace sdf {
 namespace {
 
 constexpr std::uint32_t kLeaf = 4;  // triangles
 constexpr int kBins = 16;
-constexpr int kByCost = 64;  // levels; below them triangles are halved, so that none is deeper than
-constexpr int kDeepest = 128;
-
-struct Extent {
-  glm::vec3 min{std::numeric_limits<float>::infinity()}, max{-std::numeric_limits<float>::infinity()};
-  void add(const glm::vec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
-  void add(const Extent& other) { min = glm::min(min, other.min), max = glm::max(max, other.max); }
-  // Of a float's extent squares are no floats.
-  double halfArea() const {
-    const glm::dvec3 s = glm::dvec3(max) - glm::dvec3(min);
-    return s.x < 0.0 ? 0.0 : s.x * s.y + s.y * s.z + s.z * s.x;
-  }
-};
-
-Extent extentOf(const std::vector<glm::vec3>& points, const glm::uvec3& t) {
-  Extent e;
-  for (int k = 0; k < 3; ++k) e.add(points[t[k]]);
-  return e;
-}
-
-bool apart(const Extent& a, const Extent& b) {
-  return glm::any(glm::lessThan(a.max, b.min)) || glm::any(glm::lessThan(b.max, a.min));
-}
-
-bool hasCorner(const glm::uvec3& t, std::uint32_t corner) {
-  return t.x == corner || t.y == corner || t.z == corner;
-}
+constexpr int kByCost = 64;  // levels; below them triangles are halved, so that none is deeper than kDeepest
 
 double squaredTo(const glm::dvec3& p, const glm::vec3& min, const glm::vec3& max) {
   const glm::dvec3 gap = glm::max(glm::max(glm::dvec3(min) - p, p - glm::dvec3(max)), glm::dvec3(0.0));
@@ -250,127 +224,6 @@ double TriangleTree::winding(const glm::dvec3& p) const {
     }
   }
   return sum;
-}
-
-namespace {
-
-// Triangles around a corner, for which looking at each two costs as much as a table of them.
-constexpr std::uint32_t kManyAround = 64;
-constexpr std::uint32_t kNoHub = std::numeric_limits<std::uint32_t>::max();
-
-}  // namespace
-
-// The triangles around a corner, seen from there: arcs on a sphere, of which two meet if and only if the
-// triangles meet beyond the corner. The tree's triangles are boxes around the arcs.
-struct TriangleTree::Link {
-  std::vector<std::uint32_t> triangles;
-  std::vector<glm::vec3> ends;      // of the boxes
-  std::vector<glm::uvec3> corners;  // of the boxes, among the ends
-  std::unique_ptr<TriangleTree> tree;
-
-  void add(std::uint32_t triangle, const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 u = glm::normalize(a), v = glm::normalize(b);
-    // The arc is as far from its chord as half the chord at most, and 1 - cos of half the angle.
-    constexpr double kRounding = 1e-6;
-    const double half = 0.5 * glm::length(u - v);
-    const double margin = 1.0 - std::sqrt(std::max(0.0, 1.0 - half * half)) + kRounding;
-    const auto first = static_cast<std::uint32_t>(ends.size());
-    ends.emplace_back(glm::min(u, v) - margin);
-    ends.emplace_back(glm::max(u, v) + margin);
-    corners.emplace_back(first, first + 1, first + 1);
-    triangles.push_back(triangle);
-  }
-};
-
-void TriangleTree::findLinks() {
-  std::vector<std::uint32_t> around(points_.size());
-  for (const glm::uvec3& t : triangles_)
-    for (int k = 0; k < 3; ++k) ++around[t[k]];
-  std::unordered_map<std::uint32_t, std::shared_ptr<Link>> links;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t corner = triangles_[i][k];
-      if (around[corner] <= kManyAround || hasNoArea(points_, triangles_[i])) continue;
-      std::shared_ptr<Link>& link = links[corner];
-      if (!link) link = std::make_shared<Link>();
-      const glm::dvec3 at(points_[corner]);
-      link->add(i, glm::dvec3(points_[triangles_[i][(k + 1) % 3]]) - at,
-                glm::dvec3(points_[triangles_[i][(k + 2) % 3]]) - at);
-    }
-  for (auto& [corner, link] : links) {
-    link->tree = std::make_unique<TriangleTree>(link->ends, link->corners);
-    links_.emplace(corner, std::move(link));
-  }
-  if (!links_.empty()) findHubs();
-}
-
-// Of a leaf the first that will do, above it the one that both nodes have.
-void TriangleTree::findHubs() {
-  hubs_.assign(nodes_.size(), kNoHub);
-  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
-    const Node& node = nodes_[n];
-    if (node.count == 0) {
-      if (hubs_[node.first] == hubs_[node.first + 1]) hubs_[n] = hubs_[node.first];
-      continue;
-    }
-    for (int k = 0; k < 3 && hubs_[n] == kNoHub; ++k) {
-      const std::uint32_t corner = triangles_[order_[node.first]][k];
-      const auto hasIt = [&](std::uint32_t i) { return hasCorner(triangles_[i], corner); };
-      const auto begin = order_.begin() + node.first;
-      if (links_.contains(corner) && std::all_of(begin, begin + node.count, hasIt)) hubs_[n] = corner;
-    }
-  }
-}
-
-// Does `visit` hold for any triangle whose box meets this one, but those of nodes that are skipped?
-template <class Skip, class Visit>
-bool TriangleTree::anyNear(const glm::vec3& min, const glm::vec3& max, Skip skip, Visit visit) const {
-  const Extent own{min, max};
-  std::array<std::uint32_t, kDeepest> open;
-  std::size_t left = 0;
-  open[left++] = 0;
-  while (left > 0) {
-    const std::uint32_t number = open[--left];
-    const Node& node = nodes_[number];
-    if (apart({node.min, node.max}, own) || skip(number)) continue;
-    if (node.count == 0) open[left++] = node.first, open[left++] = node.first + 1;
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-      if (visit(order_[i])) return true;
-  }
-  return false;
-}
-
-bool TriangleTree::crosses(std::uint32_t triangle, std::uint32_t other, bool onlyLater) const {
-  if (other == triangle || (onlyLater && other < triangle)) return false;
-  const glm::uvec3 &s = triangles_[triangle], &t = triangles_[other];
-  // The last is seldom asked.
-  return !apart(extentOf(points_, s), extentOf(points_, t)) && cross(points_, s, t) && !hasNoArea(points_, t);
-}
-
-bool TriangleTree::crossesAround(std::uint32_t corner, std::uint32_t triangle, bool onlyLater) const {
-  const Link& link = *links_.at(corner);
-  const auto place = std::ranges::lower_bound(link.triangles, triangle) - link.triangles.begin();
-  const glm::uvec3& own = link.corners[static_cast<std::size_t>(place)];
-  return link.tree->anyNear(
-      link.ends[own.x], link.ends[own.y], [](std::uint32_t) { return false; },
-      [&](std::uint32_t i) { return crosses(triangle, link.triangles[i], onlyLater); });
-}
-
-bool TriangleTree::crosses(std::uint32_t triangle, bool onlyLater) const {
-  const glm::uvec3& t = triangles_[triangle];
-  if (hasNoArea(points_, t)) return true;
-  for (int k = 0; k < 3 && !links_.empty(); ++k)
-    if (links_.contains(t[k]) && crossesAround(t[k], triangle, onlyLater)) return true;
-  const auto isAroundOwn = [&](std::uint32_t node) { return !hubs_.empty() && hasCorner(t, hubs_[node]); };
-  const Extent own = extentOf(points_, t);
-  return anyNear(own.min, own.max, isAroundOwn,
-                 [&](std::uint32_t other) { return crosses(triangle, other, onlyLater); });
-}
-
-bool TriangleTree::crosses() const {
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-    if (crosses(i, true)) return true;
-  return false;
 }
 
 }  // namespace sdf

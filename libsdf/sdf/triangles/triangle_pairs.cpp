@@ -34,6 +34,7 @@ int side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::
   const double size =
       (x.y * y.z + x.z * y.y) * z.x + (x.z * y.x + x.x * y.z) * z.y + (x.x * y.y + x.y * y.x) * z.z;
   if (std::abs(volume) > kFilter * size) return signOf(volume);
+  if (size == 0.0) return 0;  // in a plane across an axis: products of three floats do not vanish
   ExactSum sum;
   addVolume(sum, glm::dvec3(b), glm::dvec3(c), glm::dvec3(d), 1.0);
   addVolume(sum, glm::dvec3(a), glm::dvec3(c), glm::dvec3(d), -1.0);
