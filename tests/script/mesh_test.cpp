@@ -204,6 +204,14 @@ TEST_F(Meshes, ThatAreMissingAreFollowed) {
             std::vector{(std::filesystem::canonical(scenes()) / "bad.obj").string()});
 }
 
+TEST_F(Meshes, ThatTakeTooLongAreNamed) {
+  writeObj(scenes() / "large.obj", bumpyTorus(200));
+  options_.timeLimit = 0.01;
+  EXPECT_EQ(
+      errorOf("local large = mesh('large.obj')\nreturn large:translate(1, 0, 0)"),
+      here(":2: ran longer than 0.01 seconds, most of them to read 'large.obj'; give it fewer triangles"));
+}
+
 TEST_F(Meshes, BadArgumentsAreNamed) {
   EXPECT_NE(errorOf("return mesh(1)").find("mesh: the file must be a text"), std::string::npos);
   EXPECT_NE(errorOf(R"(return mesh("box.obj", {voxels = 8}))").find("voxels must be from 16 to 1024, got 8"),

@@ -1,6 +1,7 @@
 // Shapes in the scene language: one function for each entry of the catalog, and the ways in which its
 // arguments can be written; and shapes that are written as formulas of the position.
 #include <algorithm>
+#include <chrono>
 #include <lua.hpp>
 
 #include "sdf/expr/origin.h"
@@ -385,7 +386,10 @@ int importedMesh(lua_State* L) {
   const auto file = permitted(name, c.file, c.options);
   if (!file) return goOnWithout(file.error().message);
   addOnce(c.scene.files, file->string());
+  const auto began = std::chrono::steady_clock::now();
   const auto read = meshField(*file, voxels, c.options.meshCache);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  if (took > c.slowestRead) c.slowestRead = took, c.slowestMesh = name;
   if (!read) return goOnWithout(read.error().message);
   if (!read->note.empty()) addOnce(c.scene.notes, name + ": " + read->note);
   return pushGood(L, triangleSolid(read->field));

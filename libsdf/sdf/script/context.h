@@ -48,6 +48,8 @@ struct ScriptContext {
   int refusedLine = 0;    ///< … last while this line ran
   std::uint64_t instructions = 0;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  std::string slowestMesh;                         ///< of those read so far, the one that took longest, …
+  std::chrono::duration<double> slowestRead{0.0};  ///< … and how long
   std::string exceeded;  ///< the message of the limit that ended the run; "" while it goes on
   int exceededLine = 0;
 };

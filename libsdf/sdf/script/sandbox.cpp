@@ -56,8 +56,10 @@ void checkTime(lua_State* L) {
   const ScriptContext& c = contextOf(L);
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - c.start;
   if (passed.count() <= c.options.timeLimit) return;
-  endRun(L, "ran longer than " + shown(c.options.timeLimit) + " seconds; look for a loop near line " +
-                std::to_string(currentLine(L)));
+  const std::string longer = "ran longer than " + shown(c.options.timeLimit) + " seconds";
+  if (2.0 * c.slowestRead > passed)
+    endRun(L, longer + ", most of them to read '" + c.slowestMesh + "'; give it fewer triangles");
+  endRun(L, longer + "; look for a loop near line " + std::to_string(currentLine(L)));
 }
 
 void countInstructions(lua_State* L, lua_Debug*) {
