@@ -56,7 +56,7 @@ class TriangleTree {
   bool crosses() const;
   /// The same of one triangle and all others. One without an area does.
   bool crosses(std::uint32_t triangle) const;
-  /// The same of each, in less time. Cost: n log n, also where many cross.
+  /// The same of each, in less time; also where many cross.
   std::vector<char> crossing() const;
 
  private:
