@@ -40,6 +40,26 @@ TEST(TriangleTree, FindsTheNearestTriangleAtAnyScale) {
   }
 }
 
+// What is near enough is any triangle that is; what is not is the nearest one.
+TEST(TriangleTree, StopsAtWhatIsNearEnough) {
+  std::mt19937 random(4);
+  const TriangleMesh mesh = bumpyTorus(24);
+  const TriangleTree tree(mesh.positions, mesh.triangles);
+  int stopped = 0;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 p = randomIn(random, 2.0);
+    const NearestPoint nearest = tree.nearest(p), some = tree.nearest(p, 0, 0.04);
+    if (nearest.squared > 0.04) {
+      ASSERT_EQ(some.squared, nearest.squared);
+      ASSERT_EQ(some.triangle, nearest.triangle);
+    } else {
+      ASSERT_LE(some.squared, 0.04);
+      stopped += some.triangle != nearest.triangle;
+    }
+  }
+  EXPECT_GT(stopped, 0);
+}
+
 // So many triangles around a tip, side by side; with `twisted`, each turned about its way from there, so that
 // some run through others.
 TriangleMesh triangleFan(std::uint32_t count, double twisted) {

@@ -127,7 +127,7 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
   build(child + 1, first + left, count - left, depth + 1);
 }
 
-NearestPoint TriangleTree::nearest(const glm::dvec3& p, std::uint32_t hint) const {
+NearestPoint TriangleTree::nearest(const glm::dvec3& p, std::uint32_t hint, double enough) const {
   NearestPoint best;
   const auto look = [&](std::uint32_t i) {
     const glm::uvec3& t = triangles_[i];
@@ -145,7 +145,7 @@ NearestPoint TriangleTree::nearest(const glm::dvec3& p, std::uint32_t hint) cons
   std::array<Open, kDeepest> open;
   std::size_t left = 0;
   open[left++] = {0.0, 0};
-  while (left > 0) {
+  while (left > 0 && best.squared > enough) {
     const auto [squared, number] = open[--left];
     if (!(squared < best.squared)) continue;
     const Node& node = nodes_[number];

@@ -44,8 +44,9 @@ class TriangleTree {
   TriangleTree(const std::vector<glm::vec3>& points, const std::vector<glm::uvec3>& triangles);
 
   /// The point of all triangles that is nearest to p. `hint` is a triangle that may be near, such as the one
-  /// that was nearest to a point near by. Cost: some log n.
-  NearestPoint nearest(const glm::dvec3& p, std::uint32_t hint = 0) const;
+  /// that was nearest to a point near by. Any point will do whose squared distance is no more than `enough`.
+  /// Cost: some log n; where the hint will do, no more than that.
+  NearestPoint nearest(const glm::dvec3& p, std::uint32_t hint = 0, double enough = -1.0) const;
 
   /// How often the triangles wind around p, within some hundredths: whole numbers if they are closed
   /// (Jacobson et al. 2013); far clusters count as dipoles (Barill et al. 2018). Cost: some log n.

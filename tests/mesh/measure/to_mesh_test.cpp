@@ -33,6 +33,24 @@ TEST(DistanceToMesh, IsNoneOfABoxFromItself) {
   EXPECT_GE(d.points, 1000u);
 }
 
+// Those that are nearer than the farthest before them are not looked at closely; the result is the same.
+TEST(DistanceToMesh, IsThatOfEveryPointByItself) {
+  Progress progress;
+  const Shape shape = torus(1.0, 0.4);
+  const MeshedShape m = meshed(shape, 0.1);
+  const std::vector<glm::vec3> points = surfacePoints(Model(shape).at(), shape.bounds, progress);
+  const std::vector<NearestPoint> nearest =
+      nearestTriangles(points, m.mesh.positions, m.mesh.triangles, progress);
+  const auto largest = std::ranges::max_element(nearest, {}, &NearestPoint::squared);
+  const double max = std::sqrt(largest->squared), limit = 0.5 * max;
+  const SurfaceDistance d = distanceToMesh(points, m.mesh.positions, m.mesh.triangles, progress, limit);
+  EXPECT_EQ(d.max, max);
+  EXPECT_EQ(d.farthest, points[largest - nearest.begin()]);
+  EXPECT_EQ(d.points, points.size());
+  const auto isBeyond = [&](const NearestPoint& n) { return std::sqrt(n.squared) > limit; };
+  EXPECT_EQ(d.beyond, static_cast<std::uint64_t>(std::ranges::count_if(nearest, isBeyond)));
+}
+
 // Each of these meshes lies on the surface, or within 0.04 of it. Points are half a cell from the farthest
 // corner, and the door's 2048 cells are 0.04 long; the sheet's rim is met by lines along the sheet.
 TEST(DistanceToMesh, IsThatOfWhatTheMeshLacks) {

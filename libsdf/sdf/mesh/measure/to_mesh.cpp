@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "sdf/eval/scalar_reading.h"
@@ -151,18 +152,38 @@ std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds,
 
 namespace {
 
+// Points that one task takes.
+constexpr std::size_t kAtATime = 1024;
+
+// Any triangle within `enough`, squared, will do.
 std::vector<NearestPoint> nearestIn(const TriangleTree& tree, const std::vector<glm::vec3>& points,
-                                    Progress& progress) {
-  constexpr std::size_t kAtATime = 256;
+                                    double enough, Progress& progress) {
   std::vector<NearestPoint> nearest(points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kAtATime), [&](const auto& range) {
     std::uint32_t hint = 0;
     for (std::size_t i = range.begin(); i < range.end() && !progress.stopped(); ++i) {
-      nearest[i] = tree.nearest(points[i], hint);
+      nearest[i] = tree.nearest(points[i], hint, enough);
       hint = nearest[i].triangle;
     }
   });
   return nearest;
+}
+
+// Of points that follow one another. Those that are nearer than the farthest so far are looked at no closer.
+SurfaceDistance distanceOf(std::span<const glm::vec3> points, const TriangleTree& tree, double limit,
+                           Progress& progress) {
+  SurfaceDistance all{.points = points.size()};
+  std::uint32_t hint = 0;
+  double farthest = -1.0;  // squared
+  for (const glm::vec3& p : points) {
+    if (progress.stopped()) break;
+    const NearestPoint nearest = tree.nearest(p, hint, std::min(farthest, limit * limit));
+    hint = nearest.triangle;
+    const double distance = std::sqrt(nearest.squared);
+    if (nearest.squared > farthest) farthest = nearest.squared, all.max = distance, all.farthest = p;
+    if (distance > limit) ++all.beyond;
+  }
+  return all;
 }
 
 std::vector<FarPoint> farPoints(const std::vector<glm::vec3>& points,
@@ -194,15 +215,27 @@ std::vector<FarPoint> startsAmong(std::vector<FarPoint> points, double size, std
 
 std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
                                            const std::vector<glm::vec3>& positions,
-                                           const std::vector<glm::uvec3>& triangles, Progress& progress) {
-  return nearestIn(TriangleTree(positions, triangles), points, progress);
+                                           const std::vector<glm::uvec3>& triangles, Progress& progress,
+                                           double within) {
+  return nearestIn(TriangleTree(positions, triangles), points, within < 0.0 ? -1.0 : within * within,
+                   progress);
 }
 
 SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& positions,
                                const std::vector<glm::uvec3>& triangles, Progress& progress, double limit) {
-  const std::vector<NearestPoint> nearest = nearestTriangles(points, positions, triangles, progress);
-  if (progress.stopped()) return {.points = points.size()};
-  return farthestOf(farPoints(points, nearest), limit);
+  const TriangleTree tree(positions, triangles);
+  std::vector<SurfaceDistance> parts((points.size() + kAtATime - 1) / kAtATime);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    const std::size_t first = i * kAtATime;
+    parts[i] = distanceOf(std::span(points).subspan(first, std::min(kAtATime, points.size() - first)), tree,
+                          limit, progress);
+  });
+  SurfaceDistance all;
+  for (const SurfaceDistance& part : parts) {
+    if (part.max > all.max) all.max = part.max, all.farthest = part.farthest;
+    all.points += part.points, all.beyond += part.beyond;
+  }
+  return all;
 }
 
 std::vector<FarPoint> farthestOfSurface(const std::vector<glm::vec3>& points, const LocalField& field,
@@ -210,7 +243,7 @@ std::vector<FarPoint> farthestOfSurface(const std::vector<glm::vec3>& points, co
                                         const std::vector<glm::uvec3>& triangles, Progress& progress,
                                         std::size_t climbers) {
   const TriangleTree tree(positions, triangles);
-  const std::vector<NearestPoint> nearest = nearestIn(tree, points, progress);
+  const std::vector<NearestPoint> nearest = nearestIn(tree, points, -1.0, progress);
   if (progress.stopped()) return {};
   std::vector<FarPoint> all = farPoints(points, nearest), climbed = startsAmong(all, size, climbers);
   climb(climbed, field, size, tree, progress);

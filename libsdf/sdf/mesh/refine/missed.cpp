@@ -26,7 +26,7 @@ std::vector<SampledMesh::Index> MissedSamples::add() {
   added_.clear();
   const std::vector<Index> all = alive();
   std::vector<Index> close;
-  addAt(all, kCoarseSteps, &close);
+  addAt(changed(all), kCoarseSteps, &close);
   addAt(close, kFineSteps, nullptr);
   addOfSurface(all);
   addOfCreases();
@@ -54,6 +54,17 @@ std::vector<SampledMesh::Index> MissedSamples::alive() const {
   for (Index h = 0; h < sampled_.mesh.halfEdges(); h += 3)
     if (sampled_.mesh.alive(h)) all.push_back(h);
   return all;
+}
+
+// Those of the triangles that have not been looked at as they are.
+std::vector<SampledMesh::Index> MissedSamples::changed(const std::vector<Index>& triangles) {
+  looked_.resize(sampled_.mesh.halfEdges() / 3);
+  std::vector<Index> changed;
+  for (const Index h : triangles) {
+    const Corners corners = sampled_.mesh.corners(h);
+    if (std::exchange(looked_[h / 3], corners) != corners) changed.push_back(h);
+  }
+  return changed;
 }
 
 // At a grid over some triangles; `close` receives those that are nearly too far.
@@ -138,7 +149,8 @@ void MissedSamples::addClimbed(const std::vector<Index>& triangles) {
 void MissedSamples::addOfSurface(const std::vector<Index>& triangles) {
   const HalfEdgeMesh& mesh = sampled_.mesh;
   const std::vector<glm::uvec3> corners = cornersOf(triangles);
-  const std::vector<NearestPoint> nearest = nearestTriangles(surface_, mesh.positions, corners, progress_);
+  const std::vector<NearestPoint> nearest =
+      nearestTriangles(surface_, mesh.positions, corners, progress_, std::sqrt(kWatched) * tolerance_);
   if (progress_.stopped()) return;
   const double limit = static_cast<double>(tolerance_) * tolerance_;
   std::vector<glm::vec3> missed, normals, near;

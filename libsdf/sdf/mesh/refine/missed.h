@@ -29,6 +29,7 @@ class MissedSamples {
  private:
   using Index = SampledMesh::Index;
   std::vector<Index> alive() const;
+  std::vector<Index> changed(const std::vector<Index>& triangles);
   void addAt(const std::vector<Index>& triangles, int steps, std::vector<Index>* close);
   void addOfCreases();
   void addOfSurface(const std::vector<Index>& triangles);
@@ -41,6 +42,7 @@ class MissedSamples {
   float tolerance_;
   Progress& progress_;
   std::vector<Index> added_;
+  std::vector<Corners> looked_;         // by triangle: where its corners were when it was last looked at
   int fruitless_ = 0, sinceClimb_ = 0;  // climbs that found nothing, and looks since: ever more of them
 };
 
