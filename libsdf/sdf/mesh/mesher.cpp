@@ -100,6 +100,7 @@ constexpr double kThinnedTo = 0.98;
 // Of the tolerance: what is as far from a mesh of the surface may come to be beyond it in the next.
 constexpr double kClose = 0.9;
 // The finest voxels, times those that were asked for, that are thinned for their colours before these are.
+// Their triangles are about as large as those that a tolerance asks for: they tell whether colours need more.
 constexpr double kFinestPainted = 4.0;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
@@ -293,16 +294,17 @@ class Mesher {
   };
 
   // Replaces the mesh by one that is simplified from the largest voxels that do, up to some times as large as
-  // these. The last, from these voxels, is taken as it is, unless finer ones are to be tried. What these
-  // voxels see none may miss: the vertices of this mesh are points of the surface, and where it is painted
-  // those of its creases points of borders, which are to be met within the tolerance.
+  // these. The last, from these voxels, is taken as it is, unless finer ones are to be tried or a tolerance
+  // was asked for. What these voxels see none may miss: the vertices of this mesh are points of the surface,
+  // and where it is painted those of its creases points of borders, which are to be met within the tolerance.
   Simplified simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, bool finer,
                              const ModelTapes& model, const Box& bounds) {
     const std::size_t seen = fine->mesh.positions.size();
     Witnesses witnesses(surface_, fine->mesh, painted_);
-    bool blurred = false;  // do colours need more than the shape?
-    for (double times = coarsest; times >= (blurred ? kFinestPainted : 1.0) && !progress_.stopped();
-         times /= 2.0) {
+    bool blurred = painted_ && blursColors(*fine, model, bounds);  // do they need more than the shape?
+    const bool isLast = !finer && !options_.strict;  // is a mesh taken that does not keep the tolerance?
+    for (double times = coarsest;
+         times >= (blurred && !isLast ? kFinestPainted : 1.0) && !progress_.stopped(); times /= 2.0) {
       std::unique_ptr<Lattice> coarse;
       if (times > 1.0) {
         Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());
@@ -315,7 +317,16 @@ class Mesher {
       }
       const Lattice& lattice = coarse ? *coarse : *fine;
       FeatureMesh mesh = lattice.mesh;
-      if (!isClosed(mesh) || !follows(mesh, lattice.field, witnesses)) continue;
+      if (!isClosed(mesh)) continue;
+      const bool followed = follows(mesh, lattice.field, witnesses);
+      if (!coarse && isLast && (!followed || (blurred && result_.stats.unresolved > 0))) {
+        closeCreases(mesh);
+        simplifyUnresolved(mesh, lattice.field, thinnedTo(), blurred, progress_);
+        if (!crossingTriangles(mesh.positions, mesh.triangles).empty()) break;
+        fine->mesh = std::move(mesh);
+        return Simplified::Taken;
+      }
+      if (!followed) continue;
       if (!blurred && !simplifyTo(mesh, lattice.field, fine->field, bounds, witnesses)) {
         if (coarse) continue;
         if (finer) return Simplified::NeedsFiner;
@@ -334,6 +345,15 @@ class Mesher {
     }
     witnessed_ = {};
     return Simplified::No;
+  }
+
+  // Would triangles as large as the tolerance asks for blur the colours?
+  bool blursColors(const Lattice& fine, const ModelTapes& model, const Box& bounds) {
+    Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, kFinestPainted * fine.band.voxelSize());
+    if (!sampled) return false;
+    extract(**sampled, false);
+    const FeatureMesh& mesh = (*sampled)->mesh;
+    return isClosed(mesh) && !keepsColors(mesh, options_.tolerance, fine.field, progress_);
   }
 
   static bool isClosed(const FeatureMesh& mesh) {
@@ -445,7 +465,7 @@ class Mesher {
         options_.tolerance > 0.0 ? std::max(options_.tolerance, result_.stats.maxDistance) : 0.0;
     splitAtCreases(features, field, static_cast<float>(far), progress_, mesh);
     begin("colouring");
-    colorMesh(shape, features.materials, options_.values, field, progress_, mesh);
+    colorMesh(shape, features, options_.values, field, progress_, mesh);
     goBack();
     end();
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};

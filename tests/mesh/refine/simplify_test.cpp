@@ -4,33 +4,17 @@
 
 #include <random>
 
-#include "mesh/feature_meshes.h"
+#include "mesh/lattice_mesh.h"
 #include "sdf/eval/scalar_reading.h"
-#include "sdf/mesh/creases/sharpen.h"
 #include "sdf/mesh/edit/crossings.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/refine/ring.h"
-#include "sdf/mesh/surface/project.h"
 
 namespace sdf::test {
 namespace simplify_test {
 
-// A shape's mesh as it comes from the band, with its creases.
-struct Fine {
-  Fine(const Shape& shape, double voxel)
-      : band(bandOf(shape, shape.bounds, voxel)), field(band, wholeTapes(tapeOf(shape))) {
-    RawSurface raw = band.extract();
-    const std::vector<glm::vec3> extracted = raw.points;
-    std::vector<glm::vec3> normals;
-    Progress progress;
-    refineVertices(raw.points, normals, field, progress);
-    mesh = sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress).mesh;
-  }
-  NarrowBand band;
-  BandField field;
-  FeatureMesh mesh;
-};
+using Fine = LatticeMesh;
 
 // Nothing is too far, as far as anybody else has seen.
 std::vector<glm::vec3> nothing(const FeatureMesh&) { return {}; }

@@ -55,6 +55,16 @@ void orderByMaterial(Mesh& mesh) {
   for (const std::uint32_t t : order) mesh.triangles.push_back(triangles[t]);
 }
 
+// Returns the copy, which has no colour yet.
+std::uint32_t repeatVertex(Mesh& mesh, std::uint32_t v) {
+  mesh.positions.push_back(glm::vec3(mesh.positions[v]));
+  mesh.normals.push_back(glm::vec3(mesh.normals[v]));
+  mesh.colors.emplace_back();
+  mesh.ambient.emplace_back();
+  mesh.copyOf.push_back(mesh.pointOf(v));
+  return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
 // Of the paint on the way from a vertex into its triangle, the first beyond a jump, if there is one: a step
 // that is more than what changes otherwise.
 std::size_t beyondJump(const Paint* paint, std::size_t count) {
@@ -66,6 +76,36 @@ std::size_t beyondJump(const Paint* paint, std::size_t count) {
     if (step > jump) jump = step, largest = k;
   }
   return jump > kColorJump && jump > 2.0f * (sum - jump) ? largest : 0;
+}
+
+// Gives vertices the colours of their triangles' corners, and repeats those whose triangles do not agree.
+void takeCornerColors(const std::vector<std::array<CornerColor, 3>>& colors, Mesh& mesh) {
+  const std::size_t given = mesh.positions.size();
+  mesh.colors.resize(given), mesh.ambient.resize(given);
+  std::vector<char> taken(given, 0);
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> copies;
+  const auto shows = [&](std::uint32_t v, const CornerColor& c) {
+    return mesh.colors[v] == c.color && mesh.ambient[v] == c.ambient;
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& v = mesh.triangles[t][k];
+      const CornerColor& own = colors[t][k];
+      if (taken[v] && shows(v, own)) continue;
+      if (!taken[v]) {
+        taken[v] = 1, mesh.colors[v] = own.color, mesh.ambient[v] = own.ambient;
+        continue;
+      }
+      std::vector<std::uint32_t>& others = copies[v];
+      const auto same = std::ranges::find_if(others, [&](std::uint32_t u) { return shows(u, own); });
+      if (same == others.end()) {
+        others.push_back(repeatVertex(mesh, v));
+        mesh.colors.back() = own.color, mesh.ambient.back() = own.ambient;
+        v = others.back();
+      } else {
+        v = *same;
+      }
+    }
 }
 
 // Colours the corners of triangles at borders, each on its own side, and repeats vertices whose triangles
@@ -164,12 +204,7 @@ class BorderPainter {
       }
     std::uint32_t own = v;
     if (taken_[v]) {
-      own = static_cast<std::uint32_t>(mesh_.positions.size());
-      mesh_.positions.push_back(glm::vec3(mesh_.positions[v]));
-      mesh_.normals.push_back(glm::vec3(mesh_.normals[v]));
-      mesh_.colors.emplace_back();
-      mesh_.ambient.emplace_back();
-      mesh_.copyOf.push_back(mesh_.pointOf(v));
+      own = repeatVertex(mesh_, v);
     } else {
       taken_[v] = 1;
     }
@@ -206,6 +241,16 @@ class BorderPainter {
   std::vector<char> taken_;                                      // by vertex: some triangle's already
   std::unordered_map<std::uint32_t, std::vector<Copy>> copies_;  // by vertex
 };
+
+// Reads what each vertex shows, on its own side of a border.
+void readColors(const std::vector<int>& idAt, bool hasBorders, const LocalField& field, Progress& progress,
+                Mesh& mesh) {
+  const std::vector<Paint> paint = readPaint(
+      mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; },
+      [&](std::size_t i) { return mesh.normals[i]; }, field, progress);
+  for (const Paint& p : paint) mesh.colors.push_back(p.color), mesh.ambient.push_back(p.ambient);
+  if (hasBorders) BorderPainter(idAt, field, progress, mesh).run();
+}
 
 // Some of the triangles of each material, evenly spread, by material.
 std::vector<std::vector<std::size_t>> sampledTriangles(const Mesh& mesh) {
@@ -262,18 +307,16 @@ void resolveMaterials(const Shape& shape, const Values& values, Mesh& mesh) {
 
 }  // namespace
 
-void colorMesh(const Shape& shape, const std::vector<int>& materials, const Values& values,
-               const LocalField& field, Progress& progress, Mesh& mesh) {
+void colorMesh(const Shape& shape, const FeatureMesh& features, const Values& values, const LocalField& field,
+               Progress& progress, Mesh& mesh) {
+  const std::vector<int>& materials = features.materials;
+  if (!features.colors.empty()) takeCornerColors(features.colors, mesh);
   const Expr& id = shape.surface[static_cast<int>(Attribute::MaterialId)];
   const int only = id.isConstant() ? static_cast<int>(id.constantValue()) : 0;
   const std::vector<int> idAt = assignMaterials(
       shape, materials.empty() ? std::vector<int>(mesh.triangles.size(), only) : materials, mesh);
   if (mesh.materials.size() > 1) orderByMaterial(mesh);
-  const std::vector<Paint> paint = readPaint(
-      mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; },
-      [&](std::size_t i) { return mesh.normals[i]; }, field, progress);
-  for (const Paint& p : paint) mesh.colors.push_back(p.color), mesh.ambient.push_back(p.ambient);
-  if (!materials.empty()) BorderPainter(idAt, field, progress, mesh).run();
+  if (features.colors.empty()) readColors(idAt, !materials.empty(), field, progress, mesh);
   resolveMaterials(shape, values, mesh);
 }
 

@@ -5,6 +5,7 @@
 
 #include "sdf/base/progress.h"
 #include "sdf/eval/function.h"
+#include "sdf/mesh/edit/feature_mesh.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/shape/shape.h"
@@ -13,9 +14,10 @@ namespace sdf {
 
 /// Fills colors, ambient, triangleMaterial and materials, orders the triangles by material, and repeats
 /// vertices where materials meet (copyOf), each copy coloured on its own side of the border. positions,
-/// normals, triangles and welded are given; `materials` are FeatureMesh's, `values` the inputs' that the
-/// field was made for. Once progress is stopped the mesh may be left unfinished.
-void colorMesh(const Shape& shape, const std::vector<int>& materials, const Values& values,
-               const LocalField& field, Progress& progress, Mesh& mesh);
+/// normals, triangles and welded are given, the triangles in the features' order; of these materials and
+/// colours are taken. `values` are the inputs' that the field was made for. Once progress is stopped the mesh
+/// may be left unfinished.
+void colorMesh(const Shape& shape, const FeatureMesh& features, const Values& values, const LocalField& field,
+               Progress& progress, Mesh& mesh);
 
 }  // namespace sdf

@@ -18,6 +18,12 @@ enum class Hold : std::uint8_t {
   Exempt  ///< nor does the tolerance hold for triangles that have three such vertices
 };
 
+/// What a triangle shows at a corner, linear (surface_paint.h).
+struct CornerColor {
+  glm::vec3 color, ambient;
+  friend bool operator==(const CornerColor&, const CornerColor&) = default;
+};
+
 /// Triangles, counter-clockwise seen from outside, closed and manifold, and those of their edges along which
 /// the surface has an edge or its paint a border. A vertex without creases lies on one smooth piece of the
 /// surface, one with two of them on a crease, any other at a corner (or where a crease fades out).
@@ -27,6 +33,8 @@ struct FeatureMesh {
   std::vector<std::array<std::uint32_t, 2>> creases;  ///< pairs of vertices, the lower first; sorted
   /// Of each triangle, the number among the shape's; where two meet there is a crease. Empty: all are of one.
   std::vector<int> materials{};
+  /// Of each triangle's corners; empty: they are those of the surface there.
+  std::vector<std::array<CornerColor, 3>> colors{};
   std::vector<Hold> held{};  ///< of the first vertices; of all others none is held
 
   Hold heldAt(std::uint32_t v) const { return v < held.size() ? held[v] : Hold::Free; }

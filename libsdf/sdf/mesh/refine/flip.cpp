@@ -1,6 +1,7 @@
 #include "sdf/mesh/refine/flip.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -34,18 +35,32 @@ bool flipIfBetter(SampledMesh& sampled, CrowdedTriangles& crowded, Index h, floa
   const glm::vec3 normal = glm::normalize(areaOf(before[0]) + areaOf(before[1]));
   for (const Corners& t : after)
     if (!(flatness(t) > 2.0f * kFlattest) || !isFacing(areaOf(t), normal)) return false;
+  const Tints& tints = sampled.tints;
+  Tint tint[4]{};  // of a, b, c, d
+  if (tints.any())
+    for (int k = 0; k < 4; ++k)
+      tint[k] = tints.corners[std::array{h, mesh.next(h), mesh.previous(h), mesh.previous(g)}[k]];
+  const std::array<const Tint*, 3> tintsBefore[2] = {{&tint[0], &tint[1], &tint[2]},
+                                                     {&tint[1], &tint[0], &tint[3]}},
+                                   tintsAfter[2] = {{&tint[3], &tint[2], &tint[0]},
+                                                    {&tint[2], &tint[3], &tint[1]}};
+  // With what a colour's difference counts as.
+  const auto off = [&](const OverTriangle& o, Index sample, const std::array<const Tint*, 3>& t) {
+    if (!tints.any()) return o.distance;
+    return std::max(o.distance, tints.distance(sample, mixed(*t[0], *t[1], *t[2], o.weights)));
+  };
   float was = 0.0f, is = 0.0f;
   std::vector<std::pair<Index, Index>> handed;  // samples, and half-edges of the triangles that get them
   for (int side = 0; side < 2; ++side)
     for (Index w = sampled.onTriangle.first((side ? g : h) / 3); w != Lists::kNone;
          w = sampled.onTriangle.after(w)) {
       const SurfaceSample& sample = sampled.samples[w];
-      was = std::max(was, over(sample.at, before[side]).distance);
+      was = std::max(was, off(over(sample.at, before[side]), w, tintsBefore[side]));
       const OverTriangle first = over(sample.at, after[0]), second = over(sample.at, after[1]);
       const bool toFirst = first.inside > second.inside;
       if (!isNone(sample.normal) && !isFacing(areaOf(after[toFirst ? 0 : 1]), sample.normal)) return false;
       handed.emplace_back(w, toFirst ? h : g);
-      is = std::max(is, toFirst ? first.distance : second.distance);
+      is = std::max(is, toFirst ? off(first, w, tintsAfter[0]) : off(second, w, tintsAfter[1]));
     }
   const bool isFlat = std::max(is, was) < flat;
   const float shape = std::min(flatness(after[0]), flatness(after[1])),

@@ -7,16 +7,10 @@
 
 #include "sdf/base/progress.h"
 #include "sdf/mesh/refine/remesh_fans.h"
+#include "sdf/mesh/refine/tints.h"
 #include "sdf/mesh/surface/local_field.h"
 
 namespace sdf {
-
-/// The largest difference (colorDifference) between a colour and what is interpolated between a triangle's
-/// corners: four steps of a byte.
-inline constexpr float kColorTolerance = 1.0f / 64;
-
-/// Borders lie within so many tolerances of the distance.
-inline constexpr float kBorderTolerances = 2.5f;
 
 /// Adds to the errors of fans what their triangles do to the paint: a triangle that shows another material
 /// than its own farther than kBorderTolerances from its sides is not sound; and a colour that is as far off

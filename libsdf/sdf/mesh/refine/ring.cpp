@@ -21,13 +21,17 @@ void Ring::add(Index begin, Index end) {
   Index e = begin;
   do {
     spokes_.push_back({mesh.to(e), mesh.positions[mesh.to(e)], e, mesh.isCrease(e), sampled_.creaseOf[e]});
+    if (const Tints& tints = sampled_.tints; tints.any()) {
+      addRim(tints.corners[HalfEdgeMesh::next(e)], tints.corners[HalfEdgeMesh::previous(e)]);
+      centres_.push_back(tints.corners[e]);
+    }
     e = mesh.turned(e);
   } while (e != end);
 }
 
 void Ring::setAround(Index v) {
   centreVertex_ = v;
-  spokes_.clear();
+  spokes_.clear(), rims_.clear(), centres_.clear();
   add(sampled_.mesh.outgoing(v), sampled_.mesh.outgoing(v));
   isTip_ = sampled_.isTip(v);
   gone_[0] = gone_[1] = goneEdge_ = goneEdgeNext_ = kNone;
@@ -39,7 +43,7 @@ void Ring::setCollapsed(Index h) {
   // From the centre to the vertices opposite to the edge: c and d.
   const Index uc = mesh.turned(h), ud = mesh.next(g), vd = mesh.turned(g), vc = mesh.next(h);
   centreVertex_ = mesh.to(h);
-  spokes_.clear();
+  spokes_.clear(), rims_.clear(), centres_.clear();
   if (uc != ud) add(uc, ud);
   if (vd != vc) add(vd, vc);
   isTip_ = sampled_.isTip(mesh.to(h));
@@ -69,11 +73,19 @@ void Ring::setSplit(Index h) {
   };
   // The numbers that HalfEdgeMesh::split gives.
   centreVertex_ = mesh.vertices();
-  spokes_.clear();
+  spokes_.clear(), rims_.clear(), centres_.clear();
   spoke(mesh.to(h), mesh.halfEdges(), true, true);
   spoke(mesh.apex(h), HalfEdgeMesh::next(h), false, false);
   spoke(mesh.from(h), g, true, false);
   spoke(mesh.apex(g), mesh.halfEdges() + 4, false, true);
+  if (const Tints& tints = sampled_.tints; tints.any()) {
+    const std::vector<Tint>& at = tints.corners;
+    for (const Index side : {h, g}) {
+      const Tint &a = at[side], &b = at[HalfEdgeMesh::next(side)], &c = at[HalfEdgeMesh::previous(side)];
+      addRim(b, c), addRim(c, a);
+      for (int k = 0; k < 2; ++k) centres_.push_back(mixed(a, b, c, {0.5f, 0.5f, 0.0f}));
+    }
+  }
   isTip_ = false;
   gone_[0] = gone_[1] = goneEdge_ = goneEdgeNext_ = kNone;
 }
@@ -86,11 +98,19 @@ std::vector<Ring::Index> Ring::triangles() const {
   return all;
 }
 
+// Lets the ring begin with that spoke.
+void Ring::rotateTo(std::size_t first) {
+  const auto rotate = [&](auto& all) {
+    if (!all.empty()) std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first), all.end());
+  };
+  rotate(spokes_), rotate(rims_), rotate(centres_);
+}
+
 bool Ring::cut(const glm::vec3& centre) {
   const auto isCrease = [](const Spoke& s) { return s.crease; };
   creases_ = static_cast<int>(std::ranges::count_if(spokes_, isCrease));
   if (const auto first = std::ranges::find_if(spokes_, isCrease); first != spokes_.end())
-    std::rotate(spokes_.begin(), first, spokes_.end());
+    rotateTo(static_cast<std::size_t>(first - spokes_.begin()));
   sectors_.clear();
   const auto n = static_cast<Index>(spokes_.size());
   for (Index i = 0; i < n;) {
@@ -113,8 +133,15 @@ void Ring::assign(float limit) {
     if (g != kNone) sampled_.onTriangle.clear(g);
   bool second = false;
   for (const Placed& p : placed_) {
-    if (counts_[p.spoke] > kMostSamples && std::abs(p.height) < 0.5f * limit && (second = !second)) continue;
+    if (counts_[p.spoke] > kMostSamples && std::max(std::abs(p.height), p.tint) < 0.5f * limit &&
+        (second = !second))
+      continue;
     sampled_.onTriangle.add(spokes_[p.spoke].halfEdge / 3, p.sample);
+  }
+  for (std::size_t i = 0; i < rims_.size(); ++i) {
+    std::vector<Tint>& at = sampled_.tints.corners;
+    const Index e = spokes_[i].halfEdge;
+    at[e] = centres_[i], at[HalfEdgeMesh::next(e)] = rims_[i][0], at[HalfEdgeMesh::previous(e)] = rims_[i][1];
   }
   if (creases_ == 0) return;
   for (Spoke& s : spokes_) {

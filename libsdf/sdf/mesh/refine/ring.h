@@ -31,6 +31,9 @@ Range feasibleAlong(float height, float weight, float limit);
 /// Where |off - weight * t * way| is, for a unit way or none.
 Range feasibleAlong(const glm::vec3& off, float weight, const glm::vec3& way, float limit);
 
+/// The symmetric matrix (x y; y z) with the same eigenvectors and its eigenvalues without their signs.
+glm::dvec3 absolute(const glm::dvec3& form);
+
 /// Spokes from a centre to the vertices around it, counter-clockwise. Those that are creases cut the ring
 /// into sectors, and samples stay in theirs. The centre may go along a way: along the normal on a smooth
 /// piece, to where a crease bends on that, nowhere at corners.
@@ -40,7 +43,7 @@ class Ring {
   static constexpr Index kNone = SampledMesh::kNone;
 
   /// The centre itself is to be no farther from the surface than the tolerance.
-  Ring(SampledMesh& sampled, float tolerance) : sampled_(sampled), tolerance_(tolerance) {}
+  Ring(SampledMesh& sampled, float tolerance) : sampled_(sampled), tolerance_(tolerance), aim_(tolerance) {}
 
   /// The triangles at v.
   void setAround(Index v);
@@ -48,6 +51,8 @@ class Ring {
   void setCollapsed(Index h);
   /// Those at a vertex that is put into an edge.
   void setSplit(Index h);
+  /// Within what distance samples are to come: what colours are chosen for.
+  void aimAt(float limit) { aim_ = limit; }
   /// May triangles be turned by more than 60 degrees from their sector's normal, as long as samples face
   /// them?
   void mayBend(bool may) { mayBend_ = may; }
@@ -77,7 +82,8 @@ class Ring {
   float balanced() const;
   /// Scene units.
   const glm::vec3& way() const { return way_; }
-  /// The largest distance of a sample from its triangle, or from its crease, scene units.
+  /// The largest distance of a sample from its triangle, or from its crease, scene units, and what colours'
+  /// differences count as.
   float largest() const;
   /// How far the centre is from the surface, or on a crease from that.
   float centreDistance() const { return glm::length(centreOff_); }
@@ -92,7 +98,8 @@ class Ring {
 
   /// A way in the tangent plane towards the best place for a smooth centre: where the triangles' error would
   /// be least if the surface had the curvature that the normals around tell of (optimal Delaunay
-  /// triangulation, Chen 2004, in the metric |II|). Precondition: place, at `centre`, smooth.
+  /// triangulation, Chen 2004, in the metric |II|, to which comes how much colours bend). Precondition:
+  /// place, at `centre`, smooth.
   glm::vec3 optimalMove(const glm::vec3& normal) const;
   /// The same along a crease: towards the middle of its two neighbours.
   glm::vec3 moveAlongCrease() const;
@@ -115,8 +122,10 @@ class Ring {
   // A sample over the triangle between spokes i and i + 1, or beside spoke i.
   struct Placed {
     Index sample, spoke;
-    float weight;  // of the centre's move along its way
-    float height;  // from the triangle
+    float weight;       // of the centre's move along its way
+    float height;       // from the triangle
+    glm::vec3 weights;  // of the centre and the ends of its two spokes
+    float tint = 0.0f;  // what its colour's difference counts as
   };
   struct PlacedOnCrease {
     Index sample, spoke;
@@ -125,21 +134,30 @@ class Ring {
   };
 
   void add(Index begin, Index end);
+  void addRim(const Tint& atSpoke, const Tint& atNext) { rims_.push_back({atSpoke, atNext}); }
   bool placeSector(std::size_t number, float limit);
   bool placeTriangle(Index triangle, Index guess, const Sector& sector);
   bool placeNearest(Index triangle, const Sector& sector);
   bool isFacingVertices(const Sector& sector) const;
   bool placeOnCreases(float limit);
   bool placeOnEdge(Index edge, Index from, Index to);
+  void rotateTo(std::size_t first);
+  void chooseTints();
+  glm::dvec3 tintForm() const;
+  Tint bestTint(const Sector& s, const Tint& was) const;
+  float tintEnergy(const Sector& s, const Tint& centre) const;
   void findWay();
   std::array<glm::vec3, 2> creaseEnds() const;
   void findNearest();
   std::size_t sectorOfGone(int which) const;
 
   SampledMesh& sampled_;
-  float tolerance_;
+  float tolerance_, aim_;
   Index centreVertex_;
   std::vector<Spoke> spokes_;
+  std::vector<std::array<Tint, 2>>
+      rims_;                   // of the triangle after each spoke, at this and the next; if painted
+  std::vector<Tint> centres_;  // of the centre, by spoke: as they were, and as they are chosen
   std::vector<Sector> sectors_;
   int creases_ = 0;
   bool mayBend_ = false;

@@ -16,6 +16,15 @@ constexpr int kBalancings = 5;
 
 }  // namespace
 
+glm::dvec3 absolute(const glm::dvec3& form) {
+  const double mean = 0.5 * (form.x + form.z), half = 0.5 * (form.x - form.z),
+               radius = std::hypot(half, form.y);
+  if (!(radius > 0.0)) return {std::abs(form.x), 0.0, std::abs(form.z)};
+  const double high = std::abs(mean + radius), low = std::abs(mean - radius),
+               scale = 0.5 * (high - low) / radius;
+  return {0.5 * (high + low) + scale * half, scale * form.y, 0.5 * (high + low) - scale * half};
+}
+
 Range feasibleAlong(const glm::vec3& off, float weight, const glm::vec3& way, float limit) {
   const float along = glm::dot(off, way), root = along * along - glm::dot(off, off) + limit * limit;
   if (weight < kNoWeight || way == glm::vec3(0.0f))
@@ -105,7 +114,7 @@ float Ring::balanced() const {
 
 float Ring::largest() const {
   float most = 0.0f;
-  for (const Placed& p : placed_) most = std::max(most, std::abs(p.height));
+  for (const Placed& p : placed_) most = std::max({most, std::abs(p.height), p.tint});
   for (const PlacedOnCrease& p : placedOnCreases_) most = std::max(most, glm::length(p.off));
   return most;
 }
@@ -117,7 +126,7 @@ float Ring::energy(float limit) const {
     return square * square;
   };
   float sum = eighth(glm::dot(centreOff_, centreOff_));
-  for (const Placed& p : placed_) sum += eighth(p.height * p.height);
+  for (const Placed& p : placed_) sum += eighth(p.height * p.height) + eighth(p.tint * p.tint);
   for (const PlacedOnCrease& p : placedOnCreases_) sum += eighth(glm::dot(p.off, p.off));
   return sum;
 }
@@ -140,7 +149,7 @@ glm::vec3 Ring::optimalMove(const glm::vec3& normal) const {
     }
   }
   if (!(std::abs(glm::determinant(left)) > 1e-6)) return glm::vec3(0.0f);
-  const glm::dvec3 form = glm::inverse(left) * right;
+  const glm::dvec3 form = absolute(glm::inverse(left) * right) + tintForm();
   const double mean = 0.5 * (form.x + form.z), half = 0.5 * (form.x - form.z),
                radius = std::hypot(half, form.y), angle = 0.5 * std::atan2(form.y, half);
   const double largest = std::max(std::abs(mean + radius), std::abs(mean - radius));

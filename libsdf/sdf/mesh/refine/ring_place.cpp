@@ -23,7 +23,10 @@ bool Ring::place(const glm::vec3& centre, float limit) {
   for (std::size_t k = 0; k < sectors_.size(); ++k)
     if (!placeSector(k, limit)) return false;
   findNearest();
-  return true;
+  if (rims_.empty()) return true;
+  chooseTints();
+  return std::ranges::all_of(
+      placed_, [&](const Placed& p) { return limit == HUGE_VALF || p.tint <= std::min(limit, tolerance_); });
 }
 
 bool Ring::placeSector(std::size_t number, float limit) {
@@ -104,7 +107,8 @@ bool Ring::placeTriangle(Index triangle, Index guess, const Sector& s) {
     if (!isNone(normal) && glm::dot(normal, normals_[at]) < kFacing) return false;
     guess = at;
     Placed placed{w, s.first + at, (1.0f - alpha - beta) * s.along * cosines_[at],
-                  (z - alpha * rim_[at].z - beta * rim_[at + 1].z) * cosines_[at]};
+                  (z - alpha * rim_[at].z - beta * rim_[at + 1].z) * cosines_[at],
+                  clampedWeights({1.0f - alpha - beta, alpha, beta})};
     if (inside < 0.0f) {  // beside the rim
       const double square = nearestOf({x, y, z}, glm::dvec3(0.0), rim_[at], rim_[at + 1]).squared;
       placed.height = std::copysign(static_cast<float>(std::sqrt(square)), placed.height);
@@ -129,9 +133,10 @@ bool Ring::placeNearest(Index triangle, const Sector& s) {
     }
     if (at == kNone) return false;
     const glm::vec3 &a = rim_[at], &b = rim_[at + 1], n = glm::cross(a, b);
-    const float rim = (glm::dot(glm::cross(p, b), n) + glm::dot(glm::cross(a, p), n)) / glm::dot(n, n);
-    placed_.push_back({w, s.first + at, std::clamp(1.0f - rim, 0.0f, 1.0f) * glm::dot(way_, normals_[at]),
-                       std::copysign(least, glm::dot(p, n))});
+    const float square = glm::dot(n, n), alpha = glm::dot(glm::cross(p, b), n) / square,
+                beta = glm::dot(glm::cross(a, p), n) / square, own = 1.0f - alpha - beta;
+    placed_.push_back({w, s.first + at, std::clamp(own, 0.0f, 1.0f) * glm::dot(way_, normals_[at]),
+                       std::copysign(least, glm::dot(p, n)), clampedWeights({own, alpha, beta})});
     ++counts_[s.first + at];
   }
   return true;

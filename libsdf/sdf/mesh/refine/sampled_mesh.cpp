@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "sdf/mesh/surface/project.h"
@@ -9,13 +10,20 @@
 
 namespace sdf {
 
+// Those of a point of the triangle.
+glm::vec3 clampedWeights(const glm::vec3& weights) {
+  const glm::vec3 positive = glm::max(weights, 0.0f);
+  return positive / (positive.x + positive.y + positive.z);
+}
+
 OverTriangle over(const glm::vec3& p, const Corners& t) {
   const glm::vec3 u = t[1] - t[0], v = t[2] - t[0], n = glm::cross(u, v), d = p - t[0];
   const float square = glm::dot(n, n), beta = glm::dot(glm::cross(d, v), n) / square,
               gamma = glm::dot(glm::cross(u, d), n) / square,
               inside = std::min({1.0f - beta - gamma, beta, gamma});
-  if (inside >= 0.0f) return {inside, std::abs(glm::dot(d, n)) / std::sqrt(square)};
-  return {inside, static_cast<float>(std::sqrt(nearestOf(p, t[0], t[1], t[2]).squared))};
+  const glm::vec3 weights = clampedWeights({1.0f - beta - gamma, beta, gamma});
+  if (inside >= 0.0f) return {inside, std::abs(glm::dot(d, n)) / std::sqrt(square), weights};
+  return {inside, static_cast<float>(std::sqrt(nearestOf(p, t[0], t[1], t[2]).squared)), weights};
 }
 
 SampledMesh::SampledMesh(const FeatureMesh& given, const LocalField& field, Progress& progress)
@@ -62,11 +70,15 @@ void SampledMesh::addCreases(const FeatureMesh& given) {
 
 SampledMesh::Farthest SampledMesh::farthestOf(Index triangle) const {
   const Corners corners = mesh.corners(3 * triangle);
+  const Tint* tint = tints.any() ? &tints.corners[3 * triangle] : nullptr;
   Farthest farthest;
-  for (Index w = onTriangle.first(triangle); w != Lists::kNone; w = onTriangle.after(w))
-    if (const float d = over(samples[w].at, corners).distance;
-        farthest.sample == kNone || d > farthest.distance)
-      farthest = {w, d};
+  for (Index w = onTriangle.first(triangle); w != Lists::kNone; w = onTriangle.after(w)) {
+    const OverTriangle o = over(samples[w].at, corners);
+    const float d = tint
+                        ? std::max(o.distance, tints.distance(w, mixed(tint[0], tint[1], tint[2], o.weights)))
+                        : o.distance;
+    if (farthest.sample == kNone || d > farthest.distance) farthest = {w, d};
+  }
   return farthest;
 }
 
@@ -81,8 +93,9 @@ bool SampledMesh::isTip(Index v) const {
   return true;
 }
 
-SampledMesh::Index SampledMesh::newSample(const SurfaceSample& sample) {
+SampledMesh::Index SampledMesh::newSample(const SurfaceSample& sample, const Paint* paint) {
   samples.push_back(sample);
+  if (tints.any()) tints.addSample(paint);
   onTriangle.grow(onTriangle.count(), samples.size());
   onCrease.grow(onCrease.count(), samples.size());
   return static_cast<Index>(samples.size() - 1);
@@ -94,10 +107,12 @@ void SampledMesh::put(Index triangle, Index sample) {
   onTriangle.add(triangle, sample);
 }
 
-void SampledMesh::add(Index triangle, const SurfaceSample& sample) { put(triangle, newSample(sample)); }
+void SampledMesh::add(Index triangle, const SurfaceSample& sample, const Paint* paint) {
+  put(triangle, newSample(sample, paint));
+}
 
 void SampledMesh::addToCrease(Index edge, const SurfaceSample& sample) {
-  onCrease.add(edge, newSample(sample));
+  onCrease.add(edge, newSample(sample, nullptr));
 }
 
 SampledMesh::Index SampledMesh::split(Index h, const glm::vec3& p) {
@@ -107,6 +122,7 @@ SampledMesh::Index SampledMesh::split(Index h, const glm::vec3& p) {
   normals.push_back(glm::length(sum) > 0.0f ? glm::normalize(sum) : normals[a]);
   const Index v = mesh.split(h, p);
   creaseOf.resize(mesh.halfEdges(), kNone);
+  if (tints.any()) tints.corners.resize(mesh.halfEdges());
   onTriangle.grow(mesh.halfEdges() / 3, samples.size());
   // The two new triangles are v b c and b v d (HalfEdgeMesh::split).
   creaseOf[mesh.twin(bc)] = creaseOf[bc], creaseOf[mesh.twin(db)] = creaseOf[db];
@@ -120,6 +136,13 @@ SampledMesh::Index SampledMesh::split(Index h, const glm::vec3& p) {
 
 void SampledMesh::flip(Index h) {
   const Index g = mesh.twin(h);
+  if (tints.any()) {
+    std::vector<Tint>& at = tints.corners;
+    const Tint a = at[h], b = at[mesh.next(h)], c = at[mesh.previous(h)], d = at[mesh.previous(g)];
+    // The triangles d c a and c d b (HalfEdgeMesh::flip).
+    at[h] = at[mesh.next(g)] = d, at[g] = at[mesh.next(h)] = c;
+    at[mesh.previous(h)] = a, at[mesh.previous(g)] = b;
+  }
   mesh.flip(h);
   for (const Index e : {mesh.next(h), mesh.previous(h), mesh.next(g), mesh.previous(g)})
     creaseOf[e] = creaseOf[mesh.twin(e)];

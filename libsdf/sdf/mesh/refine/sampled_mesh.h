@@ -7,6 +7,7 @@
 
 #include "sdf/base/progress.h"
 #include "sdf/mesh/edit/half_edges.h"
+#include "sdf/mesh/refine/tints.h"
 #include "sdf/mesh/surface/local_field.h"
 
 namespace sdf {
@@ -46,12 +47,14 @@ struct SampledMesh {
   /// The samples are the mesh's vertices, which lie on the surface, and the surface's points next to the
   /// middles of its triangles and edges. Cost: some readings of the field for each.
   SampledMesh(const FeatureMesh& mesh, const LocalField& field, Progress& progress);
+  /// Gives samples and corners their colours. `tolerance` is the distance's. Before any change.
+  void paint(const LocalField& field, float tolerance, Progress& progress);
 
   bool isSmooth(Index v) const { return mesh.creasesAt(v) == 0; }
   /// A vertex that does not move and that no crease leads to.
   bool isTip(Index v) const;
-  /// Adds a sample of a triangle.
-  void add(Index triangle, const SurfaceSample& sample);
+  /// Adds a sample of a triangle, whose paint may be known.
+  void add(Index triangle, const SurfaceSample& sample, const Paint* paint = nullptr);
   /// The same of an edge on a crease (creaseOf).
   void addToCrease(Index edge, const SurfaceSample& sample);
   /// Puts a vertex at p into an edge. Samples stay with the triangles that there were: Ring::assign hands
@@ -61,7 +64,7 @@ struct SampledMesh {
   /// Merges from(h) into to(h), which moves to p. Samples stay where they are, as with `split`.
   void collapse(Index h, const glm::vec3& p);
 
-  /// The sample of a triangle that is farthest from it.
+  /// The sample of a triangle that is farthest from it, or whose colour is (Tints::distance).
   struct Farthest {
     Index sample = kNone;  ///< kNone: it has none
     float distance = 0.0f;
@@ -74,20 +77,28 @@ struct SampledMesh {
   Lists onTriangle;                ///< by half-edge / 3
   Lists onCrease;                  ///< by creaseOf
   std::vector<Index> creaseOf;     ///< of each half-edge on a crease its edge's number, else kNone
+  Tints tints;
 
  private:
   void addCreases(const FeatureMesh& mesh);
   void put(Index triangle, Index sample);
-  Index newSample(const SurfaceSample& sample);
+  Index newSample(const SurfaceSample& sample, const Paint* paint);
+  std::vector<char> besideBorders(float away) const;
+  void paintSectors(const LocalField& field, Progress& progress, const std::vector<Paint>& paint,
+                    Tints& own) const;
 };
+
+/// Barycentric coordinates of a point of the triangle that is near to where these are, maybe beside it.
+glm::vec3 clampedWeights(const glm::vec3& weights);
 
 using Corners = std::array<glm::vec3, 3>;
 
 /// A point beside a triangle.
 struct OverTriangle {
-  float inside;    ///< the least barycentric coordinate of the plane's nearest point: negative beside the
-                   ///< triangle
-  float distance;  ///< scene units
+  float inside;       ///< the least barycentric coordinate of the plane's nearest point: negative beside the
+                      ///< triangle
+  float distance;     ///< scene units
+  glm::vec3 weights;  ///< barycentric coordinates of a point of the triangle, near to the nearest
 };
 OverTriangle over(const glm::vec3& p, const Corners& triangle);
 

@@ -44,7 +44,8 @@ class Simplifier {
  public:
   Simplifier(const FeatureMesh& mesh, const LocalField& field, double tolerance,
              const std::vector<glm::vec3>& surface, Progress& progress)
-      : sampled_(mesh, field, progress),
+      : field_(field),
+        sampled_(mesh, field, progress),
         mesh_(sampled_.mesh),
         tolerance_(static_cast<float>(tolerance)),
         missed_(sampled_, field, surface, tolerance_, progress),
@@ -63,7 +64,7 @@ class Simplifier {
     for (const float share : kShares) collapseTo(share * tolerance_);
     progress_.update(0.4);
     for (int i = 0; i < kImprovements && !progress_.stopped(); ++i) {
-      if (i == kImprovements / 2) limit_ = tolerance_;
+      if (i == kImprovements / 2) setLimit(tolerance_);
       improve();
       collapse();
       progress_.update(0.4 + 0.4 * (i + 1) / kImprovements);
@@ -77,12 +78,32 @@ class Simplifier {
     }
     progress_.update(1.0);
   }
+  void runUnresolved(bool painted) {
+    if (painted) sampled_.paint(field_, tolerance_, progress_);
+    fitTints();
+    leaveExceeding();
+    for (const float share : kShares) collapseTo(std::min(share, 1.0f) * tolerance_);
+    for (int i = 0; i < kImprovements && !progress_.stopped(); ++i) {
+      progress_.update(0.4 + 0.5 * i / kImprovements);
+      improve();
+      collapse();
+    }
+    keep();
+    progress_.update(1.0);
+  }
   // Returns whether anything was changed for these places that are too far off.
   bool keep(const std::vector<glm::vec3>& exceeding) {
     touch(missed_.addNextTo(exceeding));
     return keep() > 0;
   }
-  FeatureMesh take() const { return mesh_.compacted(); }
+  FeatureMesh take() const {
+    FeatureMesh mesh = mesh_.compacted();
+    for (Index h = 0; sampled_.tints.any() && h < mesh_.halfEdges(); h += 3) {
+      const auto at = [&](Index k) { return sampled_.tints.colorOf(sampled_.tints.corners[h + k]); };
+      if (mesh_.alive(h)) mesh.colors.push_back({at(0), at(1), at(2)});
+    }
+    return mesh;
+  }
 
  private:
   // Splits what is too far, here or seen by the field. Returns how often.
@@ -101,12 +122,36 @@ class Simplifier {
     return all;
   }
 
+  // What is too far off from the start is not split.
+  void leaveExceeding() {
+    left_.assign(mesh_.vertices(), 0);
+    for (Index h = 0; h < mesh_.halfEdges(); h += 3)
+      if (sampled_.farthestOf(h / 3).distance > tolerance_)
+        for (Index k = 0; k < 3; ++k) left_[mesh_.from(h + k)] = 1;
+  }
+  bool isLeft(Index v) const { return v < left_.size() && left_[v]; }
+
+  // Colours are those that fit the samples around best.
+  void fitTints() {
+    for (Index v = 0; sampled_.tints.any() && v < mesh_.vertices() && !progress_.stopped(); ++v) {
+      if (!mesh_.vertexAlive(v)) continue;
+      ring_.setAround(v);
+      if (ring_.cut(mesh_.positions[v]) && ring_.place(mesh_.positions[v])) ring_.assign(limit_);
+    }
+  }
+
   void improve() {
     for (int i = 0; i < kSmoothings; ++i) flipAll(), moveAll();
+    fitTints();
+  }
+
+  void setLimit(float limit) {
+    limit_ = limit;
+    ring_.aimAt(std::min(limit, tolerance_));
   }
 
   void collapseTo(float limit) {
-    limit_ = limit;
+    setLimit(limit);
     std::ranges::fill(failed_, 0);
     collapse();
   }
@@ -258,7 +303,7 @@ class Simplifier {
     for (int i = 0; i < kSplitRounds && !progress_.stopped(); ++i) {
       std::size_t made = 0;
       for (Index v = 0; v < mesh_.vertices(); ++v) {
-        if (!isMovable(v) || near_[v] >= changed_[v]) continue;
+        if (!isMovable(v) || isLeft(v) || near_[v] >= changed_[v]) continue;
         near_[v] = pass_;
         if (moveNear(v) && i == 0) ++made;
       }
@@ -286,6 +331,7 @@ class Simplifier {
 
   // Splits the side of the triangle that is next to its farthest sample, there.
   bool splitIfExceeding(Index h) {
+    if (isLeft(mesh_.from(h)) || isLeft(mesh_.from(h + 1)) || isLeft(mesh_.from(h + 2))) return false;
     const SampledMesh::Farthest farthest = sampled_.farthestOf(h / 3);
     if (!(farthest.distance > tolerance_)) return false;
     const glm::vec3 p = sampled_.samples[farthest.sample].at;
@@ -320,6 +366,7 @@ class Simplifier {
 
   // Splits an edge on a crease at its farthest sample.
   bool splitCreaseIfExceeding(Index h) {
+    if (isLeft(mesh_.from(h)) || isLeft(mesh_.to(h))) return false;
     const glm::vec3 a = mesh_.positions[mesh_.from(h)], way = mesh_.positions[mesh_.to(h)] - a;
     float most = tolerance_;
     glm::vec3 worst;
@@ -352,6 +399,7 @@ class Simplifier {
     return true;
   }
 
+  const LocalField& field_;
   SampledMesh sampled_;
   HalfEdgeMesh& mesh_;
   float tolerance_;
@@ -366,6 +414,7 @@ class Simplifier {
   std::vector<Index> changed_;    // by vertex: the pass before which something around it was last changed
   std::vector<Index> settled_;    // by vertex: the last pass in which it was to be moved
   std::vector<Index> near_;       // by vertex: the last pass in which its distance was looked at
+  std::vector<char> left_;        // by vertex, of the first ones: is it of what is not split?
   std::vector<Index> failed_;     // by half-edge: the last pass in which its collapse failed
   std::vector<Index> unflipped_;  // by half-edge: the last pass in which it was to be flipped
 };
@@ -388,6 +437,13 @@ bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
     if (places.empty() || i == kOtherLooks || !simplifier.keep(places)) return false;
     asked.insert(asked.end(), places.begin(), places.end());
   }
+}
+
+void simplifyUnresolved(FeatureMesh& mesh, const LocalField& field, double tolerance, bool painted,
+                        Progress& progress) {
+  Simplifier simplifier(mesh, field, tolerance, {}, progress);
+  simplifier.runUnresolved(painted);
+  mesh = simplifier.take();
 }
 
 }  // namespace sdf

@@ -30,9 +30,6 @@ void readRun(const PointRun& run, const PointRows& points, const PointRows& norm
   }
 }
 
-// As steep in the dark as the curve of sRGB.
-constexpr float kDark = 1.0f / 512;
-
 float difference(const glm::vec3& a, const glm::vec3& b) {
   const glm::vec3 d = glm::abs(glm::sqrt(a + kDark) - glm::sqrt(b + kDark));
   return std::max({d.x, d.y, d.z});

@@ -1,5 +1,6 @@
 // What a surface looks like at points on it.
 #pragma once
+#include <cmath>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -15,8 +16,12 @@ struct Paint {
   int material = 0;  ///< its number among the shape's
 };
 
-/// The largest difference of a channel, of the square roots of linear light (a little above black), which are
-/// close to what screens show.
+/// As steep in the dark as the curve of sRGB.
+inline constexpr float kDark = 1.0f / 512;
+/// The square root of linear light (a little above black), which is close to what screens show.
+inline float perceived(float linear) { return std::sqrt(linear + kDark); }
+
+/// The largest difference of a channel, as perceived.
 float colorDifference(const Paint& a, const Paint& b);
 
 /// Colours that differ by more at one place have a border between them: some ten steps of a byte.
