@@ -29,8 +29,8 @@ struct SurfaceDistance {
 /// rest is not passed over. Does not depend on the number of threads.
 std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress);
 
-/// The nearest of the triangles, at least one, to each point; or any of them that is no farther than `within`.
-/// Cost: log n of the triangles for each point; less where most are near.
+/// The nearest of the triangles, at least one, to each point; or any of them that is no farther than
+/// `within`. Cost: log n of the triangles for each point; less where most are near.
 std::vector<NearestPoint> nearestTriangles(const std::vector<glm::vec3>& points,
                                            const std::vector<glm::vec3>& positions,
                                            const std::vector<glm::uvec3>& triangles, Progress& progress,
