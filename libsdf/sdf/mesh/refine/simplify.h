@@ -27,9 +27,9 @@ bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
               const std::vector<glm::vec3>& surface,
               const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding, Progress& progress);
 
-/// The same of a mesh that lacks something, or is too far from the surface somewhere: there it stays as it is,
-/// and nobody else is asked what exceeds the tolerance. If it is `painted` the mesh gets colours of its own,
-/// which samples hold to the surface's (tints.h).
+/// The same of a mesh that lacks something, or is too far from the surface somewhere: there it stays as it
+/// is, and nobody else is asked what exceeds the tolerance. If it is `painted` the mesh gets colours of its
+/// own, which samples hold to the surface's (tints.h).
 void simplifyUnresolved(FeatureMesh& mesh, const LocalField& field, double tolerance, bool painted,
                         Progress& progress);
 
