@@ -303,8 +303,8 @@ class Mesher {
     Witnesses witnesses(surface_, fine->mesh, painted_);
     bool blurred = painted_ && blursColors(*fine, model, bounds);  // do they need more than the shape?
     const bool isLast = !finer && !options_.strict;  // is a mesh taken that does not keep the tolerance?
-    for (double times = coarsest;
-         times >= (blurred && !isLast ? kFinestPainted : 1.0) && !progress_.stopped(); times /= 2.0) {
+    for (double times = coarsest; times >= 1.0 && !progress_.stopped(); times /= 2.0) {
+      if (blurred && times < kFinestPainted && !(isLast && times == 1.0)) continue;
       std::unique_ptr<Lattice> coarse;
       if (times > 1.0) {
         Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());

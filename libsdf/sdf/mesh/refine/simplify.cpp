@@ -78,6 +78,7 @@ class Simplifier {
     }
     progress_.update(1.0);
   }
+  // No farther than the tolerance, as moves do not bring colours back; what was too far stays so.
   void runUnresolved(bool painted) {
     if (painted) sampled_.paint(field_, tolerance_, progress_);
     fitTints();

@@ -72,12 +72,4 @@ float Tints::distance(std::uint32_t sample, const Tint& linear) const {
   return unit_ * most;
 }
 
-float Tints::difference(const Paint& paint, const Tint& linear) const {
-  const Tint own = of(paint);
-  float most = 0.0f;
-  for (std::size_t k = 0; k < channels_; ++k)
-    most = std::max(most, std::abs(perceived(std::max(linear[k], 0.0f)) - perceived(own[k])));
-  return most;
-}
-
 }  // namespace sdf

@@ -41,8 +41,6 @@ class Tints {
   const Tint& sample(std::uint32_t sample) const { return perceived_[sample]; }
   /// The distance that a colour's difference from the sample's counts as; 0 where that is not known.
   float distance(std::uint32_t sample, const Tint& linear) const;
-  /// How far a colour is from one of the surface (colorDifference).
-  float difference(const Paint& paint, const Tint& linear) const;
   /// The difference that counts as a distance, and the distance that a difference counts as.
   float difference(float distance) const { return distance / unit_; }
   float distance(float difference) const { return difference * unit_; }
