@@ -47,7 +47,8 @@ bool flipIfBetter(SampledMesh& sampled, CrowdedTriangles& crowded, Index h, floa
   // With what a colour's difference counts as.
   const auto off = [&](const OverTriangle& o, Index sample, const std::array<const Tint*, 3>& t) {
     if (!tints.any()) return o.distance;
-    return std::max(o.distance, tints.distance(sample, mixed(*t[0], *t[1], *t[2], o.weights)));
+    return std::max(o.distance,
+                    tints.distance(sample, mixed(*t[0], *t[1], *t[2], clampedWeights(o.weights))));
   };
   float was = 0.0f, is = 0.0f;
   std::vector<std::pair<Index, Index>> handed;  // samples, and half-edges of the triangles that get them

@@ -106,9 +106,11 @@ bool Ring::placeTriangle(Index triangle, Index guess, const Sector& s) {
     const glm::vec3& normal = sampled_.samples[w].normal;
     if (!isNone(normal) && glm::dot(normal, normals_[at]) < kFacing) return false;
     guess = at;
-    Placed placed{w, s.first + at, (1.0f - alpha - beta) * s.along * cosines_[at],
+    Placed placed{w,
+                  s.first + at,
+                  (1.0f - alpha - beta) * s.along * cosines_[at],
                   (z - alpha * rim_[at].z - beta * rim_[at + 1].z) * cosines_[at],
-                  clampedWeights({1.0f - alpha - beta, alpha, beta})};
+                  {1.0f - alpha - beta, alpha, beta}};
     if (inside < 0.0f) {  // beside the rim
       const double square = nearestOf({x, y, z}, glm::dvec3(0.0), rim_[at], rim_[at + 1]).squared;
       placed.height = std::copysign(static_cast<float>(std::sqrt(square)), placed.height);
@@ -135,8 +137,11 @@ bool Ring::placeNearest(Index triangle, const Sector& s) {
     const glm::vec3 &a = rim_[at], &b = rim_[at + 1], n = glm::cross(a, b);
     const float square = glm::dot(n, n), alpha = glm::dot(glm::cross(p, b), n) / square,
                 beta = glm::dot(glm::cross(a, p), n) / square, own = 1.0f - alpha - beta;
-    placed_.push_back({w, s.first + at, std::clamp(own, 0.0f, 1.0f) * glm::dot(way_, normals_[at]),
-                       std::copysign(least, glm::dot(p, n)), clampedWeights({own, alpha, beta})});
+    placed_.push_back({w,
+                       s.first + at,
+                       std::clamp(own, 0.0f, 1.0f) * glm::dot(way_, normals_[at]),
+                       std::copysign(least, glm::dot(p, n)),
+                       {own, alpha, beta}});
     ++counts_[s.first + at];
   }
   return true;

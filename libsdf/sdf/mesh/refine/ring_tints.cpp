@@ -95,6 +95,7 @@ glm::dvec3 Ring::tintForm() const {
 // Each sector's centre gets the colour in the middle of where all samples are seen at the aim, or stays as it
 // is, if that is nearer to them on the whole.
 void Ring::chooseTints() {
+  for (Placed& p : placed_) p.weights = clampedWeights(p.weights);
   for (const Sector& s : sectors_) {
     Tint was{};
     for (Index i = s.first; i < s.last; ++i)

@@ -21,7 +21,7 @@ OverTriangle over(const glm::vec3& p, const Corners& t) {
   const float square = glm::dot(n, n), beta = glm::dot(glm::cross(d, v), n) / square,
               gamma = glm::dot(glm::cross(u, d), n) / square,
               inside = std::min({1.0f - beta - gamma, beta, gamma});
-  const glm::vec3 weights = clampedWeights({1.0f - beta - gamma, beta, gamma});
+  const glm::vec3 weights(1.0f - beta - gamma, beta, gamma);
   if (inside >= 0.0f) return {inside, std::abs(glm::dot(d, n)) / std::sqrt(square), weights};
   return {inside, static_cast<float>(std::sqrt(nearestOf(p, t[0], t[1], t[2]).squared)), weights};
 }
@@ -74,9 +74,10 @@ SampledMesh::Farthest SampledMesh::farthestOf(Index triangle) const {
   Farthest farthest;
   for (Index w = onTriangle.first(triangle); w != Lists::kNone; w = onTriangle.after(w)) {
     const OverTriangle o = over(samples[w].at, corners);
-    const float d = tint
-                        ? std::max(o.distance, tints.distance(w, mixed(tint[0], tint[1], tint[2], o.weights)))
-                        : o.distance;
+    const float d =
+        tint ? std::max(o.distance,
+                        tints.distance(w, mixed(tint[0], tint[1], tint[2], clampedWeights(o.weights))))
+             : o.distance;
     if (farthest.sample == kNone || d > farthest.distance) farthest = {w, d};
   }
   return farthest;

@@ -98,7 +98,7 @@ struct OverTriangle {
   float inside;       ///< the least barycentric coordinate of the plane's nearest point: negative beside the
                       ///< triangle
   float distance;     ///< scene units
-  glm::vec3 weights;  ///< barycentric coordinates of a point of the triangle, near to the nearest
+  glm::vec3 weights;  ///< barycentric coordinates of the plane's nearest point
 };
 OverTriangle over(const glm::vec3& p, const Corners& triangle);
 
