@@ -56,7 +56,7 @@ std::vector<SampledMesh::Index> MissedSamples::alive() const {
   return all;
 }
 
-// Those of the triangles that have not been looked at as they are.
+// Those of the triangles in which nothing has been looked for as they are, or something was found.
 std::vector<SampledMesh::Index> MissedSamples::changed(const std::vector<Index>& triangles) {
   looked_.resize(sampled_.mesh.halfEdges() / 3);
   std::vector<Index> changed;
@@ -91,6 +91,7 @@ void MissedSamples::addAt(const std::vector<Index>& triangles, int steps, std::v
       if (off <= tolerance_) continue;
       sampled_.add(triangles[t] / 3, {feet[i], normals[i]});
       added_.push_back(triangles[t]);
+      looked_[triangles[t] / 3] = {};
     }
     if (close && most > kClose * tolerance_) close->push_back(triangles[t]);
   }

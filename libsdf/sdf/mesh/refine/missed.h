@@ -42,7 +42,7 @@ class MissedSamples {
   float tolerance_;
   Progress& progress_;
   std::vector<Index> added_;
-  std::vector<Corners> looked_;         // by triangle: where its corners were when it was last looked at
+  std::vector<Corners> looked_;         // by triangle: where its corners were when nothing was missed
   int fruitless_ = 0, sinceClimb_ = 0;  // climbs that found nothing, and looks since: ever more of them
 };
 
