@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "sdf/mesh/refine/sampled_mesh.h"
-#include "sdf/triangles/tree.h"
 
 namespace sdf {
 namespace {
@@ -78,9 +77,11 @@ void SampledMesh::paintSectors(const LocalField& field, Progress& progress, cons
           for (std::size_t k = 0; k < own.channels(); ++k) sum[k] += seen[k];
           count += 1.0f;
         }
-      for (float& channel : sum) channel /= count;
-      for (const Index h : s.corners) own.corners[h] = sum;
-      if (count > 0.0f) continue;
+      if (count > 0.0f) {
+        for (float& channel : sum) channel /= count;
+        for (const Index h : s.corners) own.corners[h] = sum;
+        continue;
+      }
       const auto [a, b, c] = mesh.corners(s.largest - s.largest % 3);
       points.push_back((a + b + c) / 3.0f);
       unseen.push_back(std::move(s));
