@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <unordered_map>
+#include <utility>
 
 #include "sdf/base/fnv.h"
 #include "sdf/triangles/triangle_pairs.h"
@@ -67,24 +68,57 @@ struct CellHash {
   }
 };
 
-// The vertices that have one with an opposite normal within a cell's length, and perhaps some more.
-std::vector<char> crowdedVertices(const SampledMesh& sampled, float cell) {
-  const Directions directions;
-  const HalfEdgeMesh& mesh = sampled.mesh;
-  const auto cellOf = [&](Index v) { return glm::ivec3(glm::floor(mesh.positions[v] / cell)); };
-  std::unordered_map<glm::ivec3, std::uint64_t, CellHash> seen;
-  for (Index v = 0; v < mesh.vertices(); ++v)
-    if (mesh.vertexAlive(v)) seen[cellOf(v)] |= std::uint64_t{1} << Directions::of(sampled.normals[v]);
-  std::vector<char> crowded(mesh.vertices(), 0);
-  for (Index v = 0; v < mesh.vertices(); ++v) {
-    if (!mesh.vertexAlive(v)) continue;
-    const glm::ivec3 at = cellOf(v);
-    const std::uint64_t opposite = directions.oppositeOf(Directions::of(sampled.normals[v]));
-    for (int i = 0; i < 27 && !crowded[v]; ++i) {
-      const auto found = seen.find(at + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
-      crowded[v] = found != seen.end() && (found->second & opposite) != 0;
+// The vertices of each cell of a grid, and where their normals go.
+class CellVertices {
+ public:
+  CellVertices(const SampledMesh& sampled, float size)
+      : sampled_(sampled), size_(size), next_(sampled.mesh.vertices(), SampledMesh::kNone) {
+    for (Index v = 0; v < sampled.mesh.vertices(); ++v) {
+      if (!sampled.mesh.vertexAlive(v)) continue;
+      Cell& cell = cells_[cellOf(v)];
+      next_[v] = std::exchange(cell.first, v);
+      cell.directions |= std::uint64_t{1} << Directions::of(sampled.normals[v]);
     }
   }
+
+  /// Is there a vertex within a cell's length of v whose normal is at more than a right angle to v's?
+  bool hasOpposite(Index v) const {
+    const glm::ivec3 at = cellOf(v);
+    const std::uint64_t opposite = directions_.oppositeOf(Directions::of(sampled_.normals[v]));
+    for (int i = 0; i < 27; ++i) {
+      const auto found = cells_.find(at + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+      if (found == cells_.end() || (found->second.directions & opposite) == 0) continue;
+      for (Index u = found->second.first; u != SampledMesh::kNone; u = next_[u])
+        if (isOpposite(u, v)) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Cell {
+    Index first = SampledMesh::kNone;
+    std::uint64_t directions = 0;
+  };
+  glm::ivec3 cellOf(Index v) const { return glm::ivec3(glm::floor(sampled_.mesh.positions[v] / size_)); }
+  bool isOpposite(Index u, Index v) const {
+    const glm::vec3 between = sampled_.mesh.positions[u] - sampled_.mesh.positions[v];
+    return glm::dot(between, between) <= size_ * size_ &&
+           glm::dot(sampled_.normals[u], sampled_.normals[v]) < 0.0f;
+  }
+
+  const SampledMesh& sampled_;
+  float size_;
+  Directions directions_;
+  std::unordered_map<glm::ivec3, Cell, CellHash> cells_;
+  std::vector<Index> next_;  // of the same cell
+};
+
+// The vertices that have one with an opposite normal within a cell's length.
+std::vector<char> crowdedVertices(const SampledMesh& sampled, float cell) {
+  const CellVertices cells(sampled, cell);
+  std::vector<char> crowded(sampled.mesh.vertices(), 0);
+  for (Index v = 0; v < sampled.mesh.vertices(); ++v)
+    crowded[v] = sampled.mesh.vertexAlive(v) && cells.hasOpposite(v);
   return crowded;
 }
 
