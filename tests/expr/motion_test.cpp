@@ -143,6 +143,15 @@ TEST(MotionBetween, IsOpenForWhatEndsNowhereUnlessItRests) {
   EXPECT_FALSE(between(plane({0.0, 1.0, 0.0}, 0.0), plane({0.0, 1.0, 0.0}, 0.5)));
 }
 
+TEST(HashWithoutMotion, IsThatOfABodyWhereverItIs) {
+  const auto hash = [](const Shape& shape) { return hashWithoutMotion(graphs(shape)); };
+  const Shape body = round(box({0.3, 0.5, 0.2}) | translate(sphere(0.2), {0.4, 0.1, 0.0}), 0.05);
+  for (const glm::dvec3& turn : {glm::dvec3(0.0), glm::dvec3(90.0, 0.0, 0.0), glm::dvec3(10.0, -50.0, 33.0)})
+    EXPECT_EQ(hash(translate(rotate(body, Vec3E(turn)), {turn.x, -3.0, 0.25})), hash(body)) << turn.y;
+  EXPECT_NE(hash(body), hash(box({0.3, 0.5, 0.2})));
+  EXPECT_NE(hash(body), hash(shell(body, 0.01)));
+}
+
 TEST(MotionBetween, HoldsForSceneFilesAtTwoTimes) {
   const std::string text =
       "return (box(0.4, 0.3, 0.2):round(0.05) | sphere(0.3):translate(0.5, 0.2, "

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "sdf/base/fnv.h"
 #include "sdf/expr/apply-inl.h"
 
 namespace sdf {
@@ -242,6 +243,21 @@ std::optional<RigidMotion> motionBetween(std::span<const Expr> before, std::span
     }
   }
   return best;
+}
+
+std::size_t hashWithoutMotion(std::span<const Expr> graphs) {
+  const AffineForms forms(graphs);
+  std::unordered_map<Expr, std::size_t> hashes;
+  const auto hashOf = [&](const Expr& e) { return hashes.at(e.unclaimed()); };
+  for (const Expr& e : topologicalOrder(graphs)) {
+    std::size_t& hash = hashes[e] = kFnvBegin<std::size_t>;
+    if (forms.of(e)) continue;
+    hash = fnv(hash, static_cast<std::size_t>(e.op()));
+    for (int i = 0; i < arity(e.op()); ++i) hash = fnv(hash, hashOf(e.arg(i)));
+  }
+  std::size_t all = kFnvBegin<std::size_t>;
+  for (const Expr& e : graphs) all = fnv(all, hashOf(e));
+  return all;
 }
 
 }  // namespace sdf

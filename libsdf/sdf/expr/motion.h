@@ -1,5 +1,6 @@
 // Whether what a graph describes has only moved from one moment to another.
 #pragma once
+#include <cstddef>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -26,5 +27,9 @@ struct RigidMotion {
 /// leaves it open how it moved. Cost: the size of the graphs.
 std::optional<RigidMotion> motionBetween(std::span<const Expr> before, std::span<const Expr> after,
                                          const RigidMotion& near = {});
+
+/// A number that lists of graphs share where motionBetween finds a motion, and rarely else: the operations
+/// without what is affine. Cost: the size of the graphs.
+std::size_t hashWithoutMotion(std::span<const Expr> graphs);
 
 }  // namespace sdf
