@@ -245,7 +245,8 @@ std::vector<FarPoint> farthestOfSurface(const std::vector<glm::vec3>& points, co
   const TriangleTree tree(positions, triangles);
   const std::vector<NearestPoint> nearest = nearestIn(tree, points, -1.0, progress);
   if (progress.stopped()) return {};
-  std::vector<FarPoint> all = farPoints(points, nearest), climbed = startsAmong(all, size, climbers);
+  std::vector<FarPoint> all = farPoints(points, nearest),
+                        climbed = startsAmong(all, size, std::min(climbers, triangles.size()));
   climb(climbed, field, size, tree, progress);
   all.insert(all.end(), climbed.begin(), climbed.end());
   return all;

@@ -42,8 +42,8 @@ SurfaceDistance distanceToMesh(const std::vector<glm::vec3>& points, const std::
                                double limit = kInfinity);
 
 /// Points of the surface of a shape as large as that, and how far they are from a mesh: those that are known,
-/// and what is reached by climbing (climb.h) from so many of the farthest all over the shape. Fewer miss
-/// some.
+/// and what is reached by climbing (climb.h) from so many of the farthest all over the shape, no more than
+/// there are triangles. Fewer miss some.
 std::vector<FarPoint> farthestOfSurface(const std::vector<glm::vec3>& points, const LocalField& field,
                                         double size, const std::vector<glm::vec3>& positions,
                                         const std::vector<glm::uvec3>& triangles, Progress& progress,
