@@ -18,6 +18,7 @@ struct MeshMaterial {
   float fresnelPower = 0.0f;
   float fresnelBias = 0.0f;
   glm::vec3 emission{0.0f};
+  int number = 0;  ///< among the shape's materials
 };
 
 /// Counter-clockwise triangles seen from outside, indices into the vertex arrays. Vertices [0, welded) are

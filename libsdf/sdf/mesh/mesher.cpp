@@ -19,10 +19,12 @@
 #include "sdf/mesh/edit/feature_mesh.h"
 #include "sdf/mesh/edit/uncross.h"
 #include "sdf/mesh/measure/distance.h"
+#include "sdf/mesh/measure/last_measured.h"
 #include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/measure/witnesses.h"
 #include "sdf/mesh/mesh.h"
+#include "sdf/mesh/pieces.h"
 #include "sdf/mesh/refine/balance.h"
 #include "sdf/mesh/refine/close_creases.h"
 #include "sdf/mesh/refine/remesh_paint.h"
@@ -83,6 +85,9 @@ constexpr double kSeen = 0x1p-10;
 // Voxels: where rounding to floats moves the surface by more, distances are read in double. Figures of an
 // ordinary mesh are a hundredth of a voxel and more.
 constexpr double kReadWithin = 0.01;
+// Voxels along the longest side of a shape with a tolerance, at least: a ball's curvature stays within a
+// 4000th of its width between them.
+constexpr double kAcross = 32.0;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
 // Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
@@ -105,6 +110,22 @@ constexpr double kFinestPainted = 4.0;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
+// A lattice that simplifying fails on is not tried again with four times as many triangles than these for a
+// goal that nobody asked for: of the samples' larger ones none was better.
+constexpr std::size_t kFew = 10'000;
+// Thinning for colours leaves up to a third fewer triangles than simplifying with them does (boards of wood,
+// blends), and takes as long on a mesh of about so many (planets of noise, above it).
+constexpr std::size_t kMostToThin = 300'000;
+
+double voxelSizeOf(const MeshOptions& options, const Box& bounds) {
+  return options.voxelSize > 0.0 ? options.voxelSize : bounds.longestSide() / kDefaultResolution;
+}
+
+// The largest of a box's coordinates, without their signs.
+double reachOf(const Box& box) {
+  const glm::dvec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
+  return std::max({reach.x, reach.y, reach.z});
+}
 
 // Does what is seen on the surface change from place to place?
 bool isPainted(const Shape& shape) {
@@ -125,15 +146,17 @@ struct Lattice {
 // Runs the stages of one mesh and keeps their times.
 class Mesher {
  public:
-  Mesher(const std::string& name, const MeshOptions& options, Progress& progress)
-      : name_(name), options_(options), progress_(progress), clip_(options.bounds) {}
+  /// `isPiece`: others may have a surface where it has none.
+  Mesher(const std::string& name, const MeshOptions& options, Progress& progress, bool isPiece = false)
+      : name_(name), options_(options), progress_(progress), isPiece_(isPiece), clip_(options.bounds) {}
 
   Result<MeshedShape> run(Shape shape) {
     if (!shape.ok()) return sceneError(name_, *shape.error);
     begin("bounds");
     Result<Box> bounds = boundsOf(shape);
     if (!bounds) return bounds.error();
-    double h = options_.voxelSize > 0.0 ? options_.voxelSize : bounds->longestSide() / kDefaultResolution;
+    if (isPiece_ && bounds->empty()) return std::move(result_);
+    double h = voxelSizeOf(options_, *bounds);
     if (const double least = kLeastTolerance * bounds->longestSide();
         options_.tolerance > 0.0 && options_.tolerance < least)
       return Error{ErrorKind::Limits,
@@ -160,7 +183,7 @@ class Mesher {
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
       const bool cheap = mesh.triangles.size() <= kMostToTry;
       if (!last && cheap && canResolve(h / std::exp2(kHalvings - halvings))) continue;
-      if (mesh.triangles.empty()) return noSurface(h);
+      if (mesh.triangles.empty()) return isPiece_ ? Result(std::move(result_)) : noSurface(h);
       if (thins) {
         result_.stats.tolerance = options_.tolerance;
         begin("remeshing");
@@ -198,8 +221,7 @@ class Mesher {
  private:
   // Positions and readings are floats: what they cannot tell apart is refused before any work.
   Status checkFloats(const Box& bounds, double voxel) const {
-    const glm::dvec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-    const double farthest = std::max({reach.x, reach.y, reach.z});
+    const double farthest = reachOf(bounds);
     if (const auto why = beyondFloats(bounds)) return sceneError(name_, *why);
     const double apart = farthest * kBetweenFloats;
     if (voxel >= kFloatsInAVoxel * apart) return okStatus();
@@ -212,9 +234,8 @@ class Mesher {
 
   // Does it lie where the rounding of positions shows in figures, and would not about its middle?
   static bool isFar(const Box& bounds, double voxel) {
-    const glm::dvec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-    const double farthest = std::max({reach.x, reach.y, reach.z});
-    return farthest * kBetweenFloats > kSeen * voxel && glm::length(bounds.centre()) > bounds.longestSide();
+    return reachOf(bounds) * kBetweenFloats > kSeen * voxel &&
+           glm::length(bounds.centre()) > bounds.longestSide();
   }
 
   // All is done about a place near the middle, which is at the origin until the mesh is. It is a multiple of
@@ -294,57 +315,77 @@ class Mesher {
   };
 
   // Replaces the mesh by one that is simplified from the largest voxels that do, up to some times as large as
-  // these. The last, from these voxels, is taken as it is, unless finer ones are to be tried or a tolerance
-  // was asked for. What these voxels see none may miss: the vertices of this mesh are points of the surface,
-  // and where it is painted those of its creases points of borders, which are to be met within the tolerance.
+  // these. What these voxels see none may miss: the vertices of this mesh are points of the surface, and
+  // where it is painted those of its creases points of borders, which are to be met within the tolerance.
   Simplified simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, bool finer,
                              const ModelTapes& model, const Box& bounds) {
     const std::size_t seen = fine->mesh.positions.size();
     Witnesses witnesses(surface_, fine->mesh, painted_);
     bool blurred = painted_ && blursColors(*fine, model, bounds);  // do they need more than the shape?
-    const bool isLast = !finer && !options_.strict;  // is a mesh taken that does not keep the tolerance?
-    for (double times = coarsest; times >= 1.0 && !progress_.stopped(); times /= 2.0) {
-      if (blurred && times < kFinestPainted && !(isLast && times == 1.0)) continue;
-      std::unique_ptr<Lattice> coarse;
-      if (times > 1.0) {
-        Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());
-        if (!sampled) break;
-        coarse = std::move(*sampled);
-        MeshStats stats;
-        findUnresolved(coarse->band, coarse->field, progress_, stats);
-        if (stats.unresolved > 0) continue;
-        extract(*coarse, false);
+    for (double times = coarsest; times > 1.0 && !progress_.stopped(); times /= 2.0) {
+      if (blurred && times < kFinestPainted) break;
+      Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());
+      if (!sampled) break;
+      Lattice& coarse = **sampled;
+      MeshStats stats;
+      findUnresolved(coarse.band, coarse.field, progress_, stats);
+      if (stats.unresolved > 0) continue;
+      extract(coarse, false);
+      FeatureMesh mesh = coarse.mesh;
+      if (!isClosed(mesh) || !follows(mesh, coarse.field, witnesses)) continue;
+      if (!blurred) {
+        if (!simplifyTo(mesh, coarse.field, fine->field, bounds, witnesses) || crosses(mesh)) continue;
+        // What is painted is looked at as closely as in the finest lattice.
+        blurred = painted_ && !keepsPaint(mesh, witnesses, fine->field);
       }
-      const Lattice& lattice = coarse ? *coarse : *fine;
-      FeatureMesh mesh = lattice.mesh;
-      if (!isClosed(mesh)) continue;
-      const bool followed = follows(mesh, lattice.field, witnesses);
-      if (!coarse && isLast && (!followed || (blurred && result_.stats.unresolved > 0))) {
-        closeCreases(mesh);
-        simplifyUnresolved(mesh, lattice.field, thinnedTo(), blurred, progress_);
-        if (!crossingTriangles(mesh.positions, mesh.triangles).empty()) break;
-        fine->mesh = std::move(mesh);
-        return Simplified::Taken;
-      }
-      if (!followed) continue;
-      if (!blurred && !simplifyTo(mesh, lattice.field, fine->field, bounds, witnesses)) {
-        if (coarse) continue;
-        if (finer) return Simplified::NeedsFiner;
-      }
-      if (!blurred && !crossingTriangles(mesh.positions, mesh.triangles).empty()) continue;
-      // What is painted is looked at as closely as in the finest lattice.
-      blurred = blurred || (painted_ && !keepsPaint(mesh, witnesses, fine->field));
-      if (blurred && (times < kFinestPainted || !thinPainted(mesh, lattice, bounds, witnesses, fine->field)))
+      if (blurred && (times < kFinestPainted || !thinPainted(mesh, coarse, bounds, witnesses, fine->field)))
         continue;
       witnessed_.points = seen;  // the others are looked at again
-      if (painted_ || !coarse)
-        fine->mesh = std::move(mesh);
-      else
-        coarse->mesh = std::move(mesh), fine = std::move(coarse);
+      (painted_ ? *fine : coarse).mesh = std::move(mesh);
+      if (!painted_) fine = std::move(*sampled);
       return Simplified::Taken;
     }
     witnessed_ = {};
-    return Simplified::No;
+    if (progress_.stopped() || !isClosed(fine->mesh)) return Simplified::No;
+    return simplifyFinest(*fine, blurred, finer, bounds, witnesses);
+  }
+
+  // The same from the mesh itself. Where no tolerance was asked for, what comes of it is taken as it is.
+  Simplified simplifyFinest(Lattice& fine, bool blurred, bool finer, const Box& bounds,
+                            Witnesses& witnesses) {
+    if (blurred && options_.strict) return Simplified::No;
+    const double off = lackOf(fine.mesh, fine.field, witnesses);
+    const bool followed = off <= kFollowed * options_.tolerance;
+    if (!followed && (finer || options_.strict)) return Simplified::No;
+    const bool mends = followed && (options_.strict || result_.stats.unresolved == 0);
+    FeatureMesh mesh = fine.mesh;
+    if (mends && !blurred) {
+      const bool kept = simplifyTo(mesh, fine.field, fine.field, bounds, witnesses);
+      if (!kept && finer && (options_.strict || fine.mesh.triangles.size() <= kFew))
+        return Simplified::NeedsFiner;
+      blurred = painted_ && !keepsPaint(mesh, witnesses, fine.field);
+      if (blurred && options_.strict) return Simplified::No;
+      if (blurred) mesh = fine.mesh;
+    }
+    if (!mends) {
+      closeCreases(mesh);
+      simplifyUnresolved(mesh, fine.field, thinnedTo(), blurred, progress_);
+    } else if (blurred) {
+      const bool thins = off <= std::max(options_.tolerance, kResolved * fine.band.voxelSize()) &&
+                         mesh.triangles.size() <= kMostToThin;
+      if (!thins || !thinPainted(mesh, fine, bounds, witnesses, fine.field)) {
+        mesh = fine.mesh;
+        simplifyTo(mesh, fine.field, fine.field, bounds, witnesses, true);
+      }
+    }
+    if (crosses(mesh)) return Simplified::No;
+    if (mends) witnessed_.points = fine.mesh.positions.size();
+    fine.mesh = std::move(mesh);
+    return Simplified::Taken;
+  }
+
+  static bool crosses(const FeatureMesh& mesh) {
+    return !crossingTriangles(mesh.positions, mesh.triangles).empty();
   }
 
   // Would triangles as large as the tolerance asks for blur the colours?
@@ -362,12 +403,16 @@ class Mesher {
 
   // Is a lattice's mesh near enough for simplifying to mend it?
   bool follows(const FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
+    return lackOf(mesh, field, witnesses) <= kFollowed * options_.tolerance;
+  }
+
+  // How far a lattice's mesh is from the surface, either way; infinite where it lacks a border.
+  double lackOf(const FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
     begin("remeshing");
-    const double limit = kFollowed * options_.tolerance;
     MeshStats stats;
-    measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
-    return stats.maxDistance <= limit && witnesses.toSurface(mesh, progress_).max <= limit &&
-           witnesses.toBorders(mesh, progress_) <= options_.tolerance;
+    measured_.fromMesh(mesh, field, progress_, stats);
+    if (witnesses.toBorders(mesh, progress_) > options_.tolerance) return kInfinity;
+    return std::max(stats.maxDistance, witnesses.toSurface(mesh, progress_).max);
   }
 
   double thinnedTo() const { return (options_.strict ? 1.0 : kThinnedTo) * options_.tolerance; }
@@ -377,7 +422,8 @@ class Mesher {
   bool thinPainted(FeatureMesh& mesh, const Lattice& lattice, const Box& bounds, Witnesses& witnesses,
                    const BandField& fine) {
     mesh = lattice.mesh;
-    const ThinOptions options{thinnedTo(), lattice.band.voxelSize(), true, false};
+    const ThinOptions options{
+        .tolerance = thinnedTo(), .voxel = lattice.band.voxelSize(), .painted = true, .once = true};
     if (!thin(mesh, fine, witnesses, options, progress_)) return false;
     witnessed_ = witnesses.toSurface(mesh, progress_);
     return witnessed_.max <= options_.tolerance && witness(mesh, fine, bounds, witnesses).empty();
@@ -387,8 +433,8 @@ class Mesher {
   // far that the mesh may come to miss it is one of the witnesses from now on.
   std::vector<glm::vec3> witness(const FeatureMesh& mesh, const BandField& field, const Box& bounds,
                                  Witnesses& witnesses) {
-    const std::vector<FarPoint> far =
-        farthestOfSurface(surface_, field, bounds.longestSide(), mesh.positions, mesh.triangles, progress_);
+    const std::vector<FarPoint>& far =
+        measured_.fromSurface(surface_, mesh, field, bounds.longestSide(), progress_);
     std::vector<glm::vec3> close, missed;
     for (std::size_t i = 0; i < far.size(); ++i) {
       if (i >= surface_.size() && far[i].distance > kClose * options_.tolerance) close.push_back(far[i].at);
@@ -401,12 +447,13 @@ class Mesher {
 
   // Simplifies a lattice's mesh; returns whether the tolerance is kept, both ways.
   bool simplifyTo(FeatureMesh& mesh, const BandField& field, const BandField& fine, const Box& bounds,
-                  Witnesses& witnesses) {
+                  Witnesses& witnesses, bool painted = false) {
     closeCreases(mesh);
     const auto exceeding = [&](const FeatureMesh& made) {
       return placesBeyondTolerance(made, painted_ ? fine : field, bounds, witnesses);
     };
-    return simplify(mesh, field, kHeldTo * options_.tolerance, witnesses.surface(), exceeding, progress_);
+    return simplify(mesh, field, kHeldTo * options_.tolerance, witnesses.surface(), exceeding, painted,
+                    progress_);
   }
 
   // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are
@@ -414,7 +461,7 @@ class Mesher {
   std::vector<glm::vec3> placesBeyondTolerance(const FeatureMesh& mesh, const BandField& field,
                                                const Box& bounds, Witnesses& witnesses) {
     MeshStats stats;
-    measureDistance(mesh.positions, mesh.triangles, field, progress_, stats);
+    measured_.fromMesh(mesh, field, progress_, stats);
     if (stats.maxDistance > options_.tolerance) return {stats.farthest};
     witnessed_ = witnesses.toSurface(mesh, progress_);
     if (witnessed_.max > options_.tolerance) return {witnessed_.farthest};
@@ -429,8 +476,7 @@ class Mesher {
 
   // Of what is not closed remeshing could make nothing.
   Status checkLattice(const FeatureMesh& mesh, const Box& bounds, double voxel, const BandField& field) {
-    const std::vector<float> distances =
-        measureDistance(mesh.positions, mesh.triangles, field, progress_, result_.stats);
+    const std::vector<float>& distances = measured_.fromMesh(mesh, field, progress_, result_.stats);
     measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     return checkClaims(mesh, bounds, voxel, distances);
@@ -450,10 +496,9 @@ class Mesher {
     const BandField& field = lattice.field;
     const double voxel = result_.stats.voxelSize;
     begin("measuring");
-    const std::vector<float> distances =
-        measureDistance(features.positions, features.triangles, field, progress_, result_.stats);
+    const std::vector<float>& distances = measured_.fromMesh(features, field, progress_, result_.stats);
     measureTopology(features.triangles, features.positions.size(), result_.stats);
-    measureCrossings(features);
+    measureCrossings(features.positions, features.triangles, result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
     measureToMesh(features, field, model, bounds);
@@ -480,23 +525,13 @@ class Mesher {
     // A cell's diagonal, beyond which there is no vertex in a cell; few triangles may be as far as the
     // tolerance.
     const double limit = std::max(std::numbers::sqrt3 * stats.voxelSize, stats.tolerance);
-    const SurfaceDistance missed = farthestOf(
-        farthestOfSurface(surface_, field, bounds.longestSide(), mesh.positions, mesh.triangles, progress_),
-        limit);
+    const SurfaceDistance missed =
+        farthestOf(measured_.fromSurface(surface_, mesh, field, bounds.longestSide(), progress_), limit);
     if (stats.unresolved == 0 && missed.beyond > 0)
       stats.unresolved = missed.beyond, stats.firstUnresolved = missed.farthest;
     stats.surfacePoints = missed.points + witnessed_.points;
     for (const SurfaceDistance& from : {missed, witnessed_})
       if (from.max > stats.maxDistance) stats.maxDistance = from.max, stats.farthest = from.farthest;
-  }
-
-  void measureCrossings(const FeatureMesh& mesh) {
-    const TrianglePairs pairs = crossingTriangles(mesh.positions, mesh.triangles);
-    result_.stats.crossings = pairs.size();
-    if (pairs.empty()) return;
-    const glm::uvec3& first = mesh.triangles[pairs[0][0]];
-    result_.stats.firstCrossing =
-        (mesh.positions[first.x] + mesh.positions[first.y] + mesh.positions[first.z]) / 3.0f;
   }
 
   Status checkTolerance() const {
@@ -516,6 +551,7 @@ class Mesher {
       shape = cut(shape, bounds, *options_.bounds);
       bounds = intersect(bounds, *options_.bounds);
     }
+    if (bounds.empty() && isPiece_) return bounds;
     if (bounds.empty())
       return sceneError(name_, "nothing inside the bounds; enlarge the bounds or move the shape");
     if (!bounds.finite())
@@ -613,15 +649,33 @@ class Mesher {
   const MeshOptions& options_;
   Expr distance_;  // of the shape
   Progress& progress_;
+  bool isPiece_;
   std::optional<Box> clip_;  // as the options have it
   glm::dvec3 origin_{0.0};   // of the coordinates in use
   MeshedShape result_;
   bool painted_ = false;
   std::vector<glm::vec3> surface_;  // points of it
-  SurfaceDistance witnessed_;       // from vertices of a finer lattice, where there was one
+  LastMeasured measured_;
+  SurfaceDistance witnessed_;  // from vertices of a finer lattice, where there was one
   std::size_t stage_ = 0;
   Clock::time_point began_;
 };
+
+// With a tolerance shapes have triangles, and voxels, by their own size, but for what is clipped.
+bool isBySize(const Shape& shape, const MeshOptions& options) {
+  return options.tolerance > 0.0 && shape.bounds.finite() && !shape.bounds.empty() &&
+         (!options.bounds || options.bounds->contains(shape.bounds)) &&
+         options.tolerance >= kLeastTolerance * shape.bounds.longestSide();
+}
+
+// Those of the options for a shape within such bounds, whose voxels are no larger than these. They are not
+// finer than its floats and the tolerance ask for.
+MeshOptions bySize(const Box& bounds, double voxel, MeshOptions options) {
+  const double least = std::max(options.tolerance, kFloatsInAVoxel * kBetweenFloats * reachOf(bounds));
+  options.voxelSize = std::min(voxel, std::max(bounds.longestSide() / kAcross, least));
+  options.bounds = {};
+  return options;
+}
 
 }  // namespace
 
@@ -629,7 +683,19 @@ Shape clipped(const Shape& shape, const Box& box) { return cut(shape, findBounds
 
 Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
                               Progress& progress) {
-  return Mesher(name, options, progress).run(shape);
+  if (!isBySize(shape, options)) return Mesher(name, options, progress).run(shape);
+  const double voxel = voxelSizeOf(options, shape.bounds);
+  // A mesh leaves its bounds by no more than the larger (checkClaims), so that two cannot meet.
+  const std::vector<Piece> pieces = isolatedPieces(shape, 2.0 * std::max(voxel, options.tolerance));
+  if (pieces.size() > 1) {
+    const auto mesh = [&](const Shape& piece, Progress& own) {
+      return Mesher(name, bySize(piece.bounds, voxel, options), own, true).run(piece);
+    };
+    Result<MeshedShape> meshed = meshPieces(shape, pieces, options.values, mesh, progress);
+    if (!meshed || !meshed->mesh.triangles.empty()) return meshed;
+  }
+  if (!(options.voxelSize > 0.0)) return Mesher(name, options, progress).run(shape);
+  return Mesher(name, bySize(shape.bounds, voxel, options), progress).run(shape);
 }
 
 }  // namespace sdf

@@ -15,7 +15,9 @@
 namespace sdf {
 
 struct MeshOptions {
-  double voxelSize = 0.0;  ///< scene units; 0 takes 1/200 of the longest side of the bounds
+  /// Scene units; 0 takes 1/200 of the longest side of the bounds. With a tolerance a small shape, and a
+  /// small piece of a union that lies apart, has smaller ones, if it is not clipped.
+  double voxelSize = 0.0;
   /// Distance between mesh and surface to be kept with few triangles, scene units; voxels are halved up to
   /// three times for it, and for what is thinner than they are. 0: none.
   double tolerance = 0.0;
@@ -45,7 +47,8 @@ Shape clipped(const Shape& shape, const Box& box);
 
 /// Meshes one shape. Normals are exact gradients where the mesh shows the surface that they belong to, else
 /// those of the facets. `name` is used in messages ("part 'floor' is unbounded in x and z: …"). Runs on the
-/// calling thread's oneTBB arena; the result does not depend on the number of threads. What is stated of a
+/// calling thread's oneTBB arena; the result does not depend on the number of threads. With a tolerance, what
+/// lies apart in a union is meshed alone (pieces.h); stages' times are summed over it. What is stated of a
 /// field, its bounds and its slope, is relied on, and found out where the mesh leaves the bounds, is not
 /// closed or is farther from the surface than a right one can be. Errors: Scene (failed shape, unbounded, no
 /// surface, false statements), Limits (memory, a distance that cannot be proven), Interrupted.

@@ -10,6 +10,7 @@
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/refine/ring.h"
+#include "sdf/shape/operators/deform.h"
 
 namespace sdf::test {
 namespace simplify_test {
@@ -22,7 +23,7 @@ std::vector<glm::vec3> nothing(const FeatureMesh&) { return {}; }
 FeatureMesh simplified(const Fine& fine, double tolerance) {
   Progress progress;
   FeatureMesh mesh = fine.mesh;
-  simplify(mesh, fine.field, tolerance, {}, nothing, progress);
+  simplify(mesh, fine.field, tolerance, {}, nothing, false, progress);
   return mesh;
 }
 
@@ -153,9 +154,9 @@ TEST(Simplify, LooksAgainAtWhatExceedsUntilThatChangesNothing) {
     return std::vector<glm::vec3>{{0.0f, 0.0f, 1.1f}};
   };
   FeatureMesh mesh = fine.mesh;
-  EXPECT_FALSE(simplify(mesh, fine.field, 1e-2, {}, alwaysThere, progress));
+  EXPECT_FALSE(simplify(mesh, fine.field, 1e-2, {}, alwaysThere, false, progress));
   EXPECT_TRUE(asked == 1 || asked == 2) << asked;
-  EXPECT_TRUE(simplify(mesh, fine.field, 1e-2, {}, nothing, progress));
+  EXPECT_TRUE(simplify(mesh, fine.field, 1e-2, {}, nothing, false, progress));
   expectTopology(mesh, 1, 2);
 }
 
@@ -164,7 +165,7 @@ TEST(Simplify, DoesNotChangeAMeshOnceItIsStopped) {
   Progress progress;
   progress.stop();
   FeatureMesh mesh = fine.mesh;
-  simplify(mesh, fine.field, 1e-2, {}, nothing, progress);
+  simplify(mesh, fine.field, 1e-2, {}, nothing, false, progress);
   EXPECT_EQ(mesh.triangles.size(), fine.mesh.triangles.size());
   expectTopology(mesh, 1, 2);
 }

@@ -7,6 +7,7 @@
 
 #include "mesh/lattice_mesh.h"
 #include "sdf/mesh/edit/crossings.h"
+#include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/refine/ring.h"
 #include "sdf/mesh/refine/simplify.h"
@@ -88,22 +89,44 @@ void expectSound(const FeatureMesh& mesh) {
   ASSERT_EQ(mesh.colors.size(), mesh.triangles.size());
 }
 
-// Waves of two a side on a flat face: without colours a box is twelve triangles.
-TEST(SimplifyUnresolved, HoldsColoursOnWhatIsFlat) {
+// Waves of two a side.
+Shape wavy(const Shape& shape) {
   const auto wave = [](const auto& x) { return 0.5 + 0.4 * sin(3.0 * x); };
   const Vec3E p = position();
-  const Shape shape = box(Vec3E(1.0)).paint({.color = {wave(p.x), Expr(0.5), wave(p.y)}});
-  const LatticeMesh fine(shape, 0.05);
-  FeatureMesh mesh = fine.mesh;
-  Progress progress;
-  simplifyUnresolved(mesh, fine.field, 0.01, true, progress);
-  expectSound(mesh);
+  return shape.paint({.color = {wave(p.x), Expr(0.5), wave(p.y)}});
+}
+
+void expectWaves(const FeatureMesh& mesh) {
   const auto colorAt = [](const glm::vec3& at) {
     return glm::vec3(0.5f + 0.4f * std::sin(3.0f * at.x), 0.5f, 0.5f + 0.4f * std::sin(3.0f * at.y));
   };
   // Between samples by some more.
   EXPECT_LE(farthestColor(mesh, colorAt), 1.5f * kColorTolerance);
+}
+
+// Without colours a box is twelve triangles.
+TEST(SimplifyUnresolved, HoldsColoursOnWhatIsFlat) {
+  const LatticeMesh fine(wavy(box(Vec3E(1.0))), 0.05);
+  FeatureMesh mesh = fine.mesh;
+  Progress progress;
+  simplifyUnresolved(mesh, fine.field, 0.01, true, progress);
+  expectSound(mesh);
+  expectWaves(mesh);
   EXPECT_LE(mesh.triangles.size(), fine.mesh.triangles.size() / 10);
+}
+
+TEST(Simplify, HoldsColoursAndTheTolerance) {
+  const LatticeMesh fine(wavy(sphere(1.0)), 0.05);
+  FeatureMesh mesh = fine.mesh;
+  Progress progress;
+  const auto nothing = [](const FeatureMesh&) { return std::vector<glm::vec3>(); };
+  EXPECT_TRUE(simplify(mesh, fine.field, 4e-3, {}, nothing, true, progress));
+  expectSound(mesh);
+  expectWaves(mesh);
+  MeshStats stats;
+  measureDistance(mesh.positions, mesh.triangles, fine.field, progress, stats);
+  EXPECT_LE(stats.maxDistance, 1.01 * 4e-3);
+  EXPECT_LE(mesh.triangles.size(), fine.mesh.triangles.size() / 6);
 }
 
 TEST(SimplifyUnresolved, KeepsColoursOnTheirSideOfABorder) {

@@ -27,24 +27,6 @@ glm::vec3 centroid(const Mesh& mesh, const glm::uvec3& t) {
   return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
 }
 
-// The shape's materials that occur, and each triangle's place among them. Returns their ids by place.
-std::vector<int> assignMaterials(const Shape& shape, const std::vector<int>& ids, Mesh& mesh) {
-  std::map<int, std::uint32_t> placeOf;
-  std::vector<int> idAt;
-  for (const int id : ids) placeOf.emplace(id, 0);
-  for (int id = 0; id < static_cast<int>(shape.materials.size()); ++id)
-    if (const auto it = placeOf.find(id); it != placeOf.end()) {
-      const std::string& name = shape.materials[id]->name;
-      it->second = static_cast<std::uint32_t>(mesh.materials.size());
-      mesh.materials.push_back(
-          {name.empty() ? "material " + std::to_string(id + 1) : name, {}, {}, {}, {}, {}});
-      idAt.push_back(id);
-    }
-  mesh.triangleMaterial.resize(ids.size());
-  for (std::size_t t = 0; t < ids.size(); ++t) mesh.triangleMaterial[t] = placeOf[ids[t]];
-  return idAt;
-}
-
 void orderByMaterial(Mesh& mesh) {
   std::vector<std::uint32_t> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -53,6 +35,22 @@ void orderByMaterial(Mesh& mesh) {
   const std::vector<glm::uvec3> triangles = std::move(mesh.triangles);
   mesh.triangles.clear();
   for (const std::uint32_t t : order) mesh.triangles.push_back(triangles[t]);
+}
+
+// The shape's materials that occur, and each triangle's place among them.
+void assignMaterials(const Shape& shape, const std::vector<int>& ids, Mesh& mesh) {
+  std::map<int, std::uint32_t> placeOf;
+  for (const int id : ids) placeOf.emplace(id, 0);
+  for (int id = 0; id < static_cast<int>(shape.materials.size()); ++id)
+    if (const auto it = placeOf.find(id); it != placeOf.end()) {
+      const std::string& name = shape.materials[id]->name;
+      it->second = static_cast<std::uint32_t>(mesh.materials.size());
+      mesh.materials.push_back(
+          {.name = name.empty() ? "material " + std::to_string(id + 1) : name, .number = id});
+    }
+  mesh.triangleMaterial.resize(ids.size());
+  for (std::size_t t = 0; t < ids.size(); ++t) mesh.triangleMaterial[t] = placeOf[ids[t]];
+  if (mesh.materials.size() > 1) orderByMaterial(mesh);
 }
 
 // Returns the copy, which has no colour yet.
@@ -112,8 +110,8 @@ void takeCornerColors(const std::vector<std::array<CornerColor, 3>>& colors, Mes
 // do not agree. Vertices have the paint of their places.
 class BorderPainter {
  public:
-  BorderPainter(const std::vector<int>& idAt, const LocalField& field, Progress& progress, Mesh& mesh)
-      : idAt_(idAt), field_(field), progress_(progress), mesh_(mesh) {}
+  BorderPainter(const LocalField& field, Progress& progress, Mesh& mesh)
+      : field_(field), progress_(progress), mesh_(mesh) {}
 
   void run() {
     findVertices();
@@ -142,7 +140,7 @@ class BorderPainter {
   };
 
   Paint paintOf(std::uint32_t v, int material) const { return {mesh_.colors[v], mesh_.ambient[v], material}; }
-  int materialOf(std::size_t t) const { return idAt_[mesh_.triangleMaterial[t]]; }
+  int materialOf(std::size_t t) const { return mesh_.materials[mesh_.triangleMaterial[t]].number; }
 
   // Those on creases, which may be borders, and those that look otherwise than a triangle's middle.
   void findVertices() {
@@ -232,7 +230,6 @@ class BorderPainter {
 
   static constexpr char kOnCrease = 1, kBeside = 2;
 
-  const std::vector<int>& idAt_;
   const LocalField& field_;
   Progress& progress_;
   Mesh& mesh_;
@@ -243,13 +240,12 @@ class BorderPainter {
 };
 
 // Reads what each vertex shows, on its own side of a border.
-void readColors(const std::vector<int>& idAt, bool hasBorders, const LocalField& field, Progress& progress,
-                Mesh& mesh) {
+void readColors(bool hasBorders, const LocalField& field, Progress& progress, Mesh& mesh) {
   const std::vector<Paint> paint = readPaint(
       mesh.positions.size(), [&](std::size_t i) { return mesh.positions[i]; },
       [&](std::size_t i) { return mesh.normals[i]; }, field, progress);
   for (const Paint& p : paint) mesh.colors.push_back(p.color), mesh.ambient.push_back(p.ambient);
-  if (hasBorders) BorderPainter(idAt, field, progress, mesh).run();
+  if (hasBorders) BorderPainter(field, progress, mesh).run();
 }
 
 // Some of the triangles of each material, evenly spread, by material.
@@ -313,10 +309,13 @@ void colorMesh(const Shape& shape, const FeatureMesh& features, const Values& va
   if (!features.colors.empty()) takeCornerColors(features.colors, mesh);
   const Expr& id = shape.surface[static_cast<int>(Attribute::MaterialId)];
   const int only = id.isConstant() ? static_cast<int>(id.constantValue()) : 0;
-  const std::vector<int> idAt = assignMaterials(
-      shape, materials.empty() ? std::vector<int>(mesh.triangles.size(), only) : materials, mesh);
-  if (mesh.materials.size() > 1) orderByMaterial(mesh);
-  if (features.colors.empty()) readColors(idAt, !materials.empty(), field, progress, mesh);
+  assignMaterials(shape, materials.empty() ? std::vector<int>(mesh.triangles.size(), only) : materials, mesh);
+  if (features.colors.empty()) readColors(!materials.empty(), field, progress, mesh);
+  resolveMaterials(shape, values, mesh);
+}
+
+void takeMaterials(const Shape& shape, const std::vector<int>& numbers, const Values& values, Mesh& mesh) {
+  assignMaterials(shape, numbers, mesh);
   resolveMaterials(shape, values, mesh);
 }
 

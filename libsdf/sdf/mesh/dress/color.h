@@ -20,4 +20,8 @@ namespace sdf {
 void colorMesh(const Shape& shape, const FeatureMesh& features, const Values& values, const LocalField& field,
                Progress& progress, Mesh& mesh);
 
+/// Fills triangleMaterial and materials of a coloured mesh, and orders the triangles by material. `numbers`
+/// are those of each triangle's material among the shape's, `values` as above.
+void takeMaterials(const Shape& shape, const std::vector<int>& numbers, const Values& values, Mesh& mesh);
+
 }  // namespace sdf

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "sdf/base/disjoint_sets.h"
+#include "sdf/mesh/edit/crossings.h"
 #include "sdf/triangles/incidence.h"
 
 namespace sdf {
@@ -96,6 +97,15 @@ void measureTopology(const std::vector<glm::uvec3>& triangles, std::size_t verti
   stats.components = static_cast<int>(components);
   stats.eulerCharacteristic =
       static_cast<int>(s.vertices - s.edges + static_cast<std::ptrdiff_t>(triangles.size()));
+}
+
+void measureCrossings(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
+                      MeshStats& stats) {
+  const TrianglePairs pairs = crossingTriangles(positions, triangles);
+  stats.crossings = pairs.size();
+  if (pairs.empty()) return;
+  const glm::uvec3& first = triangles[pairs[0][0]];
+  stats.firstCrossing = (positions[first.x] + positions[first.y] + positions[first.z]) / 3.0f;
 }
 
 }  // namespace sdf

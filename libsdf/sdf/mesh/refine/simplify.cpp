@@ -63,8 +63,11 @@ class Simplifier {
         failed_(mesh_.halfEdges(), 0),
         unflipped_(mesh_.halfEdges(), 0) {}
 
-  void run() {
-    for (const float share : kShares) collapseTo(share * tolerance_);
+  // Colours are not collapsed beyond the tolerance: moves do not bring them back.
+  void run(bool painted) {
+    if (painted) paint();
+    const float most = painted ? 1.0f : kShares[std::size(kShares) - 1];
+    for (const float share : kShares) collapseTo(std::min(share, most) * tolerance_);
     progress_.update(0.4);
     for (int i = 0; i < kImprovements && !progress_.stopped(); ++i) {
       if (i == kImprovements / 2) setLimit(tolerance_);
@@ -83,8 +86,7 @@ class Simplifier {
   }
   // No farther than the tolerance, as moves do not bring colours back; what was too far stays so.
   void runUnresolved(bool painted) {
-    if (painted) sampled_.paint(field_, tolerance_, progress_);
-    fitTints();
+    if (painted) paint();
     leaveExceeding();
     for (const float share : kShares) collapseTo(std::min(share, 1.0f) * tolerance_);
     if (mesh_.liveTriangles() > kMostToImprove) return;
@@ -135,6 +137,11 @@ class Simplifier {
         for (Index k = 0; k < 3; ++k) left_[mesh_.from(h + k)] = 1;
   }
   bool isLeft(Index v) const { return v < left_.size() && left_[v]; }
+
+  void paint() {
+    sampled_.paint(field_, tolerance_, progress_);
+    fitTints();
+  }
 
   // Colours are those that fit the samples around best.
   void fitTints() {
@@ -428,10 +435,10 @@ class Simplifier {
 
 bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
               const std::vector<glm::vec3>& surface,
-              const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding,
+              const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding, bool painted,
               Progress& progress) {
   Simplifier simplifier(mesh, field, tolerance, surface, progress);
-  simplifier.run();
+  simplifier.run(painted);
   std::vector<glm::vec3> asked;
   const auto isAsked = [&](const glm::vec3& p) { return std::ranges::find(asked, p) != asked.end(); };
   for (int i = 0;; ++i) {

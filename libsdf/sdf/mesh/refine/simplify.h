@@ -20,16 +20,18 @@ namespace sdf {
 ///
 /// `surface` are points of the surface that the mesh is to come as near to. `exceeding` is asked for places
 /// on the mesh or the surface that are farther from the other than the tolerance, in a mesh that is done so
-/// far; those that it has are looked at again, as long as that changes anything there. Returns whether it has
-/// none. Once progress is stopped the mesh is closed and manifold still, but unfinished. Does not depend on
-/// the number of threads. Cost: linear; some microseconds for each triangle that there was.
+/// far; those that it has are looked at again, as long as that changes anything there. If it is `painted` the
+/// mesh gets colours of its own, which samples hold to the surface's (tints.h). Returns whether nothing
+/// exceeds the tolerance. Once progress is stopped the mesh is closed and manifold still, but unfinished.
+/// Does not depend on the number of threads. Cost: linear; some microseconds for each triangle that there
+/// was.
 bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
               const std::vector<glm::vec3>& surface,
-              const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding, Progress& progress);
+              const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding, bool painted,
+              Progress& progress);
 
 /// The same of a mesh that lacks something, or is too far from the surface somewhere: there it stays as it
-/// is, and nobody else is asked what exceeds the tolerance. If it is `painted` the mesh gets colours of its
-/// own, which samples hold to the surface's (tints.h).
+/// is, and nobody else is asked what exceeds the tolerance.
 void simplifyUnresolved(FeatureMesh& mesh, const LocalField& field, double tolerance, bool painted,
                         Progress& progress);
 

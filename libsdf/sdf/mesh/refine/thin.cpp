@@ -65,6 +65,7 @@ class Thinner {
   }
 
   bool run() {
+    if (options_.once) return keepAtOnce();
     for (double tolerance = options_.tolerance;;) {
       if (keep(tolerance)) return true;
       if (tolerance <= options_.voxel || progress_.stopped()) break;
@@ -79,6 +80,12 @@ class Thinner {
   }
 
  private:
+  bool keepAtOnce() {
+    mesh_ = thinned(lattice_, options_.tolerance);
+    std::vector<glm::vec3> trouble;
+    return remeshStrictly(options_.tolerance, true, trouble);
+  }
+
   bool keep(double tolerance) {
     const int holds = options_.strict ? kHolds : kHoldsToBest;
     FeatureMesh rough = thinned(lattice_, tolerance);

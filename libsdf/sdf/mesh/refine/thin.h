@@ -15,6 +15,8 @@ struct ThinOptions {
   bool strict = true;
   /// Is some of the mesh farther off than remeshing can mend?
   bool broken = false;
+  /// Is what fails at the first try left to others? The mesh is of no use then.
+  bool once = false;
 };
 
 /// Points of the mesh, of four in each triangle, that are farther from the surface than the limit, but for
