@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "sdf/mesh/band/narrow_band.h"
@@ -99,6 +100,9 @@ constexpr double kResolved = 0.25;
 constexpr double kCoarsest = 16.0, kFollowed = 2.0;
 // Simplifying holds samples to this share of the tolerance, for the rounding of what is measured.
 constexpr double kHeldTo = 0.999;
+// Where that misses the tolerance by little, at bends as sharp as it, all samples are held to these shares of
+// it, the second where it was asked for, and some more triangles are left.
+constexpr double kStricter[] = {0.8, 0.6};
 // The same of thinning, which does not climb to what lies between its witnesses, by up to 1.7 % in samples,
 // where it is not done again for that.
 constexpr double kThinnedTo = 0.98;
@@ -110,9 +114,9 @@ constexpr double kFinestPainted = 4.0;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
-// A lattice that simplifying fails on is not tried again with four times as many triangles than these for a
-// goal that nobody asked for: of the samples' larger ones none was better.
-constexpr std::size_t kFew = 10'000;
+// For a goal that nobody asked for a lattice of more than these, which has edges that it does not follow, is
+// not tried again: simplifying four times as many did not keep it in the samples either.
+constexpr std::size_t kMostToHalve = 50'000;
 // Thinning for colours leaves up to a third fewer triangles than simplifying with them does (boards of wood,
 // blends), and takes as long on a mesh of about so many (planets of noise, above it).
 constexpr std::size_t kMostToThin = 300'000;
@@ -319,9 +323,33 @@ class Mesher {
   // where it is painted those of its creases points of borders, which are to be met within the tolerance.
   Simplified simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, bool finer,
                              const ModelTapes& model, const Box& bounds) {
-    const std::size_t seen = fine->mesh.positions.size();
     Witnesses witnesses(surface_, fine->mesh, painted_);
     bool blurred = painted_ && blursColors(*fine, model, bounds);  // do they need more than the shape?
+    missed_ = kInfinity;
+    if (simplifyCoarse(1.0, fine, coarsest, blurred, model, bounds, witnesses)) return Simplified::Taken;
+    witnessed_ = {};
+    if (progress_.stopped() || !isClosed(fine->mesh)) return Simplified::No;
+    const FeatureMesh mesh = fine->mesh;
+    const Simplified simplified = simplifyFinest(*fine, blurred, finer, bounds, witnesses);
+    // What is missed by little is kept if all is held to somewhat less.
+    for (const double share : std::span(kStricter).first(options_.strict ? std::size(kStricter) : 1)) {
+      if (!(missed_ * share <= 1.0) || progress_.stopped()) continue;
+      FeatureMesh best = std::exchange(fine->mesh, mesh);
+      if (simplifyCoarse(share, fine, coarsest, blurred, model, bounds, witnesses)) return Simplified::Taken;
+      if (simplifyTo(fine->mesh, share, fine->field, fine->field, bounds, witnesses) &&
+          !crosses(fine->mesh) && (!painted_ || keepsPaint(fine->mesh, witnesses, fine->field)))
+        return Simplified::Taken;
+      fine->mesh = std::move(best);
+    }
+    if (simplified == Simplified::Taken) witnessed_ = witnesses.toSurface(fine->mesh, progress_);
+    return simplified;
+  }
+
+  // The same from larger voxels alone, with samples held to a share of the tolerance. Returns whether one
+  // keeps it. `blurred` may be found out.
+  bool simplifyCoarse(double share, std::unique_ptr<Lattice>& fine, double coarsest, bool& blurred,
+                      const ModelTapes& model, const Box& bounds, Witnesses& witnesses) {
+    const std::size_t seen = fine->mesh.positions.size();
     for (double times = coarsest; times > 1.0 && !progress_.stopped(); times /= 2.0) {
       if (blurred && times < kFinestPainted) break;
       Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());
@@ -334,7 +362,7 @@ class Mesher {
       FeatureMesh mesh = coarse.mesh;
       if (!isClosed(mesh) || !follows(mesh, coarse.field, witnesses)) continue;
       if (!blurred) {
-        if (!simplifyTo(mesh, coarse.field, fine->field, bounds, witnesses) || crosses(mesh)) continue;
+        if (!simplifyTo(mesh, share, coarse.field, fine->field, bounds, witnesses) || crosses(mesh)) continue;
         // What is painted is looked at as closely as in the finest lattice.
         blurred = painted_ && !keepsPaint(mesh, witnesses, fine->field);
       }
@@ -343,15 +371,13 @@ class Mesher {
       witnessed_.points = seen;  // the others are looked at again
       (painted_ ? *fine : coarse).mesh = std::move(mesh);
       if (!painted_) fine = std::move(*sampled);
-      return Simplified::Taken;
+      return true;
     }
-    witnessed_ = {};
-    if (progress_.stopped() || !isClosed(fine->mesh)) return Simplified::No;
-    return simplifyFinest(*fine, blurred, finer, bounds, witnesses);
+    return false;
   }
 
   // The same from the mesh itself. Where no tolerance was asked for, what comes of it is taken as it is.
-  Simplified simplifyFinest(Lattice& fine, bool blurred, bool finer, const Box& bounds,
+  Simplified simplifyFinest(Lattice& fine, bool& blurred, bool finer, const Box& bounds,
                             Witnesses& witnesses) {
     if (blurred && options_.strict) return Simplified::No;
     const double off = lackOf(fine.mesh, fine.field, witnesses);
@@ -360,9 +386,10 @@ class Mesher {
     const bool mends = followed && (options_.strict || result_.stats.unresolved == 0);
     FeatureMesh mesh = fine.mesh;
     if (mends && !blurred) {
-      const bool kept = simplifyTo(mesh, fine.field, fine.field, bounds, witnesses);
-      if (!kept && finer && (options_.strict || fine.mesh.triangles.size() <= kFew))
-        return Simplified::NeedsFiner;
+      const bool kept = simplifyTo(mesh, 1.0, fine.field, fine.field, bounds, witnesses);
+      if (kept) missed_ = kInfinity;  // nothing is to be done again
+      const bool helps = off > options_.tolerance && fine.mesh.triangles.size() <= kMostToHalve;
+      if (!kept && finer && (options_.strict || helps)) return Simplified::NeedsFiner;
       blurred = painted_ && !keepsPaint(mesh, witnesses, fine.field);
       if (blurred && options_.strict) return Simplified::No;
       if (blurred) mesh = fine.mesh;
@@ -375,11 +402,11 @@ class Mesher {
                          mesh.triangles.size() <= kMostToThin;
       if (!thins || !thinPainted(mesh, fine, bounds, witnesses, fine.field)) {
         mesh = fine.mesh;
-        simplifyTo(mesh, fine.field, fine.field, bounds, witnesses, true);
+        simplifyTo(mesh, 1.0, fine.field, fine.field, bounds, witnesses, true);
       }
+      missed_ = kInfinity;
     }
     if (crosses(mesh)) return Simplified::No;
-    if (mends) witnessed_.points = fine.mesh.positions.size();
     fine.mesh = std::move(mesh);
     return Simplified::Taken;
   }
@@ -439,21 +466,26 @@ class Mesher {
     for (std::size_t i = 0; i < far.size(); ++i) {
       if (i >= surface_.size() && far[i].distance > kClose * options_.tolerance) close.push_back(far[i].at);
       if (far[i].distance > options_.tolerance) missed.push_back(far[i].at);
+      exceeded_ = std::max(exceeded_, far[i].distance / options_.tolerance);
     }
     surface_.insert(surface_.end(), close.begin(), close.end());
     witnesses.add(close);
     return missed;
   }
 
-  // Simplifies a lattice's mesh; returns whether the tolerance is kept, both ways.
-  bool simplifyTo(FeatureMesh& mesh, const BandField& field, const BandField& fine, const Box& bounds,
-                  Witnesses& witnesses, bool painted = false) {
+  // Simplifies a lattice's mesh with samples held to a share of the tolerance; returns whether it is kept,
+  // both ways.
+  bool simplifyTo(FeatureMesh& mesh, double share, const BandField& field, const BandField& fine,
+                  const Box& bounds, Witnesses& witnesses, bool painted = false) {
     closeCreases(mesh);
     const auto exceeding = [&](const FeatureMesh& made) {
       return placesBeyondTolerance(made, painted_ ? fine : field, bounds, witnesses);
     };
-    return simplify(mesh, field, kHeldTo * options_.tolerance, witnesses.surface(), exceeding, painted,
-                    progress_);
+    exceeded_ = kInfinity;
+    const bool kept = simplify(mesh, field, share * kHeldTo * options_.tolerance, witnesses.surface(),
+                               exceeding, painted, progress_);
+    if (!kept) missed_ = std::min(missed_, exceeded_);
+    return kept;
   }
 
   // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are
@@ -462,9 +494,11 @@ class Mesher {
                                                const Box& bounds, Witnesses& witnesses) {
     MeshStats stats;
     measured_.fromMesh(mesh, field, progress_, stats);
-    if (stats.maxDistance > options_.tolerance) return {stats.farthest};
+    exceeded_ = stats.maxDistance / options_.tolerance;
+    if (exceeded_ > 1.0) return {stats.farthest};
     witnessed_ = witnesses.toSurface(mesh, progress_);
-    if (witnessed_.max > options_.tolerance) return {witnessed_.farthest};
+    exceeded_ = witnessed_.max / options_.tolerance;
+    if (exceeded_ > 1.0) return {witnessed_.farthest};
     return witness(mesh, field, bounds, witnesses);
   }
 
@@ -657,6 +691,8 @@ class Mesher {
   std::vector<glm::vec3> surface_;  // points of it
   LastMeasured measured_;
   SurfaceDistance witnessed_;  // from vertices of a finer lattice, where there was one
+  double exceeded_ = 0.0;      // tolerances that the mesh that was looked at last is off
+  double missed_ = kInfinity;  // the least of what did not keep it
   std::size_t stage_ = 0;
   Clock::time_point began_;
 };

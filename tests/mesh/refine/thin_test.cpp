@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <utility>
 
 #include "mesh/scenes.h"
 #include "sdf/mesh/mesher.h"
@@ -77,6 +78,18 @@ TEST(Thin, WhatCannotBeKeptIsLeftAsItIsWhereThatIsAllowed) {
       meshShape(crescent, "part", {.voxelSize = best->stats.voxelSize}, progress);
   ASSERT_TRUE(uniform.ok());
   EXPECT_LT(2 * best->mesh.triangles.size(), uniform->mesh.triangles.size());
+}
+
+// Blends a few tolerances wide, whose bends are about as sharp as that: what simplifying to the tolerance
+// misses there by little is held to less of it.
+TEST(Simplify, KeepsAToleranceAtBendsAsSharpAsIt) {
+  const auto blended = [](double k, double away) {
+    return unite(
+        {sphere(1.0), translate(sphere(0.3), {away, 0.0, 0.0}), translate(sphere(0.4), {0.0, 1.2, 0.2})},
+        Blend::quadratic(k));
+  };
+  for (const auto& [k, away] : {std::pair(0.05, 1.1), {0.1, 1.1}, {0.1, 1.25}})
+    EXPECT_LE(meshed(blended(k, away), 0.05, 0.01).mesh.triangles.size(), 1200u) << k << " " << away;
 }
 
 TEST(Thin, MeshesThatAreTornOpenAreRefused) {
