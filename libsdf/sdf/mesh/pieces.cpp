@@ -210,13 +210,16 @@ std::vector<Piece> isolatedPieces(const Shape& shape, double apart) {
   }
   DisjointSets sets = joinedWhereMeeting(boxes);
   std::map<std::uint32_t, std::vector<Shape>> groups;
-  for (std::uint32_t i = 0; i < operands.size(); ++i) groups[sets.of(i)].push_back(*operands[i]);
+  for (std::uint32_t i = 0; i < operands.size(); ++i) {
+    std::vector<Shape>& group = groups[sets.of(i)];
+    group.push_back(*operands[i]);
+    group.back().materials = shape.materials;  // as its numbers are
+  }
   if (groups.size() < 2) return whole;
   std::vector<Piece> pieces;
   Kinds kinds;
   for (const auto& [first, group] : groups) {
     pieces.push_back({unite(group), pieces.size()});
-    pieces.back().shape.materials = shape.materials;
     kinds.name(pieces, pieces.size() - 1);
   }
   return pieces;
