@@ -66,6 +66,7 @@ TEST(Pieces, KnowTheFirstThatTheyAreCopiesOf) {
   ASSERT_EQ(pieces.size(), 5u);
   const std::size_t first[] = {0, 0, 2, 0, 4};
   for (std::size_t i = 0; i < pieces.size(); ++i) EXPECT_EQ(pieces[i].like, first[i]) << i;
+  // Motions hold to within 1e-10 of what they move (motionBetween), which is up to six units away.
   const TapePtr before = tapeOf(pieces[0].shape)->firstOutputOnly(),
                 after = tapeOf(pieces[3].shape)->firstOutputOnly();
   for (const glm::dvec3& p :
@@ -133,6 +134,8 @@ TEST(Pieces, CopiesShowTheColoursOfTheirOwnPlaces) {
   const Shape copy = translate(rotate(striped(), {0.0, 70.0, 25.0}), {3.0, 0.0, 0.0});
   const MeshedShape all = meshed(striped() | copy, 0.0, 2e-3);
   const TapePtr red = Function((striped() | copy).surface[0]).at();
+  // A corner's colour is within the four steps of a byte that colours are held to, which are 0.03 of linear
+  // light where it is brightest; a copy in another's place is off by up to 1.
   for (std::size_t v = 0; v < all.mesh.positions.size(); ++v)
     EXPECT_NEAR(all.mesh.colors[v].x, evaluate(*red, glm::dvec3(all.mesh.positions[v])), 0.03);
 }
