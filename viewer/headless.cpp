@@ -132,6 +132,7 @@ class Headless {
   Status shader() const {
     ShaderOptions whole = options_.shader;
     whole.sharing = false;
+    whole.steps = Steps::BySlope;
     const auto shaders = assemble(sceneAt(options_.time), whole);
     if (!shaders) return shaders.error();
     if (auto s = checkTarget(*options_.glsl); !s) return s;

@@ -28,7 +28,7 @@ Obstacles obstaclesOf(const OperandKind& kind, const Plan& plan) {
 }
 
 Obstacles othersOf(const Plan& plan) {
-  Marched part = leastOf(plan.kinds->others);
+  Marched part = leastOf(plan.kinds->others, plan.options.steps);
   part.bounds = plan.rest->bounds;
   Obstacles result{.whole = part, .rest = part};
   if (!plan.operands.empty()) result.operand = numberOfNearest(plan.kinds->others);
@@ -37,7 +37,7 @@ Obstacles othersOf(const Plan& plan) {
 
 Obstacles planesOf(const Plan& plan) {
   const std::vector<NumberedOperand> operands = operandsOf(plan.planes);
-  Obstacles result{.whole = leastOf(operands), .planes = plan.planes};
+  Obstacles result{.whole = leastOf(operands, plan.options.steps), .planes = plan.planes};
   if (!plan.operands.empty()) result.operand = numberOfNearest(operands);
   return result;
 }
@@ -228,7 +228,7 @@ std::vector<HitShaders> groupShaders(const Plan& plan, const RowWriter& rows) {
   double whole = 0.0;
   for (const OperandKind& kind : many)
     whole += operations(kind.distance) * static_cast<double>(kind.groups.numbers.size());
-  const Expr rest = others.empty() ? Expr(0.0) : leastOf(others).distance;
+  const Expr rest = others.empty() ? Expr(0.0) : leastOf(others, plan.options.steps).distance;
   whole += operations(rest);
   std::vector<Obstacles> obstacles;
   for (const OperandKind& kind : many) obstacles.push_back(obstaclesOf(kind, plan));

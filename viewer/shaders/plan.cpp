@@ -66,8 +66,8 @@ Error withoutSlope(const Scene& scene) {
               "field() a lipschitz, or bounds within which the formula has one"};
 }
 
-Result<Marched> marched(const Shape& shape, const Scene& scene) {
-  const auto [distance, step, slope] = marchable(shape);
+Result<Marched> marched(const Shape& shape, const Scene& scene, const ShaderOptions& options) {
+  const auto [distance, step, slope] = marchable(shape, options.steps);
   if (slope < kInfinity) return Marched{hoisted(distance), hoisted(step), shape.bounds};
   return withoutSlope(scene);
 }
@@ -124,7 +124,7 @@ Status planRest(std::vector<Shape> others, const Scene& scene, Plan& plan) {
     return okStatus();
   }
   if (!plan.kinds) plan.balls = takeBalls(others);
-  return others.empty() ? okStatus() : keep(marched(unite(others), scene), plan.rest);
+  return others.empty() ? okStatus() : keep(marched(unite(others), scene, plan.options), plan.rest);
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ Result<Plan> planOf(const Scene& scene, const ShaderOptions& options) {
   const Shape whole = scene.whole();
   Plan plan;
   plan.options = options;
-  if (auto s = keep(marched(whole, scene), plan.whole); !s) return s.error();
+  if (auto s = keep(marched(whole, scene, options), plan.whole); !s) return s.error();
   // Occlusion by steps counts the readings of the whole.
   const bool stepsCount = scene.ambientOcclusion.kind == AmbientOcclusion::Kind::Steps;
   const View view = options.view;

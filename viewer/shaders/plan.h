@@ -8,6 +8,7 @@
 #include "sdf/eval/glsl.h"
 #include "sdf/model/cells.h"
 #include "sdf/model/groups.h"
+#include "sdf/model/model.h"
 #include "sdf/scene/scene.h"
 #include "sdf/shape/solids/triangle_solid.h"
 #include "viewer/shaders/choices.h"
@@ -25,7 +26,8 @@ struct ShaderOptions {
   bool sharing = true;         ///< like operands may share their code; else all of it is written out
   bool culling = true;  ///< many operands may be read by lists of those that are near; else all are looked at
   bool drawing = true;  ///< meshes from files may be drawn as triangles; else they are marched
-  bool doubles = true;  ///< what floats cannot hold may be computed in double; not in ES
+  Steps steps = Steps::ByRegion;  ///< of what is marched: by region takes textures
+  bool doubles = true;            ///< what floats cannot hold may be computed in double; not in ES
   glm::dvec3 origin{0.0};  ///< what positions in shaders are relative to: see originFor (render/look.h)
   bool operator==(const ShaderOptions&) const = default;
 };

@@ -28,7 +28,7 @@ std::vector<NumberedOperand> othersAndPlanes(const Plan& plan) {
   return operands;
 }
 
-Marched besideOf(const Plan& plan) { return leastOf(othersAndPlanes(plan)); }
+Marched besideOf(const Plan& plan) { return leastOf(othersAndPlanes(plan), plan.options.steps); }
 
 // Whether some of what the loops over the kinds read has a step that is not its distance.
 bool areApart(const Plan& plan) {
@@ -181,11 +181,11 @@ Marched marchedOf(const OperandKind& kind, const Box& bounds) {
   return {hoisted(kind.distance), hoisted(kind.step), bounds};
 }
 
-Marched leastOf(const std::vector<NumberedOperand>& operands) {
+Marched leastOf(const std::vector<NumberedOperand>& operands, Steps steps) {
   std::vector<Steep> all;
   for (const NumberedOperand& operand : operands)
     all.push_back({operand.distance, operand.slope, operand.bounds});
-  const Marchable least = sdf::leastOf(all);
+  const Marchable least = sdf::leastOf(all, steps);
   return {hoisted(least.distance), hoisted(least.step)};
 }
 
@@ -221,7 +221,8 @@ std::string sharing(const Plan& plan, const RowWriter& rows, GlslWriter& writer)
       "float sdfDistance(vec3 p, vec3 n) { return sdfBoth(p, 1e30).y; }\n";
   if (hasPlanes)
     text += both("sdfBothOfRest",
-                 from(!others.empty(), !others.empty() && hasOwnStep(leastOf(others)), "sdfOthers"));
+                 from(!others.empty(), !others.empty() && hasOwnStep(leastOf(others, plan.options.steps)),
+                      "sdfOthers"));
   if (plan.bounces > 0 || !plan.grouped) text += nearest(plan, hasBeside, beside);
   return text;
 }
@@ -234,7 +235,7 @@ bool sharesGradients(const Plan& plan) {
 
 Functions sharedFunctions(const Plan& plan) {
   Functions functions{
-      {"sdfOthers", [&] { return outputsOf(leastOf(othersAndDrawn(plan))); }},
+      {"sdfOthers", [&] { return outputsOf(leastOf(othersAndDrawn(plan), plan.options.steps)); }},
       {"sdfBeside", [&] { return outputsOf(besideOf(plan)); }},
       {"sdfGradientBeside", [&] { return partsOf(gradientOf(besideOf(plan).distance)); }},
       {"sdfNearestBeside", [&] { return std::vector{numberOfNearest(othersAndPlanes(plan))}; }}};

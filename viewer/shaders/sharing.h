@@ -25,7 +25,7 @@ std::size_t gradientSize(const Expr& distance);
 Marched marchedOf(const OperandKind& kind, const Box& bounds = Box::everything());
 
 /// The least of the operands, of which there is at least one.
-Marched leastOf(const std::vector<NumberedOperand>& operands);
+Marched leastOf(const std::vector<NumberedOperand>& operands, Steps steps);
 
 std::vector<NumberedOperand> operandsOf(const std::vector<HalfSpace>& planes);
 

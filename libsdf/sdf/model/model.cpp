@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "sdf/model/region_steps.h"
 #include "sdf/shape/operand.h"
 
 namespace sdf {
@@ -118,11 +119,13 @@ double divisorOf(double slope) {
   return slope >= 1.0 && isOneLipschitz(slope) ? 1.0 : std::max(slope, kConstant);
 }
 
-Expr stepOf(const Expr& distance, double divisor, const Box& bounds) {
+Expr stepOf(const Expr& distance, double divisor, const Box& bounds, Steps steps) {
   if (divisor == 1.0) return distance;
-  const Expr step = distance * (1.0 / divisor);
-  const std::optional<Expr> outside = divisor > 1.0 && !bounds.empty() ? outsideBox(bounds) : std::nullopt;
-  return outside ? max(step, *outside) : step;
+  Expr step = distance * (1.0 / divisor);
+  if (divisor < 1.0 || bounds.empty()) return step;
+  if (const auto outside = outsideBox(bounds)) step = max(step, *outside);
+  const auto near = steps == Steps::ByRegion ? stepByRegion(distance, bounds, divisor) : std::nullopt;
+  return near ? max(step, *near) : step;
 }
 
 // As a balanced tree.
@@ -136,7 +139,7 @@ Marchable leastOf(const Marchable& a, const Marchable& b) {
   return {min(a.distance, b.distance), min(a.step, b.step), std::max(a.slope, b.slope)};
 }
 
-Marchable leastOf(std::span<const Shape> operands) {
+Marchable leastOf(std::span<const Shape> operands, Steps steps) {
   std::vector<Steep> known;
   std::optional<Marchable> others;
   for (const Shape& operand : operands) {
@@ -144,17 +147,18 @@ Marchable leastOf(std::span<const Shape> operands) {
       known.push_back({operand.distance, slopeOf(operand), operand.bounds});
       continue;
     }
-    const Marchable one = marchable(operand);
+    const Marchable one = marchable(operand, steps);
     others = others ? leastOf(*others, one) : one;
   }
   if (known.empty()) return *others;
-  const Marchable least = leastOf(known);
+  const Marchable least = leastOf(known, steps);
   return others ? leastOf(least, *others) : least;
 }
 
 }  // namespace
 
-Marchable leastOf(std::span<const Steep> all) {
+Marchable leastOf(std::span<const Steep> all, Steps steps) {
+  constexpr std::size_t kMostByRegion = 3;  // each of which a shader has a texture for
   struct Alike {
     std::vector<Expr> distances;
     Box bounds;
@@ -165,23 +169,24 @@ Marchable leastOf(std::span<const Steep> all) {
     alike->second.distances.push_back(one.distance);
     alike->second.bounds = unite(alike->second.bounds, one.bounds);
   }
-  std::vector<Expr> distances, steps;
-  for (const auto& [slope, alike] : bySlope) {
+  std::vector<Expr> distances, ways;
+  for (std::size_t left = bySlope.size(); const auto& [slope, alike] : bySlope) {
     distances.push_back(leastOf(alike.distances));
-    steps.push_back(stepOf(distances.back(), slope, alike.bounds));
+    const Steps here = left-- <= kMostByRegion ? steps : Steps::BySlope;
+    ways.push_back(stepOf(distances.back(), slope, alike.bounds, here));
   }
-  return {leastOf(distances), leastOf(steps), bySlope.rbegin()->first};
+  return {leastOf(distances), leastOf(ways), bySlope.rbegin()->first};
 }
 
-Marchable marchable(const Shape& shape) {
+Marchable marchable(const Shape& shape, Steps steps) {
   const double slope = divisorOf(slopeOf(shape));
   if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard) {
     const auto isAlike = [&](const Shape& operand) { return divisorOf(slopeOf(operand)) == slope; };
     if (slope == kInfinity || !std::ranges::all_of(shape.outer->operands, isAlike))
-      return leastOf(shape.outer->operands);
+      return leastOf(shape.outer->operands, steps);
   }
   if (slope == kInfinity) return {shape.distance, shape.distance, kInfinity};
-  return {shape.distance, stepOf(shape.distance, slope, shape.bounds), slope};
+  return {shape.distance, stepOf(shape.distance, slope, shape.bounds, steps), slope};
 }
 
 }  // namespace sdf

@@ -111,14 +111,21 @@ struct Steep {
   Box bounds = Box::everything();
 };
 
+/// What steps go by.
+enum class Steps {
+  BySlope,  ///< one bound of the slope: they change by no more than one moves
+  ByRegion  ///< bounds by region where these lead farther (model/region_steps.h): they jump
+};
+
 /// The least of these, at least one, each divided by its own slope. Distances of one slope are joined first,
-/// so that they are divided once. Cost: linear in their number but for sorting their slopes.
-Marchable leastOf(std::span<const Steep> all);
+/// so that they are divided once. Cost: linear in their number but for sorting their slopes, and for the
+/// regions of at most three distances, the steepest.
+Marchable leastOf(std::span<const Steep> all, Steps steps = Steps::BySlope);
 
 /// The distance and the step by which the shape is marched. The step of one shape is its distance divided by
 /// its slope; where the slope is above 1, it is at least the way to its bounds. The step of a hard union is
 /// the least of its operands', so that no operand is slowed down by another's slope. Cost: linear in the
-/// number of operands.
-Marchable marchable(const Shape& shape);
+/// number of operands, and that of leastOf.
+Marchable marchable(const Shape& shape, Steps steps = Steps::BySlope);
 
 }  // namespace sdf

@@ -3,6 +3,8 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "sdf/eval/function.h"
+#include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators/booleans.h"
 #include "viewer/reference/cpu_uniform.h"
 #include "viewer/render/gpu_render.h"
@@ -235,6 +237,56 @@ TEST(FarEnd, IsNotSeenWhereTheDistanceOverflows) {
     };
     EXPECT_GT(hits(Method::Plain), 1000.0);
     EXPECT_NEAR(hits(Method::AutoRelaxed), hits(Method::Plain), 0.01 * hits(Method::Plain)) << "edges";
+  }
+}
+
+// Whether the distance is seen to be negative somewhere along the ray, near the origin.
+bool isMet(const Tape& distance, const glm::dvec3& eye, const glm::dvec3& way) {
+  constexpr double kReach = 2.5, kStep = 0.005;
+  const double middle = glm::length(eye);
+  for (double t = std::max(0.0, middle - kReach); t < middle + kReach; t += kStep)
+    if (evaluate(distance, eye + t * way) < 0.0) return true;
+  return false;
+}
+
+// Formulas that are far steeper at their bounds than at the surface.
+TEST(Steep, FormulasAreMetInFewReadings) {
+  const Vec3E p = position();
+  const Expr a = p.x * p.x + 2.25 * p.z * p.z + p.y * p.y - 1.0, cube = p.y * p.y * p.y;
+  const auto quartic = [&](double size) {
+    return p.x * p.x * p.x * p.x + p.y * p.y * p.y * p.y + p.z * p.z * p.z * p.z - size;
+  };
+  const Expr ball = dot(p, p);
+  const Expr waves =
+      sin(4.0 * p.x) * cos(4.0 * p.y) + sin(4.0 * p.y) * cos(4.0 * p.z) + sin(4.0 * p.z) * cos(4.0 * p.x);
+  const Box bounds = Box::centred(glm::dvec3(1.4));
+  const Shape shapes[] = {field(a * a * a - p.x * p.x * cube - 0.1125 * p.z * p.z * cube, bounds),
+                          field(quartic(1.0), bounds), field((ball - 0.9) * (ball + 1.0), bounds),
+                          intersect(field(waves * exp(p.x), bounds), sphere(1.3)),
+                          field(max(quartic(1.0), -quartic(0.5) * 3.0 - p.x), bounds)};
+  for (const Shape& shape : shapes) {
+    Scene scene = darkScene();
+    scene.add("", Shape(shape).paint(painted()));
+    GpuRenderOptions options = materials(Method::AutoRelaxed, kWidth, kHeight);
+    const viewer::Readings readings = readingsOnGpu(scene, options);
+    const auto picture = renderOnGpu(scene, options);
+    const auto place = std::to_string(&shape - shapes);
+    options.shader.steps = Steps::BySlope;
+    EXPECT_LE(readings.primary, 10.0) << place;
+    EXPECT_LE(readings.primary, 0.5 * readingsOnGpu(scene, options).primary) << place;
+    const TapePtr distance = Function(shape.distance).at();
+    int seen = 0, others = 0, spent = 0;
+    for (int row = 0; row < kHeight; row += 3)
+      for (int column = 0; column < kWidth; column += 3) {
+        const glm::vec4& pixel = picture[static_cast<std::size_t>(row) * kWidth + column];
+        const bool isSolid = isMet(*distance, kEye, rayThrough(column, row));
+        seen += isSolid;
+        others += isSolid != isHit(pixel);
+        spent += pixel.a == 0.0f;
+      }
+    EXPECT_GT(seen, 60) << place;
+    EXPECT_LE(others, seen / 50) << place;
+    EXPECT_EQ(spent, 0) << place;
   }
 }
 

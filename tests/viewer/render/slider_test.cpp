@@ -93,9 +93,11 @@ class SliderTest : public HeadlessTest {
     return {path};
   }
 
-  /// The scene with numbers, drawn; nothing where it is refused.
+  /// The scene with numbers, drawn by one slope for each part, as moving ones are; nothing where it is
+  /// refused.
   std::optional<Drawn> byNumbers(const std::string& shape, const Inputs& in, ShaderOptions options = {}) {
     options.countReadings = true;
+    options.steps = Steps::BySlope;
     const auto scene = file(numbersOf(in) + shape).load({});
     if (!scene) return {};
     auto renderer = Renderer::make(*scene, options);

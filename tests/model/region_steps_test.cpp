@@ -1,0 +1,115 @@
+// Steps by region: the ball that one may go is free of the surface, and steep distances are passed quickly.
+#include "sdf/model/region_steps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "sdf/eval/function.h"
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/model/model.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/solids.h"
+
+namespace sdf {
+namespace region_steps_test {
+
+using Random = std::mt19937_64;
+
+double between(Random& random, double lo, double hi) {
+  return std::uniform_real_distribution<double>(lo, hi)(random);
+}
+
+glm::dvec3 pointIn(const Box& box, Random& random) {
+  return {between(random, box.min.x, box.max.x), between(random, box.min.y, box.max.y),
+          between(random, box.min.z, box.max.z)};
+}
+
+struct Steeply {
+  std::string name;
+  Shape shape;
+};
+
+std::vector<Steeply> steep() {
+  const auto& [x, y, z] = position();
+  const Expr a = x * x + 2.25 * z * z + y * y - 1.0, ball = x * x + y * y + z * z;
+  const Expr heart = a * a * a - x * x * y * y * y - 0.1125 * z * z * y * y * y;
+  const Expr waves = sin(4.0 * x) * cos(4.0 * y) + sin(4.0 * y) * cos(4.0 * z) + sin(4.0 * z) * cos(4.0 * x);
+  return {
+      {"heart", field(heart, {{-1.6, -1.6, -1.2}, {1.6, 1.6, 1.2}})},
+      {"quartic", field(x * x * x * x + y * y * y * y + z * z * z * z - 1.0, Box::centred(glm::dvec3(1.2)))},
+      {"product", field((ball - 0.5) * (ball + 1.0), Box::centred(glm::dvec3(1.0)))},
+      {"waves", intersect(field(waves * exp(x), Box::centred(glm::dvec3(2.0))), sphere(1.9))},
+      {"moved",
+       translate(scale(field(heart, Box::centred(glm::dvec3(1.6))), Vec3E(0.01)), Vec3E(3.0, 0.0, 0.0))}};
+}
+
+TEST(StepsByRegion, AreFreeOfTheSurface) {
+  for (const auto& [name, shape] : steep()) {
+    const Marchable m = marchable(shape, Steps::ByRegion), slow = marchable(shape);
+    const Box around = shape.bounds.grown(0.3 * shape.bounds.longestSide());
+    const TapePtr distance = Function(m.distance).at(), step = Function(m.step).at(),
+                  bySlope = Function(slow.step).at();
+    Random random(7);
+    std::vector<double> gains;
+    for (int i = 0; i < 4000; ++i) {
+      const glm::dvec3 p = pointIn(around, random);
+      const double f = evaluate(*distance, p), g = evaluate(*step, p);
+      ASSERT_EQ(f < 0.0, g < 0.0) << name;
+      ASSERT_EQ(f > 0.0, g > 0.0) << name;
+      if (f <= 0.0) continue;
+      const double least = evaluate(*bySlope, p);
+      ASSERT_GE(g, least) << name;
+      if (shape.bounds.contains(Box{p, p})) gains.push_back(g / least);
+      for (int k = 0; k < 20; ++k) {
+        const glm::dvec3 way(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
+        const glm::dvec3 q = p + g * std::cbrt(between(random, 0.3, 1.0)) * glm::normalize(way);
+        ASSERT_GE(evaluate(*distance, q), -1e-12)
+            << name << ": from " << p.x << ", " << p.y << ", " << p.z << " by " << g;
+      }
+    }
+    std::ranges::nth_element(gains, gains.begin() + gains.size() / 2);
+    EXPECT_GE(gains[gains.size() / 2], 3.0) << name;
+  }
+}
+
+TEST(StepsByRegion, AreTheSameForTheSameDistance) {
+  const Shape shape = steep().front().shape;
+  EXPECT_TRUE(marchable(shape, Steps::ByRegion).step == marchable(shape, Steps::ByRegion).step);
+}
+
+// They hold for all values of parameters only where these do not matter.
+TEST(StepsByRegion, AreThoseByOneSlopeWhereThereAreInputs) {
+  const auto& [x, y, z] = position();
+  const Expr size = Expr::parameter({"size", 1.0, 0.5, 2.0});
+  const Shape shape =
+      field(x * x * x * x + y * y * y * y + z * z * z * z - size, Box::centred(glm::dvec3(1.5)));
+  EXPECT_TRUE(marchable(shape, Steps::ByRegion).step == marchable(shape).step);
+}
+
+TEST(StepsByRegion, AreThoseByOneSlopeWhereTheDistanceIsAsSteepEverywhere) {
+  const auto& [x, y, z] = position();
+  const Shape shape = field(5.0 * (length(position()) - 1.0), Box::centred(glm::dvec3(1.5)));
+  EXPECT_TRUE(marchable(shape, Steps::ByRegion).step == marchable(shape).step);
+}
+
+// Each has a texture in a shader.
+TEST(StepsByRegion, AreThoseOfThreeOperandsAtMost) {
+  const auto& [x, y, z] = position();
+  std::vector<Shape> operands;
+  for (int i = 1; i <= 5; ++i)
+    operands.push_back(translate(field((x * x * x * x + y * y * y * y + z * z * z * z - 1.0) * double(i),
+                                       Box::centred(glm::dvec3(1.2))),
+                                 Vec3E(4.0 * i, 0.0, 0.0)));
+  const Marchable m = marchable(unite(operands), Steps::ByRegion);
+  const auto nodes = topologicalOrder({&m.step, 1});
+  EXPECT_EQ(std::ranges::count(nodes, Op::Payload, &Expr::op), 3);
+}
+
+}  // namespace region_steps_test
+}  // namespace sdf
