@@ -90,7 +90,8 @@ inline void holdSurface(const Search& search, const Box& box, const MeshedShape&
     const glm::dvec3 p = pointIn(box, random);
     glm::dvec3 way(0.0);
     way[below(random, 3)] = 1.0;
-    if (const double d = search.along(p, way, reach); d < reach) surface.emplace_back(p + d * way);
+    const glm::dvec3 met = p + search.along(p, way, reach) * way;
+    if (box.contains(Box{met, met})) surface.emplace_back(met);
   }
   Progress progress;
   const SurfaceDistance missed = distanceToMesh(surface, made.mesh.positions, made.mesh.triangles, progress);
