@@ -468,6 +468,23 @@ TEST(MeshShape, HasUnitNormalsHoweverSlightOrSteepTheFieldIs) {
   }
 }
 
+// Roundings of a few tolerances, on a lattice of so many triangles that blocks of them are changed at once.
+TEST(MeshShape, KeepsAToleranceAtSmallRoundings) {
+  const Shape frame = round(subtract(box({1.96, 0.16, 1.96}), box({1.5, 1.0, 1.5})), 0.04);
+  Progress progress;
+  for (const double tolerance : {3e-3, 3.4e-3, 4e-3}) {
+    MeshOptions options;
+    options.tolerance = tolerance, options.voxelSize = 0.022;
+    for (const bool strict : {true, false}) {
+      options.strict = strict;
+      const auto made = meshShape(frame, "frame", options, progress);
+      ASSERT_TRUE(made) << made.error().message;
+      EXPECT_LE(made->stats.maxDistance, tolerance) << strict;
+      EXPECT_LT(made->mesh.triangles.size(), 450u) << tolerance;
+    }
+  }
+}
+
 TEST(MeshShape, KeepsAToleranceWithFewTriangles) {
   const Shape turned = rotate(box({1.0, 0.6, 0.8}), {0.3, 0.5, 0.2});
   const MeshedShape cuboid = meshed(turned, {.voxelSize = 0.05, .tolerance = 1e-3});

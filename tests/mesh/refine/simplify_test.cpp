@@ -1,6 +1,7 @@
 #include "sdf/mesh/refine/simplify.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <random>
 
@@ -131,6 +132,21 @@ TEST(Simplify, NothingCrossesWhereSheetsAreClose) {
   expectTopology(simplified(Fine(links, 0.02), tolerance), 2, 0);
   const Shape hollow = subtract(sphere(0.5), sphere(0.5 - gap));
   expectTopology(simplified(Fine(hollow, 0.02), tolerance), 2, 4);
+}
+
+// Two sheets, closer than both may be off, of so many triangles that blocks of them are changed at once.
+TEST(Simplify, DoesNotDependOnThreadsAndCrossesNothingWhereBlocksAreChangedAtOnce) {
+  const Fine fine(shell(sphere(1.0), 0.03), 0.014);
+  ASSERT_GT(fine.mesh.positions.size(), 40'000u);
+  FeatureMesh first;
+  for (const int threads : {1, 2, 7}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const FeatureMesh mesh = simplified(fine, 0.012);
+    expectTopology(mesh, 2, 4);
+    if (threads == 1) first = mesh;
+    EXPECT_TRUE(mesh.positions == first.positions && mesh.triangles == first.triangles) << threads;
+  }
+  EXPECT_LT(first.triangles.size(), 1500u);
 }
 
 // A rounding of a few tolerances has few facets, which are turned by up to 90 degrees from one another.

@@ -3,6 +3,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 
 namespace sdf {
@@ -108,7 +109,7 @@ void HalfEdgeMesh::collapse(Index h) {
     from_[t] = from_[t + 1] = from_[t + 2] = kNone;
   }
   out_[u] = kNone;
-  live_ -= 2;
+  std::atomic_ref(live_).fetch_sub(2, std::memory_order_relaxed);
 }
 
 bool HalfEdgeMesh::canFlip(Index h) const {

@@ -58,7 +58,7 @@ class HalfEdgeMesh {
   /// Whether from(h) can be merged into to(h): the link condition, and creases stay apart and keep their
   /// corners.
   bool canCollapse(Index h) const;
-  /// Precondition: canCollapse.
+  /// Precondition: canCollapse. What has no triangle in common may be collapsed at the same time.
   void collapse(Index h);
   /// Whether the edge can be replaced by the other diagonal.
   bool canFlip(Index h) const;

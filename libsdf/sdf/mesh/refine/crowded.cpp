@@ -124,35 +124,51 @@ std::vector<char> crowdedVertices(const SampledMesh& sampled, float cell) {
 
 }  // namespace
 
-struct CrowdedTriangles::Tree {
+struct CrowdedTriangles::Trees {
   using Entry = std::pair<BoxOf, Index>;
-  boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> entries;
-  std::vector<BoxOf> boxes;  // by triangle, of those in the tree
+  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
+  std::vector<Tree> byBlock;
+  std::vector<BoxOf> boxes;         // by triangle, of those in a tree
+  std::vector<std::uint8_t> block;  // by triangle, the same
 };
 
-CrowdedTriangles::CrowdedTriangles(const SampledMesh& sampled, float reach)
-    : mesh_(sampled.mesh), crowded_(mesh_.halfEdges() / 3, 0), tree_(std::make_unique<Tree>()) {
+CrowdedTriangles::CrowdedTriangles(const SampledMesh& sampled, const MeshBlocks& blocks, float reach)
+    : mesh_(sampled.mesh),
+      blocks_(blocks),
+      crowded_(mesh_.halfEdges() / 3, 0),
+      trees_(std::make_unique<Trees>()) {
   const std::vector<char> vertices = crowdedVertices(sampled, reach);
-  std::vector<Tree::Entry> entries;
-  tree_->boxes.resize(crowded_.size());
+  std::vector<std::vector<Trees::Entry>> entries(blocks.count() + 1);
+  trees_->boxes.resize(crowded_.size()), trees_->block.resize(crowded_.size());
   for (Index h = 0; h < mesh_.halfEdges(); h += 3) {
     if (!mesh_.alive(h) || !(vertices[mesh_.from(h)] || vertices[mesh_.to(h)] || vertices[mesh_.apex(h)]))
       continue;
+    any_ = true;
     crowded_[h / 3] = 1;
-    tree_->boxes[h / 3] = boxOf(mesh_.corners(h));
-    entries.emplace_back(tree_->boxes[h / 3], h / 3);
+    trees_->boxes[h / 3] = boxOf(mesh_.corners(h));
+    trees_->block[h / 3] = blockOf(h / 3);
+    entries[trees_->block[h / 3]].emplace_back(trees_->boxes[h / 3], h / 3);
   }
-  tree_->entries = decltype(tree_->entries)(entries);
+  for (const auto& own : entries) trees_->byBlock.emplace_back(own);
 }
 
 CrowdedTriangles::~CrowdedTriangles() = default;
 
+// That of all of its vertices, if they have one.
+std::uint8_t CrowdedTriangles::blockOf(Index triangle) const {
+  const Index h = 3 * triangle;
+  const std::uint8_t block = blocks_.of(mesh_.from(h));
+  return blocks_.of(mesh_.from(h + 1)) == block && blocks_.of(mesh_.from(h + 2)) == block ? block
+                                                                                          : MeshBlocks::kNone;
+}
+
 // `own` are the triangle's vertices, of which the first may be at another place than the mesh has it.
-bool CrowdedTriangles::crosses(const glm::uvec3& own, const Corners& at, std::span<const Index> but) const {
+bool CrowdedTriangles::crosses(const glm::uvec3& own, const Corners& at, std::span<const Index> but,
+                               std::uint8_t block) const {
   namespace index = boost::geometry::index;
   std::vector<glm::vec3> positions(6);
   std::ranges::copy(at, positions.begin());
-  const auto crosses = [&](const Tree::Entry& entry) {
+  const auto crosses = [&](const Trees::Entry& entry) {
     if (std::ranges::find(but, entry.second) != but.end()) return false;
     glm::uvec3 other;
     for (int k = 0; k < 3; ++k) {
@@ -163,38 +179,40 @@ bool CrowdedTriangles::crosses(const glm::uvec3& own, const Corners& at, std::sp
     return cross(positions, {0, 1, 2}, other);
   };
   const auto near = index::intersects(boxOf(at)) && index::satisfies(crosses);
-  return tree_->entries.qbegin(near) != tree_->entries.qend();
+  const auto isIn = [&](const Trees::Tree& tree) { return tree.qbegin(near) != tree.qend(); };
+  if (block == MeshBlocks::kNone) return std::ranges::any_of(trees_->byBlock, isIn);
+  return isIn(trees_->byBlock[block]) || isIn(trees_->byBlock[MeshBlocks::kNone]);
 }
 
 bool CrowdedTriangles::areCrowded(std::span<const Index> triangles) const {
   return std::ranges::any_of(triangles, [&](Index t) { return t < crowded_.size() && crowded_[t]; });
 }
 
-bool CrowdedTriangles::wouldCross(const Ring& ring, const glm::vec3& centre) const {
-  if (tree_->entries.empty()) return false;
+bool CrowdedTriangles::wouldCross(const Ring& ring, const glm::vec3& centre, std::uint8_t block) const {
+  if (!any_) return false;
   const std::vector<Index> replaced = ring.triangles();
   if (!areCrowded(replaced)) return false;
   for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
     const std::size_t k = (i + 1) % n;
     if (crosses({ring.centre(), ring.vertex(i), ring.vertex(k)}, {centre, ring.position(i), ring.position(k)},
-                replaced))
+                replaced, block))
       return true;
   }
   return false;
 }
 
-bool CrowdedTriangles::wouldCross(Index h) const {
+bool CrowdedTriangles::wouldCross(Index h, std::uint8_t block) const {
   const Index g = mesh_.twin(h), both[2] = {h / 3, g / 3};
   if (!areCrowded(both)) return false;
   const Index a = mesh_.from(h), b = mesh_.to(h), c = mesh_.apex(h), d = mesh_.apex(g);
   const auto crossesAs = [&](const glm::uvec3& t) {
-    return crosses(t, {mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]}, both);
+    return crosses(t, {mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]}, both, block);
   };
   return crossesAs({d, c, a}) || crossesAs({c, d, b});
 }
 
 void CrowdedTriangles::replaced(const Ring& ring) {
-  if (!tree_->entries.empty()) put(ring.triangles());
+  if (any_) put(ring.triangles());
 }
 
 void CrowdedTriangles::flipped(Index h) {
@@ -210,13 +228,16 @@ void CrowdedTriangles::put(std::span<const Index> triangles) {
 
 // As it is now, or not at all where it is gone.
 void CrowdedTriangles::put(Index triangle) {
-  if (triangle >= crowded_.size()) crowded_.resize(triangle + 1, 0), tree_->boxes.resize(triangle + 1);
-  BoxOf& box = tree_->boxes[triangle];
-  if (crowded_[triangle]) tree_->entries.remove({box, triangle});
+  Trees& trees = *trees_;
+  if (triangle >= crowded_.size())
+    crowded_.resize(triangle + 1, 0), trees.boxes.resize(triangle + 1), trees.block.resize(triangle + 1);
+  BoxOf& box = trees.boxes[triangle];
+  std::uint8_t& block = trees.block[triangle];
+  if (crowded_[triangle]) trees.byBlock[block].remove({box, triangle});
   crowded_[triangle] = mesh_.alive(3 * triangle);
   if (!crowded_[triangle]) return;
-  box = boxOf(mesh_.corners(3 * triangle));
-  tree_->entries.insert({box, triangle});
+  box = boxOf(mesh_.corners(3 * triangle)), block = blockOf(triangle);
+  trees.byBlock[block].insert({box, triangle});
 }
 
 }  // namespace sdf

@@ -26,7 +26,7 @@ float flatness(const Corners& t) {
 
 }  // namespace
 
-bool flipIfBetter(SampledMesh& sampled, CrowdedTriangles& crowded, Index h, float flat) {
+bool flipIfBetter(SampledMesh& sampled, CrowdedTriangles& crowded, Index h, float flat, std::uint8_t block) {
   const HalfEdgeMesh& mesh = sampled.mesh;
   const Index g = mesh.twin(h);
   const auto at = [&](Index v) { return mesh.positions[v]; };
@@ -67,7 +67,7 @@ bool flipIfBetter(SampledMesh& sampled, CrowdedTriangles& crowded, Index h, floa
   const float shape = std::min(flatness(after[0]), flatness(after[1])),
               shapeBefore = std::min(flatness(before[0]), flatness(before[1]));
   if (isFlat ? !(kLess * shape > shapeBefore) : !(is < kLess * was)) return false;
-  if (crowded.wouldCross(h)) return false;
+  if (crowded.wouldCross(h, block)) return false;
   sampled.onTriangle.clear(h / 3), sampled.onTriangle.clear(g / 3);
   sampled.flip(h);
   crowded.flipped(h);

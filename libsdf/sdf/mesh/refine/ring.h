@@ -1,6 +1,7 @@
 // The triangles around a vertex, as they are or as a change would make them, and how far they are from the
 // samples of the surface that they would have.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -91,7 +92,7 @@ class Ring {
   bool isWithin(float limit) const { return largest() <= limit && centreDistance() <= tolerance_; }
   /// From the centre to the surface, or to the crease that it is on.
   const glm::vec3& centreOff() const { return centreOff_; }
-  /// The sum of the distances' eighth powers, in limits.
+  /// The sum of the distances' 16th powers, in limits.
   float energy(float limit) const;
   /// Hands the samples over as they are placed. Of triangles with many some are dropped.
   void assign(float limit);

@@ -11,6 +11,8 @@ namespace {
 
 // Weights below this are none.
 constexpr float kNoWeight = 1e-3f;
+// What is nearer counts as so near, in limits: powers that are no normal floats take a hundred times as long.
+constexpr float kLeastSquare = 3e-5f;
 // Halvings of the largest distance in search of the least.
 constexpr int kBalancings = 5;
 
@@ -121,13 +123,14 @@ float Ring::largest() const {
 
 float Ring::energy(float limit) const {
   const float scale = 1.0f / (limit * limit);
-  const auto eighth = [&](float square) {
-    square *= scale, square *= square, square *= square;
+  const auto power = [&](float square) {
+    square = std::max(square * scale, kLeastSquare);
+    square *= square, square *= square;
     return square * square;
   };
-  float sum = eighth(glm::dot(centreOff_, centreOff_));
-  for (const Placed& p : placed_) sum += eighth(p.height * p.height) + eighth(p.tint * p.tint);
-  for (const PlacedOnCrease& p : placedOnCreases_) sum += eighth(glm::dot(p.off, p.off));
+  float sum = power(glm::dot(centreOff_, centreOff_));
+  for (const Placed& p : placed_) sum += power(p.height * p.height) + power(p.tint * p.tint);
+  for (const PlacedOnCrease& p : placedOnCreases_) sum += power(glm::dot(p.off, p.off));
   return sum;
 }
 

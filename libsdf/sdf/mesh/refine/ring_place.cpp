@@ -106,17 +106,17 @@ bool Ring::placeTriangle(Index triangle, Index guess, const Sector& s) {
     const glm::vec3& normal = sampled_.samples[w].normal;
     if (!isNone(normal) && glm::dot(normal, normals_[at]) < kFacing) return false;
     guess = at;
-    Placed placed{w,
-                  s.first + at,
-                  (1.0f - alpha - beta) * s.along * cosines_[at],
-                  (z - alpha * rim_[at].z - beta * rim_[at + 1].z) * cosines_[at],
-                  {1.0f - alpha - beta, alpha, beta}};
+    const float own = 1.0f - alpha - beta;
+    float height = (z - alpha * rim_[at].z - beta * rim_[at + 1].z) * cosines_[at];
     if (inside < 0.0f) {  // beside the rim
       const double square = nearestOf({x, y, z}, glm::dvec3(0.0), rim_[at], rim_[at + 1]).squared;
-      placed.height = std::copysign(static_cast<float>(std::sqrt(square)), placed.height);
+      height = std::copysign(static_cast<float>(std::sqrt(square)), height);
     }
-    placed_.push_back(placed);
-    ++counts_[placed.spoke];
+    Placed& placed = placed_.emplace_back();
+    placed.sample = w, placed.spoke = s.first + at;
+    placed.weight = own * s.along * cosines_[at], placed.height = height;
+    placed.weights = {own, alpha, beta};
+    ++counts_[s.first + at];
   }
   return true;
 }

@@ -1,10 +1,13 @@
 #include "sdf/mesh/refine/simplify.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/mesh/refine/blocks.h"
 #include "sdf/mesh/refine/crowded.h"
 #include "sdf/mesh/refine/flip.h"
 #include "sdf/mesh/refine/missed.h"
@@ -43,6 +46,12 @@ float voxelAt(const LocalField& field, const glm::vec3& p) {
   return static_cast<float>(field.finder()->at(p).voxel);
 }
 
+// What a thread changes a mesh with. Where it has a block it changes that alone.
+struct Work {
+  Ring& ring;
+  std::uint8_t block = MeshBlocks::kNone;
+};
+
 class Simplifier {
  public:
   Simplifier(const FeatureMesh& mesh, const LocalField& field, double tolerance,
@@ -53,13 +62,16 @@ class Simplifier {
         tolerance_(static_cast<float>(tolerance)),
         missed_(sampled_, field, surface, tolerance_, progress),
         ring_(sampled_, tolerance_),
-        crowded_(sampled_, kBesides * (tolerance_ + voxelAt(field, mesh.positions[0]))),
+        reach_(kBesides * (tolerance_ + voxelAt(field, mesh.positions[0]))),
+        blocks_(mesh_, reach_),
+        crowded_(sampled_, blocks_, reach_),
         limit_(tolerance_),
         progress_(progress),
         taken_(mesh.positions.size(), 0),
         changed_(mesh.positions.size(), 1),
         settled_(mesh.positions.size(), 0),
         near_(mesh.positions.size(), 0),
+        left_(mesh.positions.size(), 0),
         failed_(mesh_.halfEdges(), 0),
         unflipped_(mesh_.halfEdges(), 0) {}
 
@@ -115,7 +127,7 @@ class Simplifier {
  private:
   // Splits what is too far, here or seen by the field. Returns how often.
   std::size_t keep() {
-    ring_.mayBend(true);
+    ring_.mayBend(true), keeps_ = true;
     std::size_t all = splitExceeding();
     for (int i = 0; i < kLooks && !progress_.stopped(); ++i) {
       const std::vector<Index> missed = missed_.add();
@@ -125,18 +137,18 @@ class Simplifier {
       if (made == 0) break;
       all += made;
     }
-    ring_.mayBend(false);
+    ring_.mayBend(false), keeps_ = false;
     return all;
   }
 
   // What is too far off from the start is not split.
   void leaveExceeding() {
-    left_.assign(mesh_.vertices(), 0);
+    asItWas_.assign(mesh_.vertices(), 0);
     for (Index h = 0; h < mesh_.halfEdges(); h += 3)
       if (sampled_.farthestOf(h / 3).distance > tolerance_)
-        for (Index k = 0; k < 3; ++k) left_[mesh_.from(h + k)] = 1;
+        for (Index k = 0; k < 3; ++k) asItWas_[mesh_.from(h + k)] = 1;
   }
-  bool isLeft(Index v) const { return v < left_.size() && left_[v]; }
+  bool isAsItWas(Index v) const { return v < asItWas_.size() && asItWas_[v]; }
 
   void paint() {
     sampled_.paint(field_, tolerance_, progress_);
@@ -145,11 +157,48 @@ class Simplifier {
 
   // Colours are those that fit the samples around best.
   void fitTints() {
-    for (Index v = 0; sampled_.tints.any() && v < mesh_.vertices() && !progress_.stopped(); ++v) {
-      if (!mesh_.vertexAlive(v)) continue;
-      ring_.setAround(v);
-      if (ring_.cut(mesh_.positions[v]) && ring_.place(mesh_.positions[v])) ring_.assign(limit_);
-    }
+    if (!sampled_.tints.any()) return;
+    const auto fit = [&](Index v, const Work& work) {
+      if (!isOf(v, work)) return;
+      work.ring.setAround(v);
+      const glm::vec3& at = mesh_.positions[v];
+      if (work.ring.cut(at) && work.ring.place(at)) work.ring.assign(limit_);
+    };
+    inBlocks(blocks_.vertices(), fit);
+    for (Index v = 0; v < mesh_.vertices() && !progress_.stopped(); ++v)
+      if (mesh_.vertexAlive(v)) fit(v, whole_);
+  }
+
+  // Blocks are changed beside one another as long as that decides little, and where colours are held, as that
+  // takes the longest. The last collapses of shapes are made all over the mesh: of 31 tolerances at roundings
+  // of about their size three were missed where blocks meet, and none or one otherwise.
+  bool inParallel() const { return limit_ < tolerance_ || (sampled_.tints.any() && !keeps_); }
+
+  // Is it the work's to change what lies around the vertex? What is inside of a block is not the whole's, but
+  // for what would have left it.
+  bool isOf(Index v, const Work& work) const {
+    if (work.block != MeshBlocks::kNone) return blocks_.isInside(v, work.block);
+    return !inParallel() || left_[v] == pass_ || !blocks_.isInside(v);
+  }
+
+  // Calls change(item, work) for the items of each block, blocks beside one another.
+  template <class Change>
+  void inBlocks(const std::vector<std::vector<Index>>& items, const Change& change) {
+    if (!inParallel()) return;
+    tbb::parallel_for(std::size_t{1}, items.size(), [&](std::size_t block) {
+      Ring ring = ring_;
+      const Work work{ring, static_cast<std::uint8_t>(block)};
+      for (const Index item : items[block])
+        if (!progress_.stopped()) change(item, work);
+    });
+  }
+  // The same for the sides of each block's triangles.
+  template <class Change>
+  void inSides(const Change& change) {
+    inBlocks(blocks_.triangles(), [&](Index h, const Work& work) {
+      for (Index k = 0; k < 3; ++k)
+        if (mesh_.alive(h + k)) change(h + k, work);
+    });
   }
 
   void improve() {
@@ -172,48 +221,63 @@ class Simplifier {
     for (;;) {
       const std::size_t before = mesh_.liveTriangles();
       ++pass_;
+      inSides([&](Index h, const Work& work) { tryCollapse(h, work); });
       for (Index h = 0; h < mesh_.halfEdges() && !progress_.stopped(); ++h)
-        if (mesh_.alive(h)) tryCollapse(h);
+        if (mesh_.alive(h)) tryCollapse(h, whole_);
       if ((before - mesh_.liveTriangles()) * kWorthIt <= before) return;
     }
   }
 
   // A vertex that something was collapsed into, or near to, waits for the next pass: rings stay small.
-  void tryCollapse(Index h) {
+  void tryCollapse(Index h, const Work& work) {
+    Ring& ring = work.ring;
     const Index u = mesh_.from(h), v = mesh_.to(h);
     if (taken_[u] == pass_ || taken_[v] == pass_) return;
     const bool alike = mesh_.creasesAt(u) == mesh_.creasesAt(v), isSmooth = sampled_.isSmooth(v);
     if (alike && u > v) return;  // to their middle, either way
     if (failed_[h] >= std::max(changed_[u], changed_[v])) return;
+    if (work.block != MeshBlocks::kNone ? !isOf(u, work) || !isOf(v, work) : !isOf(u, work) && !isOf(v, work))
+      return;
     if (isFar(u, v) || !mesh_.canCollapse(h)) return;
-    failed_[h] = pass_;
-    ring_.setCollapsed(h);
+    ring.setCollapsed(h);
     glm::vec3 at = mesh_.positions[v];
     if (alike) at = 0.5f * (mesh_.positions[u] + at);
-    if (ring_.size() < 3 || !ring_.cut(at)) return;
+    failed_[h] = pass_;
+    if (ring.size() < 3 || !ring.cut(at)) return;
     bool placed = false;
-    if (alike && isSmooth && limit_ >= tolerance_ && ring_.place(at)) {
+    if (alike && isSmooth && limit_ >= tolerance_ && ring.place(at)) {
       const glm::vec3 better =
-          at + ring_.optimalMove(glm::normalize(sampled_.normals[u] + sampled_.normals[v]));
-      placed = ring_.place(better, limit_);
+          at + ring.optimalMove(glm::normalize(sampled_.normals[u] + sampled_.normals[v]));
+      placed = ring.place(better, limit_);
       if (placed) at = better;
     }
-    if (!placed && !ring_.place(at, limit_)) return;
-    if (!moveToMiddle(at) || crowded_.wouldCross(ring_, at)) return;
-    ring_.assign(limit_);
+    if (!placed && !ring.place(at, limit_)) return;
+    if (!moveToMiddle(at, ring)) return;
+    if (leaves(at, work)) {
+      failed_[h] = 0;
+      return;
+    }
+    if (crowded_.wouldCross(ring, at, work.block)) return;
+    ring.assign(limit_);
     sampled_.collapse(h, at);
-    crowded_.replaced(ring_);
-    touch(v);
+    replaced(work);
     taken_[v] = pass_;
-    for (std::size_t i = 0; i < ring_.size(); ++i) taken_[ring_.vertex(i)] = pass_;
+    for (std::size_t i = 0; i < ring.size(); ++i) taken_[ring.vertex(i)] = pass_;
   }
 
   // To the middle of where all samples are within the limit.
-  bool moveToMiddle(glm::vec3& at) {
-    const Range range = ring_.feasible(limit_);
+  bool moveToMiddle(glm::vec3& at, Ring& ring) const {
+    const Range range = ring.feasible(limit_);
     if (range.empty()) return false;
-    at += range.middle() * ring_.way();
-    return ring_.place(at) && ring_.isWithin(limit_);
+    at += range.middle() * ring.way();
+    return ring.place(at) && ring.isWithin(limit_);
+  }
+
+  // Would the ring's centre leave the block, while others are changed?
+  bool leaves(const glm::vec3& at, const Work& work) {
+    if (work.block == MeshBlocks::kNone || blocks_.contains(work.block, at)) return false;
+    left_[work.ring.centre()] = pass_;
+    return true;
   }
 
   // The middle of an edge is off by |dn . e| / 8, and those of what a collapse makes of it by twice that and
@@ -231,56 +295,67 @@ class Simplifier {
   }
 
   // What the ring shows was changed.
-  void touch(Index v) {
-    changed_[v] = pass_ + 1;
-    for (std::size_t i = 0; i < ring_.size(); ++i) changed_[ring_.vertex(i)] = pass_ + 1;
+  void replaced(const Work& work) {
+    const Ring& ring = work.ring;
+    if (work.block == MeshBlocks::kNone) blocks_.moved(ring.centre());
+    crowded_.replaced(ring);
+    changed_[ring.centre()] = pass_ + 1;
+    for (std::size_t i = 0; i < ring.size(); ++i) changed_[ring.vertex(i)] = pass_ + 1;
   }
 
   void moveAll() {
     ++pass_;
-    for (Index v = 0; v < mesh_.vertices() && !progress_.stopped(); ++v) {
-      if (!isMovable(v) || settled_[v] >= changed_[v]) continue;
+    const auto settle = [&](Index v, const Work& work) {
+      if (settled_[v] >= changed_[v] || !isOf(v, work)) return;
       settled_[v] = pass_;
-      move(v);
-    }
+      move(v, work);
+    };
+    inBlocks(blocks_.vertices(), [&](Index v, const Work& work) {
+      if (isMovable(v)) settle(v, work);
+    });
+    for (Index v = 0; v < mesh_.vertices() && !progress_.stopped(); ++v)
+      if (isMovable(v)) settle(v, whole_);
   }
   bool isMovable(Index v) const {
     return mesh_.vertexAlive(v) && (mesh_.creasesAt(v) == 0 || mesh_.creasesAt(v) == 2);
   }
 
   // Towards the best place as long as that helps.
-  void move(Index v) {
+  void move(Index v, const Work& work) {
+    Ring& ring = work.ring;
     const glm::vec3 before = mesh_.positions[v];
-    ring_.setAround(v);
-    if (!ring_.cut(before) || !ring_.place(before)) return;
-    const glm::vec3 move = ring_.isSmooth()       ? ring_.optimalMove(sampled_.normals[v])
-                           : ring_.creases() == 2 ? ring_.moveAlongCrease()
-                                                  : glm::vec3(0.0f);
+    ring.setAround(v);
+    if (!ring.cut(before) || !ring.place(before)) return;
+    const glm::vec3 move = ring.isSmooth()       ? ring.optimalMove(sampled_.normals[v])
+                           : ring.creases() == 2 ? ring.moveAlongCrease()
+                                                 : glm::vec3(0.0f);
     // Where the ring is so bent that samples are seen over other triangles than their own it is left.
-    const float was = ring_.largest() > limit_ ? std::max(limit_, largestAround(v)) : limit_,
-                off = std::max(tolerance_, ring_.centreDistance());
-    if (ring_.largest() > was) return;
-    const float energy = ring_.energy(limit_);
+    const float was = ring.largest() > limit_ ? std::max(limit_, largestAround(v)) : limit_,
+                off = std::max(tolerance_, ring.centreDistance());
+    if (ring.largest() > was) return;
+    const float energy = ring.energy(limit_);
     glm::vec3 best = before;
     for (const float share : {1.0f, 0.4f, 0.0f}) {
       glm::vec3 at = before + share * move;
-      if (!ring_.place(at)) continue;
-      at += ring_.balanced() * ring_.way();
-      if (!ring_.place(at) || !(ring_.energy(limit_) < energy)) continue;
+      if (!ring.place(at)) continue;
+      at += ring.balanced() * ring.way();
+      if (!ring.place(at) || !(ring.energy(limit_) < energy)) continue;
       best = at;
       break;
     }
-    if (best == before || ring_.largest() > was || ring_.centreDistance() > off) return;
-    moveTo(best);
+    if (best == before || ring.largest() > was || ring.centreDistance() > off) return;
+    if (leaves(best, work))
+      settled_[v] = 0;
+    else
+      moveTo(best, work);
   }
 
   // As it was placed; not where it would cross something.
-  bool moveTo(const glm::vec3& at) {
-    if (crowded_.wouldCross(ring_, at)) return false;
-    ring_.assign(limit_);
-    mesh_.positions[ring_.centre()] = at;
-    crowded_.replaced(ring_);
-    touch(ring_.centre());
+  bool moveTo(const glm::vec3& at, const Work& work) {
+    if (crowded_.wouldCross(work.ring, at, work.block)) return false;
+    work.ring.assign(limit_);
+    mesh_.positions[work.ring.centre()] = at;
+    replaced(work);
     return true;
   }
 
@@ -297,16 +372,25 @@ class Simplifier {
 
   void flipAll() {
     ++pass_;
-    for (Index h = 0; h < mesh_.halfEdges() && !progress_.stopped(); ++h) {
-      if (!mesh_.alive(h) || h > mesh_.twin(h)) continue;
-      const Index changed = std::max({changed_[mesh_.from(h)], changed_[mesh_.to(h)], changed_[mesh_.apex(h)],
-                                      changed_[mesh_.apex(mesh_.twin(h))]});
-      if (unflipped_[h] >= changed || !mesh_.canFlip(h)) continue;
-      unflipped_[h] = pass_;
-      if (!flipIfBetter(sampled_, crowded_, h, kFlat * tolerance_)) continue;
-      for (const Index v : {mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(mesh_.twin(h))})
-        changed_[v] = pass_ + 1;
-    }
+    inSides([&](Index h, const Work& work) { tryFlip(h, work); });
+    for (Index h = 0; h < mesh_.halfEdges() && !progress_.stopped(); ++h)
+      if (mesh_.alive(h)) tryFlip(h, whole_);
+  }
+
+  void tryFlip(Index h, const Work& work) {
+    if (h > mesh_.twin(h)) return;
+    const auto corners = [&] {
+      return std::array{mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(mesh_.twin(h))};
+    };
+    const std::array<Index, 4> around = corners();
+    const std::uint8_t block = blocks_.of(around[0]);
+    const bool isOne = std::ranges::all_of(around, [&](Index v) { return blocks_.of(v) == block; });
+    if ((isOne && inParallel() ? block : MeshBlocks::kNone) != work.block) return;
+    const Index changed = std::ranges::max(around, {}, [&](Index v) { return changed_[v]; });
+    if (unflipped_[h] >= changed_[changed] || !mesh_.canFlip(h)) return;
+    unflipped_[h] = pass_;
+    if (!flipIfBetter(sampled_, crowded_, h, kFlat * tolerance_, work.block)) return;
+    for (const Index v : corners()) changed_[v] = pass_ + 1;
   }
 
   // Returns how often something was split or moved for it.
@@ -315,7 +399,7 @@ class Simplifier {
     for (int i = 0; i < kSplitRounds && !progress_.stopped(); ++i) {
       std::size_t made = 0;
       for (Index v = 0; v < mesh_.vertices(); ++v) {
-        if (!isMovable(v) || isLeft(v) || near_[v] >= changed_[v]) continue;
+        if (!isMovable(v) || isAsItWas(v) || near_[v] >= changed_[v]) continue;
         near_[v] = pass_;
         if (moveNear(v) && i == 0) ++made;
       }
@@ -338,12 +422,13 @@ class Simplifier {
     if (!ring_.cut(at) || !ring_.place(at) || ring_.centreDistance() <= tolerance_) return false;
     const float too = ring_.centreDistance() - tolerance_, was = std::max(limit_, largestAround(v));
     at += too / ring_.centreDistance() * ring_.centreOff();
-    return ring_.place(at) && ring_.largest() <= was + too && moveTo(at);
+    return ring_.place(at) && ring_.largest() <= was + too && moveTo(at, whole_);
   }
 
   // Splits the side of the triangle that is next to its farthest sample, there.
   bool splitIfExceeding(Index h) {
-    if (isLeft(mesh_.from(h)) || isLeft(mesh_.from(h + 1)) || isLeft(mesh_.from(h + 2))) return false;
+    if (isAsItWas(mesh_.from(h)) || isAsItWas(mesh_.from(h + 1)) || isAsItWas(mesh_.from(h + 2)))
+      return false;
     const SampledMesh::Farthest farthest = sampled_.farthestOf(h / 3);
     if (!(farthest.distance > tolerance_)) return false;
     const glm::vec3 p = sampled_.samples[farthest.sample].at;
@@ -378,7 +463,7 @@ class Simplifier {
 
   // Splits an edge on a crease at its farthest sample.
   bool splitCreaseIfExceeding(Index h) {
-    if (isLeft(mesh_.from(h)) || isLeft(mesh_.to(h))) return false;
+    if (isAsItWas(mesh_.from(h)) || isAsItWas(mesh_.to(h))) return false;
     const glm::vec3 a = mesh_.positions[mesh_.from(h)], way = mesh_.positions[mesh_.to(h)] - a;
     float most = tolerance_;
     glm::vec3 worst;
@@ -401,13 +486,13 @@ class Simplifier {
     if (!ring_.cut(p) || !ring_.place(p)) return false;
     const glm::vec3 at = p + ring_.balanced() * ring_.way();
     if (!ring_.place(at) || !ring_.isWithin(kRounded * was) || crowded_.wouldCross(ring_, at)) return false;
-    const Index v = sampled_.split(h, at);
+    sampled_.split(h, at);
     taken_.resize(mesh_.vertices(), 0), changed_.resize(mesh_.vertices(), pass_ + 1);
     settled_.resize(mesh_.vertices(), 0), near_.resize(mesh_.vertices(), 0);
+    left_.resize(mesh_.vertices(), 0);
     failed_.resize(mesh_.halfEdges(), 0), unflipped_.resize(mesh_.halfEdges(), 0);
     ring_.assign(limit_);
-    crowded_.replaced(ring_);
-    touch(v);
+    replaced(whole_);
     return true;
   }
 
@@ -417,8 +502,12 @@ class Simplifier {
   float tolerance_;
   MissedSamples missed_;
   Ring ring_;
+  const Work whole_{ring_};
+  float reach_;  // within which sheets of the mesh may come to cross
+  MeshBlocks blocks_;
   CrowdedTriangles crowded_;
   float limit_;
+  bool keeps_ = false;  // is what is too far being split?
   Progress& progress_;
   // A pass over the mesh has a number; 0 stands for none.
   Index pass_ = 0;
@@ -426,7 +515,8 @@ class Simplifier {
   std::vector<Index> changed_;    // by vertex: the pass before which something around it was last changed
   std::vector<Index> settled_;    // by vertex: the last pass in which it was to be moved
   std::vector<Index> near_;       // by vertex: the last pass in which its distance was looked at
-  std::vector<char> left_;        // by vertex, of the first ones: is it of what is not split?
+  std::vector<Index> left_;       // by vertex: the last pass in which it would have left its block
+  std::vector<char> asItWas_;     // by vertex, of the first ones: is it of what is not split?
   std::vector<Index> failed_;     // by half-edge: the last pass in which its collapse failed
   std::vector<Index> unflipped_;  // by half-edge: the last pass in which it was to be flipped
 };

@@ -64,12 +64,4 @@ void Tints::addSample(const Paint* paint) {
   perceived_.push_back(t);
 }
 
-float Tints::distance(std::uint32_t sample, const Tint& linear) const {
-  if (!isKnown(sample)) return 0.0f;
-  float most = 0.0f;
-  for (std::size_t k = 0; k < channels_; ++k)
-    most = std::max(most, std::abs(perceived(std::max(linear[k], 0.0f)) - perceived_[sample][k]));
-  return unit_ * most;
-}
-
 }  // namespace sdf

@@ -1,5 +1,6 @@
 // The colours of a mesh that is being simplified, which are held to those of the surface.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -55,6 +56,15 @@ class Tints {
   float unit_ = 1.0f;
   std::vector<Tint> perceived_;  // by sample; not a number where it is not known
 };
+
+inline float Tints::distance(std::uint32_t sample, const Tint& linear) const {
+  const Tint& own = perceived_[sample];
+  if (std::isnan(own[0])) return 0.0f;
+  float most = 0.0f;
+  for (std::size_t k = 0; k < channels_; ++k)
+    most = std::max(most, std::abs(perceived(std::max(linear[k], 0.0f)) - own[k]));
+  return unit_ * most;
+}
 
 /// What corners with these weights show.
 inline Tint mixed(const Tint& a, const Tint& b, const Tint& c, const glm::vec3& weights) {
