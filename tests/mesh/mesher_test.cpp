@@ -471,18 +471,9 @@ TEST(MeshShape, HasUnitNormalsHoweverSlightOrSteepTheFieldIs) {
 // Roundings of a few tolerances, on a lattice of so many triangles that blocks of them are changed at once.
 TEST(MeshShape, KeepsAToleranceAtSmallRoundings) {
   const Shape frame = round(subtract(box({1.96, 0.16, 1.96}), box({1.5, 1.0, 1.5})), 0.04);
-  Progress progress;
-  for (const double tolerance : {3e-3, 3.4e-3, 4e-3}) {
-    MeshOptions options;
-    options.tolerance = tolerance, options.voxelSize = 0.022;
-    for (const bool strict : {true, false}) {
-      options.strict = strict;
-      const auto made = meshShape(frame, "frame", options, progress);
-      ASSERT_TRUE(made) << made.error().message;
-      EXPECT_LE(made->stats.maxDistance, tolerance) << strict;
-      EXPECT_LT(made->mesh.triangles.size(), 450u) << tolerance;
-    }
-  }
+  const MeshedShape m = meshed(frame, {.voxelSize = 0.022, .tolerance = 3.4e-3});
+  EXPECT_LE(m.stats.maxDistance, 3.4e-3);
+  EXPECT_LT(m.mesh.triangles.size(), 450u);
 }
 
 TEST(MeshShape, KeepsAToleranceWithFewTriangles) {

@@ -136,10 +136,10 @@ TEST(Simplify, NothingCrossesWhereSheetsAreClose) {
 
 // Two sheets, closer than both may be off, of so many triangles that blocks of them are changed at once.
 TEST(Simplify, DoesNotDependOnThreadsAndCrossesNothingWhereBlocksAreChangedAtOnce) {
-  const Fine fine(shell(sphere(1.0), 0.03), 0.014);
-  ASSERT_GT(fine.mesh.positions.size(), 40'000u);
+  const Fine fine(shell(sphere(1.0), 0.03), 0.03);
+  ASSERT_GT(fine.mesh.positions.size(), 25'000u);
   FeatureMesh first;
-  for (const int threads : {1, 2, 7}) {
+  for (const int threads : {1, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const FeatureMesh mesh = simplified(fine, 0.012);
     expectTopology(mesh, 2, 4);
