@@ -103,8 +103,8 @@ constexpr double kHeldTo = 0.999;
 // Where that misses the tolerance by little, at bends as sharp as it, all samples are held to these shares of
 // it, the second where it was asked for, and some more triangles are left.
 constexpr double kStricter[] = {0.8, 0.6};
-// Where no tolerance was asked for, a lattice of more triangles is held to the first of these alone: a second
-// is what the other takes.
+// Where no tolerance was asked for, a lattice of up to so many triangles is held to both however far off a
+// place is, at a second each; a larger one to the first alone.
 constexpr std::size_t kMostToHold = 100'000;
 // The same of thinning, which does not climb to what lies between its witnesses, by up to 1.7 % in samples,
 // where it is not done again for that.
@@ -335,10 +335,11 @@ class Mesher {
     const FeatureMesh mesh = fine->mesh;
     const Simplified simplified = simplifyFinest(*fine, blurred, finer, bounds, witnesses);
     // What is missed by little is kept if all is held to somewhat less.
-    const std::size_t shares =
-        options_.strict || mesh.triangles.size() <= kMostToHold ? std::size(kStricter) : 1;
+    const bool isSmall = mesh.triangles.size() <= kMostToHold;
+    const std::size_t shares = options_.strict || isSmall ? std::size(kStricter) : 1;
     for (const double share : std::span(kStricter).first(shares)) {
-      if (!(missed_ * share <= 1.0) || progress_.stopped()) continue;
+      const bool isWorthIt = missed_ * share <= 1.0 || (isSmall && !options_.strict && missed_ < kInfinity);
+      if (!isWorthIt || progress_.stopped()) continue;
       FeatureMesh best = std::exchange(fine->mesh, mesh);
       if (simplifyCoarse(share, fine, coarsest, blurred, model, bounds, witnesses)) return Simplified::Taken;
       if (simplifyTo(fine->mesh, share, fine->field, fine->field, bounds, witnesses) &&
