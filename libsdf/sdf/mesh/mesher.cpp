@@ -101,7 +101,7 @@ constexpr double kCoarsest = 16.0, kFollowed = 2.0;
 // Simplifying holds samples to this share of the tolerance, for the rounding of what is measured.
 constexpr double kHeldTo = 0.999;
 // Where that misses the tolerance by little, at bends as sharp as it, all samples are held to these shares of
-// it, the second where it was asked for, and some more triangles are left.
+// it, and some more triangles are left.
 constexpr double kStricter[] = {0.8, 0.6};
 // Where no tolerance was asked for, a lattice of up to so many triangles is held to both however far off a
 // place is, at a second each; a larger one to the first alone.
