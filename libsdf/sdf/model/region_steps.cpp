@@ -122,7 +122,7 @@ class Cubes {
 
  private:
   // Tried: with 160 cubes along and ten times the operations a gyroid is read a third as often, but the start
-  // takes seconds. Beyond kMostFree sides a step is as good as from one end of the box to the other.
+  // takes seconds. kMostFree bounds what the search for free cubes costs, and is chosen.
   static constexpr int kFirst = 16, kMostAlong = 128, kMostFree = 16;
   static constexpr std::size_t kMostOperations = 4'000'000, kMostCubes = 50'000;
 
