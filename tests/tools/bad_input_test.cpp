@@ -235,7 +235,8 @@ TEST_F(BadInput, MeshesThatContradictWhatIsStatedOfAFieldAreNotWritten) {
       part("", "bounds = {{-1, -1, -1}, {1, 1, 0.9}}"),
       {"part 'ball': the surface leaves the bounds (-1, -1, -1) to (1, 1, 0.9)", "at (", "enlarge"});
   expectBadScene(part(" * 2", "bounds = {{-1, -1, -1}, {1, 1, 1}}, lipschitz = 1"),
-                 {"part 'ball': the mesh is torn open at (", "Enlarge the lipschitz", "leave them out"});
+                 {"part 'ball': the mesh is torn open at (", "the distance changes by 1.98",
+                  "allows 1. Enlarge the lipschitz"});
   expectBadScene(part(" * (1 + 20 * exp(-200 * ((x - 0.6) ^ 2 + (y - 0.6) ^ 2 + (z - 0.53) ^ 2)))",
                       "bounds = {{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}}, lipschitz = 1"),
                  {"part 'ball': the mesh is off by about 0.074", "voxels, at (0.6", "Enlarge the lipschitz"},

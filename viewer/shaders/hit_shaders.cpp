@@ -154,6 +154,7 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
       {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "1e30")},
       {"DISTANCE_UP_TO(p, enough)", obstacles.shared ? "sdfBoth(p, enough).y" : "sdfDistance(p, vec3(0.0))"},
       {"IS_FREE", hasOwnStep(obstacles.whole) ? "false" : "f >= (1.0 - 1e-5) * h"},
+      {"LOOSE", hasOwnStep(obstacles.whole) ? "true" : "false"},
       {"OVER_SURFACE", hasOwnStep(obstacles.whole) ? "min(f, h)" : "f"},
       {"PLANES", std::to_string(2 * obstacles.planes.size())},
       {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},

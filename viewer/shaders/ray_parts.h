@@ -122,10 +122,12 @@ float ballsFrom(vec3 origin, vec3 direction, float nearest) {
 /// a cut ends in a face. sdf/march/march.h states it in full. A hit is as near as the slopes on both sides
 /// place it, and a hair nearer, since on the surface some distances have no gradient. With MOST_CLOSE
 /// readings near the surface, of which rising ones count for an eighth, a ray hits, for it goes along a face
-/// or an edge.
+/// or an edge. Where distances are read LOOSE, as less than they are, a ray that nears a surface slowly or
+/// leaves it may have a long way to go there: it goes a pixel at a time, and all readings but level ones
+/// count for an eighth.
 inline constexpr const char* kMarch = R"(
 const int MOST_CLOSE = 64;
-const int FREE = 0, BEHIND = 1, ONTO = 2;  // where the next reading is, of the surface
+const int FREE = 0, BEHIND = 1, ONTO = 2, ALONG = 3;  // where the next reading is, of the surface
 
 float march(Ray ray, out int status, out int readings) {
   float r = 0.0, z = 0.0, slope = -1.0, fall = 1.0, near = 0.0, t = ray.start, solved = SOLVED;
@@ -142,13 +144,14 @@ float march(Ray ray, out int status, out int readings) {
     vec2 both = rest(ray.origin + (t + z) * ray.direction, 0.0);
     float next = both.x;
     ++readings;
-    bool inside = step == BEHIND && next <= 0.0;
+    bool inside = (step == BEHIND || step == ALONG) && next <= 0.0;
     if (inside && z <= 8.0 * near) {
       status = HIT;
       return min(t + max(0.0, 4095.0 / 4096.0 * min(0.8 * z, z * r / (r - next))), tMax);
     }
     // The balls do not overlap: something may lie between.
-    if (inside || z > r && z > r + next && !(step == BEHIND && r <= epsilon) && !(step == ONTO && next < r)) {
+    bool passes = step == ALONG || step == BEHIND && r <= epsilon || step == ONTO && next < r;
+    if (inside || z > r && z > r + next && !passes) {
       step = step == BEHIND ? ONTO : FREE;
       z = step == ONTO ? r / fall : r;
       slope = -1.0;
@@ -160,7 +163,8 @@ float march(Ray ray, out int status, out int readings) {
     r = next;
     float far = max(r, both.y);
     near = hitDistance(ray, t);
-    if (r < (rise < 0.0 ? -near : 0.0) || far <= near && (close += rise <= 0.0 ? 8 : 1) > 8 * MOST_CLOSE) {
+    if (far <= near) close += (LOOSE ? rise == 0.0 : rise <= 0.0) ? 8 : 1;
+    if (r < (rise < 0.0 ? -near : 0.0) || close > 8 * MOST_CLOSE) {
       status = HIT;
       return t;
     }
@@ -168,9 +172,10 @@ float march(Ray ray, out int status, out int readings) {
       status = ends ? HIT : MISS;
       return tMax;
     }
-    step = far <= 2.0 * near && rise < 0.0 ? BEHIND : FREE;
-    fall = max(-rise, 0.0625);
-    z = step == BEHIND ? 1.25 * max(r, epsilon) / fall : STEP;
+    float pixel = 8.0 * near, behind = 1.25 * max(r, epsilon);
+    step = far <= 2.0 * near && rise < 0.0 ? BEHIND : LOOSE && far <= near ? ALONG : FREE;
+    fall = max(-rise, LOOSE ? min(0.0625, behind / pixel) : 0.0625);
+    z = step == BEHIND ? behind / fall : step == ALONG ? pixel : STEP;
   }
   return t;
 }

@@ -21,6 +21,7 @@
 #include "sdf/mesh/edit/uncross.h"
 #include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/measure/last_measured.h"
+#include "sdf/mesh/measure/steepest.h"
 #include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/measure/witnesses.h"
@@ -76,6 +77,8 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
   return intersect(shape, translate(box(Vec3E(by.size() * 0.5)), Vec3E(by.centre())));
 }
 
+// Times a slope that is stated: what is steeper refutes it, whatever is rounded.
+constexpr double kRefuted = 1.001;
 // Of the longest side of the bounds: below it positions, which are floats, cannot keep a tolerance.
 constexpr double kLeastTolerance = 0x1p-20;
 // Of a coordinate: what lies between it and the next float at most. A voxel has to have some of them.
@@ -205,7 +208,7 @@ class Mesher {
         if (simplified == Simplified::NeedsFiner) continue;
         Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
         begin("remeshing");
-        if (Status s = checkLattice(mesh, *bounds, h, lattice.field); !s) return s.error();
+        if (Status s = checkLattice(mesh, *bounds, h, lattice.field, model); !s) return s.error();
         if (finer && witnesses.lacking() > limit) continue;
         const bool broken = result_.stats.maxDistance > limit &&
                             !placesBeyond(limit, mesh, lattice.field, h, progress_).empty();
@@ -515,11 +518,12 @@ class Mesher {
   }
 
   // Of what is not closed remeshing could make nothing.
-  Status checkLattice(const FeatureMesh& mesh, const Box& bounds, double voxel, const BandField& field) {
+  Status checkLattice(const FeatureMesh& mesh, const Box& bounds, double voxel, const BandField& field,
+                      const ModelTapes& model) {
     const std::vector<float>& distances = measured_.fromMesh(mesh, field, progress_, result_.stats);
     measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    return checkClaims(mesh, bounds, voxel, distances);
+    return checkClaims(mesh, bounds, voxel, distances, model);
   }
 
   // Would voxels as small as these see what the present ones do not? Solids that touch are thinner than any.
@@ -540,7 +544,7 @@ class Mesher {
     measureTopology(features.triangles, features.positions.size(), result_.stats);
     measureCrossings(features.positions, features.triangles, result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    if (Status s = checkClaims(features, bounds, voxel, distances); !s) return s.error();
+    if (Status s = checkClaims(features, bounds, voxel, distances, model); !s) return s.error();
     measureToMesh(features, field, model, bounds);
     if (Status s = checkTolerance(); !s) return s.error();
     if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
@@ -612,10 +616,10 @@ class Mesher {
                                  "; check the bounds and the shape's position, or take a smaller voxel size");
   }
 
-  // Refuses a mesh that contradicts the bounds and the slope that the shape claims. `distances` are the
-  // vertices' to the surface.
+  // Refuses a mesh that leaves the bounds that are stated of the shape, or is not the shape's. `distances`
+  // are the vertices' to the surface.
   Status checkClaims(const FeatureMesh& mesh, const Box& bounds, double voxel,
-                     const std::vector<float>& distances) const {
+                     const std::vector<float>& distances, const ModelTapes& model) const {
     const MeshStats& stats = result_.stats;
     // Refinement may move a vertex by a voxel, remeshing by the tolerance, and the surface be as far from it.
     const double near = std::max(voxel, stats.tolerance);
@@ -628,18 +632,31 @@ class Mesher {
       return sceneError(name_, "the surface leaves the bounds " + placeOf(bounds.min) + " to " +
                                    placeOf(bounds.max) + " that are stated for it, at " + placeOf(*outside) +
                                    "; enlarge the bounds of its field, or leave them out");
-    const std::string advice =
-        ": what is stated of the shape does not hold there. Enlarge the lipschitz and the bounds of its "
-        "field, or leave them out; a shape without a field has to be made in another way";
     if (!stats.watertight) {
-      const std::uint32_t open = *openVertex(mesh.triangles, mesh.positions.size());
-      return sceneError(name_, "the mesh is torn open at " + placeOf(mesh.positions[open]) + advice);
+      const glm::dvec3 open = mesh.positions[*openVertex(mesh.triangles, mesh.positions.size())];
+      return notTheShapes("torn open at " + placeOf(open), open, voxel, model);
     }
     if (stats.maxDistance > std::max(kFarthestVoxels * voxel, stats.tolerance))
-      return sceneError(name_, "the mesh is off by about " + shown(stats.maxDistance) + ", " +
-                                   shown(stats.maxDistance / voxel) + " voxels, at " +
-                                   placeOf(stats.farthest) + advice);
+      return notTheShapes("off by about " + shown(stats.maxDistance) + ", " +
+                              shown(stats.maxDistance / voxel) + " voxels, at " + placeOf(stats.farthest),
+                          stats.farthest, voxel, model);
     return okStatus();
+  }
+
+  // An error for a mesh that has this fault at a place. It names the slope that is stated of the distance
+  // only where that is seen to be false.
+  Error notTheShapes(const std::string& fault, const glm::dvec3& at, double voxel,
+                     const ModelTapes& model) const {
+    const double reach = std::max(kFarthestVoxels * voxel, result_.stats.maxDistance);
+    const Steepest steepest = steepestAround(at, reach, *model.whole());
+    const std::string is = "the mesh is " + fault;
+    if (steepest.slope > kRefuted * model.slope())
+      return sceneError(name_, is + ": near " + placeOf(steepest.at) + " the distance changes by " +
+                                   shown(steepest.slope) + " a unit of length, and what is stated of the " +
+                                   "shape allows " + shown(model.slope()) +
+                                   ". Enlarge the lipschitz of its field, or leave it out");
+    return sceneError(name_, is + ", though nothing that is stated of the shape is seen to be false there; "
+                                  "take a smaller voxel size");
   }
 
   // Proves the distance, if that is asked for.

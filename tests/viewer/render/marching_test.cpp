@@ -249,10 +249,41 @@ bool isMet(const Tape& distance, const glm::dvec3& eye, const glm::dvec3& way) {
   return false;
 }
 
+Expr heart() {
+  const Vec3E p = position();
+  const Expr a = p.x * p.x + 2.25 * p.z * p.z + p.y * p.y - 1.0, cube = p.y * p.y * p.y;
+  return a * a * a - p.x * p.x * cube - 0.1125 * p.z * p.z * cube;
+}
+
+// At y = 0 the heart is the third power of what is 0 at its rim: a hundredth away it is a millionth.
+TEST(Steep, AFlatRimIsMetWhereItIs) {
+  constexpr double kAway = 4.0, kHigh = 0.25;
+  const Box bounds = Box::centred(glm::dvec3(1.4));
+  Scene scene = darkScene();
+  scene.add("", field(heart(), bounds).paint(painted()));
+  scene.camera.from = Vec3E(1.0, 0.0, kAway);
+  scene.camera.to = Vec3E(1.0, 0.0, 0.0);
+  scene.camera.fov = 2.0 * glm::degrees(std::atan(0.5 * kHigh / kAway));
+  const auto picture = renderOnGpu(scene, materials(Method::AutoRelaxed, kWidth, kHeight));
+  const TapePtr distance = Function(heart()).at();
+  const glm::dvec3 eye(1.0, 0.0, kAway);
+  int seen = 0, others = 0;
+  for (int row = 0; row < kHeight; row += 2)
+    for (int column = 0; column < kWidth; column += 2) {
+      const double pixel = kHigh / kHeight;
+      const glm::dvec3 at(1.0 + (column + 0.5 - 0.5 * kWidth) * pixel, (0.5 * kHeight - row - 0.5) * pixel,
+                          0.0);
+      const bool isSolid = isMet(*distance, eye, glm::normalize(at - eye));
+      seen += isSolid;
+      others += isSolid != isHit(picture[static_cast<std::size_t>(row) * kWidth + column]);
+    }
+  EXPECT_GT(seen, kWidth * kHeight / 12);
+  EXPECT_LE(others, 4);
+}
+
 // Formulas that are far steeper at their bounds than at the surface.
 TEST(Steep, FormulasAreMetInFewReadings) {
   const Vec3E p = position();
-  const Expr a = p.x * p.x + 2.25 * p.z * p.z + p.y * p.y - 1.0, cube = p.y * p.y * p.y;
   const auto quartic = [&](double size) {
     return p.x * p.x * p.x * p.x + p.y * p.y * p.y * p.y + p.z * p.z * p.z * p.z - size;
   };
@@ -260,8 +291,8 @@ TEST(Steep, FormulasAreMetInFewReadings) {
   const Expr waves =
       sin(4.0 * p.x) * cos(4.0 * p.y) + sin(4.0 * p.y) * cos(4.0 * p.z) + sin(4.0 * p.z) * cos(4.0 * p.x);
   const Box bounds = Box::centred(glm::dvec3(1.4));
-  const Shape shapes[] = {field(a * a * a - p.x * p.x * cube - 0.1125 * p.z * p.z * cube, bounds),
-                          field(quartic(1.0), bounds), field((ball - 0.9) * (ball + 1.0), bounds),
+  const Shape shapes[] = {field(heart(), bounds), field(quartic(1.0), bounds),
+                          field((ball - 0.9) * (ball + 1.0), bounds),
                           intersect(field(waves * exp(p.x), bounds), sphere(1.3)),
                           field(max(quartic(1.0), -quartic(0.5) * 3.0 - p.x), bounds)};
   for (const Shape& shape : shapes) {
