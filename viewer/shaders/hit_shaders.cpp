@@ -138,7 +138,7 @@ std::string meeting(const Obstacles& obstacles) {
 }
 
 Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
-  const bool whole = obstacles.planes.empty();
+  const bool whole = obstacles.planes.empty(), loose = hasOwnStep(obstacles.whole);
   const auto& rest = obstacles.rest;
   const auto both = [&](const Marched& m, const std::string& distance, const std::string& function,
                         const std::string& enough) {
@@ -153,9 +153,9 @@ Macros meetingMacros(const Obstacles& obstacles, const Plan& plan) {
       {"BALLS", std::to_string(4 * obstacles.balls.size())},
       {"FIELD", both(obstacles.whole, "sdfDistance", "sdfBoth", "1e30")},
       {"DISTANCE_UP_TO(p, enough)", obstacles.shared ? "sdfBoth(p, enough).y" : "sdfDistance(p, vec3(0.0))"},
-      {"IS_FREE", hasOwnStep(obstacles.whole) ? "false" : "f >= (1.0 - 1e-5) * h"},
-      {"LOOSE", hasOwnStep(obstacles.whole) ? "true" : "false"},
-      {"OVER_SURFACE", hasOwnStep(obstacles.whole) ? "min(f, h)" : "f"},
+      {"IS_FREE", loose ? "false" : "f >= (1.0 - 1e-5) * h"},
+      {"LOOSE", loose ? "true" : "false"},
+      {"OVER_SURFACE", loose ? "min(f, h)" : "f"},
       {"PLANES", std::to_string(2 * obstacles.planes.size())},
       {"STEP", plan.plain ? "r" : "min(max(2.0 * r / (1.0 - slope), r), tMax - t)"},
       {"OPERAND", !obstacles.operand                      ? "0.0"

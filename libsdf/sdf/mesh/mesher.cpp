@@ -77,7 +77,8 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
   return intersect(shape, translate(box(Vec3E(by.size() * 0.5)), Vec3E(by.centre())));
 }
 
-// Times a slope that is stated: what is steeper refutes it, whatever is rounded.
+// Times a slope that is stated: what is steeper refutes it. Chosen: far above the rounding of readings in
+// double, and below what tears a mesh.
 constexpr double kRefuted = 1.001;
 // Of the longest side of the bounds: below it positions, which are floats, cannot keep a tolerance.
 constexpr double kLeastTolerance = 0x1p-20;

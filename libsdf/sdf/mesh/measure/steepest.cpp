@@ -1,5 +1,6 @@
 #include "sdf/mesh/measure/steepest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -9,7 +10,8 @@
 namespace sdf {
 namespace {
 
-constexpr int kPoints = 17;  // along each axis; one is the centre
+// Along each axis, chosen; one is the centre. With a reach of three voxels they are 3/8 of one apart.
+constexpr int kPoints = 17;
 
 }  // namespace
 
@@ -19,14 +21,9 @@ Steepest steepestAround(const glm::dvec3& centre, double reach, const Tape& dist
     const glm::dvec3 steps(i % kPoints, i / kPoints % kPoints, i / (kPoints * kPoints));
     return centre + apart * (steps - 0.5 * (kPoints - 1));
   };
-  ScalarReading<double> reading;
-  const auto read = [&](const glm::dvec3& p) {
-    reading.run(distance, {p.x, p.y, p.z, 0.0, 0.0, 0.0});
-    return reading.output(0);
-  };
   std::vector<double> values(kPoints * kPoints * kPoints);
-  for (int i = 0; i < static_cast<int>(values.size()); ++i) values[i] = read(pointAt(i));
-  Steepest steepest;
+  for (int i = 0; i < static_cast<int>(values.size()); ++i) values[i] = evaluate(distance, pointAt(i));
+  Steepest steepest{0.0, centre};
   for (int i = 0; i < static_cast<int>(values.size()); ++i)
     for (int axis = 0, stride = 1; axis < 3; ++axis, stride *= kPoints) {
       if (i / stride % kPoints == kPoints - 1) continue;
@@ -34,16 +31,11 @@ Steepest steepestAround(const glm::dvec3& centre, double reach, const Tape& dist
       if (slope > steepest.slope) steepest = {slope, pointAt(i)};
     }
   // The same the way in which it changes the most there.
-  const glm::dvec3& from = steepest.at;
-  glm::dvec3 way;
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 beside = from;
-    beside[axis] += apart;
-    way[axis] = read(beside) - read(from);
-  }
-  const glm::dvec3 step = apart / glm::length(way) * way;
-  const double slope = std::abs(read(from + step) - read(from)) / apart;
-  if (slope > steepest.slope) steepest.slope = slope;
+  const auto [value, gradient] = evaluateGradient(distance, steepest.at);
+  const double length = glm::length(gradient);
+  if (!(length > 0.0 && std::isfinite(length))) return steepest;
+  const double along = std::abs(evaluate(distance, steepest.at + apart / length * gradient) - value) / apart;
+  steepest.slope = std::max(steepest.slope, along);
   return steepest;
 }
 

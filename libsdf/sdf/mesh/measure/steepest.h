@@ -15,7 +15,7 @@ struct Steepest {
 /// The steepest of the distance, output 0 of the tape, between neighbours in a lattice of points around
 /// `centre`, up to `reach` > 0 away along each axis, and from there along its gradient. In double: what is
 /// beyond a slope that is stated by more than roundings refutes it. Nothing is seen of what lies between the
-/// points. Cost: 5000 readings.
+/// points. 0 at the centre where it changes nowhere. Cost: 5000 readings.
 Steepest steepestAround(const glm::dvec3& centre, double reach, const Tape& distance);
 
 }  // namespace sdf
