@@ -4,6 +4,7 @@
 
 #include <cfloat>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "sdf/eval/batch.h"
@@ -248,6 +249,27 @@ TEST(LipschitzOver, IsTightOnSmallBoxesAndUnboundedAcrossJumps) {
   const Tape steps(floor(p.x));
   EXPECT_EQ(lipschitzOver(steps, Box{{0.1, 0, 0}, {0.9, 1, 1}}), std::nextafter(0.0, 1.0));
   EXPECT_EQ(lipschitzOver(steps, Box{{0.5, 0, 0}, {1.5, 1, 1}}), HUGE_VAL);
+}
+
+TEST(LipschitzOver, OfALengthIsThatOfItsPartsWhereItIsZeroToo) {
+  const auto& [x, y, z] = position();
+  const Box around{glm::dvec3(-0.1), glm::dvec3(0.1)};
+  EXPECT_LE(lipschitzOver(Tape(length(2.0 * x, 2.0 * y)), around), 2.0 * std::numbers::sqrt2 * 1.0001);
+  EXPECT_LE(lipschitzOver(Tape(length(max(3.0 * x, 0.0), max(y - 1.0, 0.0))), around), 3.0001);
+  EXPECT_LE(lipschitzOver(Tape(length(x - 0.05, y, z)), around), std::numbers::sqrt3 * 1.0001);
+  EXPECT_EQ(lipschitzOver(Tape(length(floor(x), y)), around), HUGE_VAL);
+}
+
+// A zigzag is put together of parts that jump.
+TEST(LipschitzOver, OfAContinuousFunctionIsThatOfItsPieces) {
+  const Expr x = position().x;
+  const Tape zigzag(abs(x - round(x))), choice(select(less(x, 0.0), -x, 2.0 * x));
+  const Box across{{-0.6, 0, 0}, {0.6, 1, 1}};
+  EXPECT_EQ(lipschitzOver(zigzag, across), HUGE_VAL);
+  EXPECT_LE(lipschitzOfContinuous(zigzag, across), 1.0001);
+  EXPECT_EQ(lipschitzOver(choice, across), HUGE_VAL);
+  EXPECT_GE(lipschitzOfContinuous(choice, across), 2.0);
+  EXPECT_LE(lipschitzOfContinuous(choice, across), 2.0001);
 }
 
 // Found by fuzzing: a power of a negative base has values at whole exponents alone, and those may be steps.

@@ -79,8 +79,11 @@ Interval evaluate(const Tape& tape, const Box& box, ScalarReading<Interval>& wor
   return workspace.output();
 }
 
-double lipschitzOver(const Tape& tape, const Box& box) {
-  using D = Dual<Interval, 3>;
+namespace {
+
+template <AnyInterval T>
+double steepest(const Tape& tape, const Box& box) {
+  using D = Dual<T, 3>;
   const auto v = variables(box);
   ScalarReading<D> reading;
   reading.run(tape, {D{v[0], {1.0, 0.0, 0.0}}, D{v[1], {0.0, 1.0, 0.0}}, D{v[2], {0.0, 0.0, 1.0}},
@@ -88,6 +91,13 @@ double lipschitzOver(const Tape& tape, const Box& box) {
   const D r = reading.output();
   const double slope = std::hypot(std::hypot(r.d[0].magnitude(), r.d[1].magnitude()), r.d[2].magnitude());
   return std::nextafter(slope, kInfinity);
+}
+
+}  // namespace
+
+double lipschitzOver(const Tape& tape, const Box& box) { return steepest<Interval>(tape, box); }
+double lipschitzOfContinuous(const Tape& tape, const Box& box) {
+  return steepest<IntervalOfContinuous>(tape, box);
 }
 
 }  // namespace sdf

@@ -72,5 +72,8 @@ Interval evaluate(const Tape& tape, const Box& box, ScalarReading<Interval>& wor
 /// Upper bound of the slope of output 0 over a box, from interval derivatives; infinite where it may jump or
 /// diverge.
 double lipschitzOver(const Tape& tape, const Box& box);
+/// The same of an output that is known to be continuous, as one of bounded slope is, however it is put
+/// together out of parts that jump.
+double lipschitzOfContinuous(const Tape& tape, const Box& box);
 
 }  // namespace sdf

@@ -98,10 +98,9 @@ Dual<T, N> payloadAt(const PayloadPart& part, const Dual<T, N>& a, const Dual<T,
   return chain(a, b, c, f[0], f[1], f[2], f[3]);
 }
 /// By the bound of its slope, however the arguments move together.
-template <int N>
-Dual<Interval, N> payloadAt(const PayloadPart& part, const Dual<Interval, N>& a, const Dual<Interval, N>& b,
-                            const Dual<Interval, N>& c) {
-  Dual<Interval, N> r{payloadAt(part, a.v, b.v, c.v), {}};
+template <AnyInterval T, int N>
+Dual<T, N> payloadAt(const PayloadPart& part, const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c) {
+  Dual<T, N> r{payloadAt(part, a.v, b.v, c.v), {}};
   for (int i = 0; i < N; ++i)
     r.d[i] = mul(payloadSlope(part, r.v), sqrt(squareAdd(a.d[i], squareAdd(b.d[i], square(c.d[i])))));
   return r;

@@ -89,9 +89,12 @@ class Cubes {
     constexpr double kPromising = 1.25;
     const std::size_t most =
         std::clamp<std::size_t>(kMostOperations / tape_->instructions().size(), 1000, kMostCubes);
-    while (2 * std::max({size_.x, size_.y, size_.z}) <= kMostAlong && 8 * mixed() <= most &&
-           gain() > kPromising)
-      halve();
+    const auto mayHalve = [&] {
+      return 2 * std::max({size_.x, size_.y, size_.z}) <= kMostAlong && 8 * mixed() <= most;
+    };
+    if (mayHalve())
+      halve();  // copies of a shape are told from one another by cubes that are small beside them
+    while (mayHalve() && gain() > kPromising) halve();
   }
 
   double side() const { return side_; }
@@ -148,7 +151,7 @@ class Cubes {
                       : value.lo > 0.0 ? Cube::Side::Outside
                       : value.hi < 0.0 ? Cube::Side::Inside
                                        : Cube::Side::Mixed;
-    return {side, std::min(slope_, lipschitzOver(*tape_, box))};
+    return {side, std::min(slope_, lipschitzOfContinuous(*tape_, box))};
   }
 
   bool isNearMixed(std::size_t i) const {

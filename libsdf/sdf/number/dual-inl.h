@@ -5,7 +5,8 @@
 // the right one, for min and max that of the argument which gives the value, on a tie the first (so that
 // max(distance, 0) keeps the distance's on its surface). Where the tangent is vertical (sqrt and powers below
 // 1 at 0, asin and acos at 1) the derivative is defined as 0, so length(max(q, 0)) has a gradient everywhere.
-// Over intervals the derivative encloses every derivative and every difference quotient, jumps included.
+// Over intervals the derivative encloses every derivative and every difference quotient, jumps included; over
+// intervals of a function that is known not to jump those of the pieces alone.
 //
 // Re-included once per SIMD target by Highway's foreach_target.
 #if defined(SDF_NUMBER_DUAL_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -16,6 +17,7 @@
 #endif
 
 #include <cmath>
+#include <type_traits>
 
 #include "sdf/number/interval.h"
 #include "sdf/number/scalar.h"
@@ -34,6 +36,10 @@ struct Dual {
   T d[N];
 };
 
+// T, told by the other arguments.
+template <class T>
+using Of = std::type_identity_t<T>;
+
 template <class D>
 inline constexpr bool kIsDual = false;
 template <class T, int N>
@@ -43,7 +49,7 @@ concept AnyDual = kIsDual<D>;
 
 /// f(a) given the value and the derivative of f at a.v.
 template <class T, int N>
-Dual<T, N> chain(const Dual<T, N>& a, const T& value, const T& slope) {
+Dual<T, N> chain(const Dual<T, N>& a, const Of<T>& value, const Of<T>& slope) {
   Dual<T, N> r{value, {}};
   for (int i = 0; i < N; ++i) r.d[i] = mul(slope, a.d[i]);
   return r;
@@ -51,7 +57,8 @@ Dual<T, N> chain(const Dual<T, N>& a, const T& value, const T& slope) {
 
 /// f(a, b) given the value and both partial derivatives.
 template <class T, int N>
-Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const T& value, const T& slopeA, const T& slopeB) {
+Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const Of<T>& value, const Of<T>& slopeA,
+                 const Of<T>& slopeB) {
   Dual<T, N> r{value, {}};
   for (int i = 0; i < N; ++i) r.d[i] = mulAdd(slopeA, a.d[i], mul(slopeB, b.d[i]));
   return r;
@@ -59,8 +66,8 @@ Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const T& value, const
 
 /// f(a, b, c) given the value and its partial derivatives.
 template <class T, int N>
-Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c, const T& value,
-                 const T& slopeA, const T& slopeB, const T& slopeC) {
+Dual<T, N> chain(const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c, const Of<T>& value,
+                 const Of<T>& slopeA, const Of<T>& slopeB, const Of<T>& slopeC) {
   Dual<T, N> r = chain(a, b, value, slopeA, slopeB);
   for (int i = 0; i < N; ++i) r.d[i] = mulAdd(slopeC, c.d[i], r.d[i]);
   return r;
@@ -77,7 +84,7 @@ T jump(const T& value, const T& first, const Slopes&... others) {
 
 /// A value without a slope, or of unbounded slope where it jumps.
 template <class T, int N, class... Others>
-Dual<T, N> step(const T& value, const Dual<T, N>& first, const Others&... others) {
+Dual<T, N> step(const Of<T>& value, const Dual<T, N>& first, const Others&... others) {
   Dual<T, N> r{value, {}};
   for (int i = 0; i < N; ++i) r.d[i] = jump(value, first.d[i], others.d[i]...);
   return r;
@@ -85,14 +92,14 @@ Dual<T, N> step(const T& value, const Dual<T, N>& first, const Others&... others
 
 /// `smooth` with the slope of a step function of this value added.
 template <class T, int N, class... Args>
-Dual<T, N> withJumps(Dual<T, N> smooth, const T& value, const Args&... args) {
+Dual<T, N> withJumps(Dual<T, N> smooth, const Of<T>& value, const Args&... args) {
   for (int i = 0; i < N; ++i) smooth.d[i] = add(smooth.d[i], jump(value, args.d[i]...));
   return smooth;
 }
 
 /// The value, with a's slope where `first` holds and b's elsewhere.
 template <class T, int N>
-Dual<T, N> either(const T& value, const T& first, const Dual<T, N>& a, const Dual<T, N>& b) {
+Dual<T, N> either(const Of<T>& value, const Of<T>& first, const Dual<T, N>& a, const Dual<T, N>& b) {
   Dual<T, N> r{value, {}};
   for (int i = 0; i < N; ++i) r.d[i] = select(first, a.d[i], b.d[i]);
   return r;
@@ -236,6 +243,38 @@ Dual<T, N> squareAdd(const Dual<T, N>& a, const Dual<T, N>& c) {
   Dual<T, N> r = add(square(a), c);
   r.v = squareAdd(a.v, c.v);
   return r;
+}
+
+template <class T>
+T lengthOf(const T& a, const T& b) {
+  return sqrt(squareAdd(a, square(b)));
+}
+template <class T>
+T lengthOf(const T& a, const T& b, const T& c) {
+  return sqrt(squareAdd(a, squareAdd(b, square(c))));
+}
+
+/// Over intervals a length changes by no more than its parts together do, and by the share that each has of
+/// it: also where it may be 0, where the root's slope says nothing.
+template <AnyInterval T, int N, class... Parts>
+Dual<T, N> lengthOfParts(const Parts&... parts) {
+  Dual<T, N> r{lengthOf<Interval>(parts.v...), {}};
+  for (int i = 0; i < N; ++i) {
+    Interval along(0.0);
+    ((along = mulAdd(shareOf(parts.v, r.v), parts.d[i], along)), ...);
+    const double most = lengthOf<Interval>(parts.d[i]...).hi;
+    r.d[i] =
+        along.nan ? Interval::everything() : Interval(std::max(along.lo, -most), std::min(along.hi, most));
+  }
+  return r;
+}
+template <AnyInterval T, int N>
+Dual<T, N> lengthOf(const Dual<T, N>& a, const Dual<T, N>& b) {
+  return lengthOfParts<T, N>(a, b);
+}
+template <AnyInterval T, int N>
+Dual<T, N> lengthOf(const Dual<T, N>& a, const Dual<T, N>& b, const Dual<T, N>& c) {
+  return lengthOfParts<T, N>(a, b, c);
 }
 
 #ifdef HWY_NAMESPACE

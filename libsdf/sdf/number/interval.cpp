@@ -307,6 +307,13 @@ Interval select(const Interval& c, const Interval& a, const Interval& b) {
 Interval mulAdd(const Interval& a, const Interval& b, const Interval& c) { return add(mul(a, b), c); }
 Interval squareAdd(const Interval& a, const Interval& c) { return add(square(a), c); }
 
+Interval shareOf(const Interval& a, const Interval& length) {
+  if (a.nan || length.nan || touchesInfinity(length)) return {-1.0, 1.0};
+  if (!(length.lo > 0.0)) return {a.lo < 0.0 ? -1.0 : 0.0, a.hi > 0.0 ? 1.0 : 0.0};
+  const Interval share = div(a, length);
+  return {std::max(share.lo, -1.0), std::min(share.hi, 1.0)};
+}
+
 Interval stepSlope(const Interval& step) { return step.isPoint() ? Interval(0.0) : Interval::everything(); }
 Interval choiceSlope(const Interval& c, const Interval& a, const Interval& b) {
   const bool decided = !containsZero(c) || c.isPoint();

@@ -6,6 +6,7 @@
 // library functions are stepped by kLibraryUlps, glibc's documented error for double being under one ulp for
 // each function used here.
 #pragma once
+#include <concepts>
 
 namespace sdf {
 
@@ -27,6 +28,17 @@ struct Interval {
   /// Largest absolute value.
   double magnitude() const;
 };
+
+/// An interval in the reading of a function that is known to be continuous: what its parts jump by does not
+/// show in it, so that almost everywhere it has the slope of one of their pieces.
+struct IntervalOfContinuous : Interval {
+  IntervalOfContinuous() = default;
+  IntervalOfContinuous(double v) : Interval(v) {}           // NOLINT
+  IntervalOfContinuous(const Interval& i) : Interval(i) {}  // NOLINT
+};
+
+template <class T>
+concept AnyInterval = std::derived_from<T, Interval>;
 
 /// Smallest interval around both.
 Interval hull(const Interval& a, const Interval& b);
@@ -61,11 +73,18 @@ Interval equal(const Interval& a, const Interval& b);
 Interval select(const Interval& c, const Interval& a, const Interval& b);
 Interval mulAdd(const Interval& a, const Interval& b, const Interval& c);
 Interval squareAdd(const Interval& a, const Interval& c);
+/// Encloses a / length for a length with `a` as a part, and 0 for a length of 0.
+Interval shareOf(const Interval& a, const Interval& length);
 
 /// Derivative of a step function whose value over the box is `step`: 0 where it does not jump, unbounded
 /// where it may.
 Interval stepSlope(const Interval& step);
 /// Derivative of select(c, ., .): unbounded unless c is decided, for the branches may not meet.
 Interval choiceSlope(const Interval& c, const Interval& a, const Interval& b);
+inline IntervalOfContinuous stepSlope(const IntervalOfContinuous& /*step*/) { return 0.0; }
+inline IntervalOfContinuous choiceSlope(const IntervalOfContinuous& c, const IntervalOfContinuous& a,
+                                        const IntervalOfContinuous& b) {
+  return select(c, a, b);
+}
 
 }  // namespace sdf
