@@ -40,7 +40,14 @@ std::vector<Steeply> steep() {
   const Expr a = x * x + 2.25 * z * z + y * y - 1.0, ball = x * x + y * y + z * z;
   const Expr heart = a * a * a - x * x * y * y * y - 0.1125 * z * z * y * y * y;
   const Expr waves = sin(4.0 * x) * cos(4.0 * y) + sin(4.0 * y) * cos(4.0 * z) + sin(4.0 * z) * cos(4.0 * x);
+  const Shape whole = field(heart, Box::centred(glm::dvec3(1.6)));
   return {
+      {"twisted", twist(whole, 0.7)},
+      {"bent", bend(whole, 0.3)},
+      {"cut", subtract(whole, cylinder(0.3, 3.0))},
+      {"blended", unite(whole, translate(sphere(0.5), Vec3E(0.9, 0.9, 0.0)), {Blend::Kind::Quadratic, 0.1})},
+      {"displaced", displace(whole, 0.03 * sin(20.0 * x))},
+      {"in a grid", repeatGrid(scale(whole, Vec3E(0.4)), Vec3E(1.5, 0.0, 1.5), glm::ivec3(2, 1, 2))},
       {"heart", field(heart, {{-1.6, -1.6, -1.2}, {1.6, 1.6, 1.2}})},
       {"quartic", field(x * x * x * x + y * y * y * y + z * z * z * z - 1.0, Box::centred(glm::dvec3(1.2)))},
       {"product", field((ball - 0.5) * (ball + 1.0), Box::centred(glm::dvec3(1.0)))},

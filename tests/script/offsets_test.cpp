@@ -10,7 +10,7 @@ const std::string kCure = "; use exact shapes there, or change the parts before 
 TEST(OffsetNotes, SayByHowMuchAndWhere) {
   // The cube of a ball's formula has no gradient on its surface; |f| is 0.1 where p is sqrt(1 + 0.1^(1/3)).
   const Scene scene = sceneOf(
-      "local b = {bounds = {{-1, -1, -1}, {1, 1, 1}}}\n"
+      "local b = {bounds = {{-2, -2, -2}, {2, 2, 2}}}\n"
       "local s = field(function(x, y, z) local a = x*x + y*y + z*z - 1 return a*a*a end, b)\n"
       "return s:round(0.1)");
   ASSERT_EQ(scene.notes.size(), 1u);
@@ -32,7 +32,7 @@ TEST(OffsetNotes, ComeOncePerCall) {
 TEST(OffsetNotes, NameTheBlendThatReadsAField) {
   const Scene scene = sceneOf(
       "local s = field(function(x, y, z) local a = x*x + y*y + z*z - 1 return a*a*a end,\n"
-      "  {bounds = {{-1, -1, -1}, {1, 1, 1}}})\n"
+      "  {bounds = {{-2, -2, -2}, {2, 2, 2}}})\n"
       "return union{s, box(1, 0.2, 1), k = 0.2}");
   ASSERT_EQ(scene.notes.size(), 1u);
   EXPECT_TRUE(

@@ -3,6 +3,8 @@
 #include <numbers>
 
 #include "claim_checks.h"
+#include "sdf/eval/function.h"
+#include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/operators/place.h"
@@ -111,11 +113,18 @@ TEST(RepeatGrid, OfABoundKeepsSignAndStaysContinuous) {
   }
 }
 
-TEST(RepeatGrid, OfAFieldOfUnknownGrowthClaimsNoConstant) {
+// Outside of its bounds a field is no nearer than most of the way there: a window may drop its copies.
+TEST(RepeatGrid, OfAFieldIsNoSteeperThanTheField) {
   const Expr x = Expr::variable(Variable::X);
-  const Shape s = repeatGrid(field(square(x) + x - 0.1, Box::centred(glm::dvec3(0.4))), Vec3E(1.0));
-  EXPECT_EQ(s.claim.lipschitz, kInfinity);
-  EXPECT_EQ(s.distance.lipschitz(), kInfinity);
+  const Shape one = field(square(x) + x - 0.1, Box::centred(glm::dvec3(0.4)));
+  const Shape s = repeatGrid(one, Vec3E(1.0));
+  EXPECT_EQ(s.claim.lipschitz, one.claim.lipschitz);
+  EXPECT_EQ(s.distance.lipschitz(), one.claim.lipschitz);
+  const TapePtr many = Function(s.distance).at(), single = Function(one.distance).at();
+  for (double at = -0.4; at <= 0.4; at += 0.01) {
+    const glm::dvec3 p(at, 0.1, -0.2);
+    EXPECT_EQ(evaluate(*many, p + glm::dvec3(3.0, -2.0, 0.0)) < 0.0, evaluate(*single, p) < 0.0) << at;
+  }
 }
 
 TEST(RepeatGrid, RepeatsOnlyAlongTheAxesAsked) {

@@ -90,6 +90,18 @@ Shape settled(Shape s) {
   return s;
 }
 
+Shape withGrowth(Shape s) {
+  const auto outside = outsideBox(s.bounds);
+  if (growthOf(s.claim) < kInfinity || !outside) return s;
+  // Calibrated distances fall short of the way there beside edges: a bound of full slope would cut what is
+  // rounded there.
+  constexpr double kShare = 0.75;
+  s.distance = max(s.distance, min(*outside, *outside * kShare));
+  s.claim.lipschitz = std::max(s.claim.lipschitz, 1.0);
+  s.claim.growth = 1.0 / kShare;
+  return settled(std::move(s));
+}
+
 Shape movedTo(const Shape& s, const Vec3E& position, double stretch) {
   std::vector<Expr> graphs{s.distance};
   graphs.insert(graphs.end(), s.surface.begin(), s.surface.end());

@@ -57,6 +57,10 @@ inline Claim weakened(const Claim& c, ClaimKind kind) {
 /// operands is one shape.
 Shape settled(Shape s);
 
+/// The same solid with a growth that is known, where its bounds are: outside of them the distance is no less
+/// than most of the way there.
+Shape withGrowth(Shape s);
+
 /// The shape with its distance and attributes looked up at another position; `stretch` as in remap. Bounds
 /// and claim are still the shape's.
 Shape movedTo(const Shape& s, const Vec3E& position, double stretch);

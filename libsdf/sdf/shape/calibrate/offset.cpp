@@ -115,11 +115,7 @@ class Offsets {
     Shape result = withTried(shape_);
     if (calibrates_) {
       d = heldWithin(d, region_);
-      // Short of the way to the bounds, which calibrated distances fall short of beside edges, too.
-      constexpr double kShare = 0.75;
-      const Expr outside = *outsideBox(shape_.bounds);
-      d = max(d, min(outside, outside * kShare));
-      result.claim.growth = 1.0 / kShare;
+      result.claim.growth = kInfinity;
     } else {
       result.claim.growth = growthOf(shape_.claim);
     }
@@ -357,7 +353,7 @@ class Offsets {
 Shape fitForOffsets(const Shape& shape, const Reach& at) {
   const bool isAsked = at.out + at.in > 0.0 && std::isfinite(at.out + at.in);
   if (!isAsked || shape.claim.calibrated) return shape;
-  return Offsets(shape, at).run(at);
+  return withGrowth(Offsets(shape, at).run(at));
 }
 
 }  // namespace sdf

@@ -24,11 +24,11 @@ bool dependsOnZ(const Expr& e) {
 
 // f + offset. The solid keeps within f <= -lo, lo being the least offset.
 Shape displaced(const Shape& shape, const Expr& offset) {
-  const double growth = growthOf(shape.claim), raised = -offset.range().lo;
-  Shape result = shape;
-  result.distance = shape.distance + offset;
+  Shape result = withGrowth(shape);
+  const double growth = growthOf(result.claim), raised = -offset.range().lo;
+  result.distance = result.distance + offset;
   if (raised > 0.0) result.bounds = grow(shape.bounds, growth * raised);
-  result.claim = {ClaimKind::Field, slopeOf(shape) + offset.lipschitz(), growth};
+  result.claim = {ClaimKind::Field, slopeOf(result) + offset.lipschitz(), growth};
   return settled(std::move(result));
 }
 

@@ -168,7 +168,8 @@ Shape windowOfCopies(const Shape& shape, double sector, double farEdge, int cand
 
 }  // namespace
 
-Shape repeatGrid(const Shape& shape, const Vec3E& cell, const std::optional<glm::ivec3>& count) {
+Shape repeatGrid(const Shape& one, const Vec3E& cell, const std::optional<glm::ivec3>& count) {
+  const Shape shape = withGrowth(one);
   Check check("repeat_grid", shape);
   std::array<Axis, 3> axes;
   bool any = false;
@@ -208,7 +209,8 @@ Shape repeatGrid(const Shape& shape, const Vec3E& cell, const std::optional<glm:
   return settled(std::move(result));
 }
 
-Shape polarRepeat(const Shape& shape, int count) {
+Shape polarRepeat(const Shape& one, int count) {
+  const Shape shape = withGrowth(one);
   Check check("polar_repeat", shape);
   if (!wantsSolid(check, shape).integerAtLeast("count", count, 1).ok()) return check.failure();
   if (count == 1) return shape;

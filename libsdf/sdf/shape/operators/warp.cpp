@@ -228,10 +228,11 @@ Shape taper(const Shape& shape, const Expr& rate) {
   return within(std::move(warped), {(r - side) * aside, outsideOf(p.y, ends), d}, shear, r - widest);
 }
 
-Shape bend(const Shape& shape, const Expr& curvature) {
-  Check check("bend", shape);
-  if (!wantsSolid(check, shape).any("curvature", curvature).ok()) return check.failure();
-  if (curvature.isConstant() && std::abs(curvature.constantValue()) < kSlightest) return shape;
+Shape bend(const Shape& straight, const Expr& curvature) {
+  Check check("bend", straight);
+  if (!wantsSolid(check, straight).any("curvature", curvature).ok()) return check.failure();
+  if (curvature.isConstant() && std::abs(curvature.constantValue()) < kSlightest) return straight;
+  const Shape shape = withGrowth(straight);
   const Box& b = shape.bounds;
   const double most = curvature.range().magnitude();
   const double folding = std::max(0.0, timesRange(curvature.range(), b.min.y, b.max.y).hi);
