@@ -122,6 +122,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["DIRECT"] = plan.lights ? "direct(p, n, d, s)" : "vec3(0.0)";
   macros["SHADE_LIGHT"] =
       plan.shadow == ShadowKind::None ? "" : "if (lightColor[i].w > 0.0) light *= arriving(i, p, l, far);";
+  macros["READ_BY_SHADOWS(p, enough)"] = readsRest(plan) ? "rest(p, enough)" : "field(p)";
   macros["SHADOW_SPENT"] = plan.shadow == ShadowKind::None ? "false" : "shadowSpent";
   macros["ERROR_COLORS"] = std::to_string(kErrorColors.size());
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);
@@ -241,6 +242,7 @@ Shader background(const Scene& scene, const Plan& plan) {
   const Functions functions{{"sdfBackground", [&] { return partsOf(scene.background); }}};
   Macros macros = pictureMacros(scene, plan);
   macros["START_RAY"] = "";
+  macros["READ_BY_SHADOWS(p, enough)"] = readsRest(plan) ? "rest(p, enough)" : "field(p)";
   macros["SHADOW_SPENT"] = "false";
   Composer composer(plan.options.es, macros, functions, GlslWriter(plan.numbers));
   std::string text = composer.compose(

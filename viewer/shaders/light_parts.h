@@ -106,12 +106,30 @@ bool ballsHide(vec3 p, vec3 l, float start, float reach) { return false; }
 )";
 
 /// Declares the uniforms of all shadows, each of which defines shadow(p, l, reach), the share of a light that
-/// arrives.
+/// arrives. Distances that are read LOOSE say little of how far the surface is where slopes are far from 1:
+/// seen(p, g), what shadows go by, divides them by the slope, and lets no ray creep.
 inline constexpr const char* kShadowSettings = R"(
 uniform float shadowStart, shadowReach, shadowHit, sharpness;
 uniform int shadowSteps;
 
 bool shadowSpent = false;  // a ray of the pixel's shadows ran out of steps
+
+// How far one may go and how far the surface is, from a reading g near it. The slope is that of what is marched: what
+// is nearer than that, such as a half space, is as far as it says.
+vec2 seen(vec3 p, vec2 g) {
+  if (!LOOSE || g.y <= 0.0) return g;
+  float h = 1e-4 * max(unit, max(abs(p.x), max(abs(p.y), abs(p.z)))), marched = 0.0;
+  vec3 slope = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    vec3 corner = vec3(float(((i + 3) >> 1) & 1), float((i >> 1) & 1), float(i & 1)) * 2.0 - 1.0;
+    float f = READ_BY_SHADOWS(p + h * corner, 2.0 * g.y).y;
+    slope += 0.25 / h * f * corner;
+    marched += 0.25 * f;
+  }
+  if (g.y < 0.5 * marched) return g;
+  float far = max(g.x, g.y / max(length(slope), 1e-30));
+  return vec2(max(g.x, min(0.5 * far, shadowHit)), far);
+}
 
 // The light of a ray that came so far. What lies behind the last step of one that ran out is not known: it is dark.
 float ended(float t, float reach, float light) {
@@ -130,6 +148,7 @@ float visible(vec3 p, vec3 l, float reach) {
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l, 0.0);
     COUNT_SHADOW
+    if (max(g.x, g.y) <= shadowHit) g = seen(p + t * l, g);
     if (max(g.x, g.y) <= shadowHit) return 0.0;
     t += g.x;
   }
@@ -156,6 +175,7 @@ float shadow(vec3 p, vec3 l, float reach) {
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l, 1.2 * t / sharpness);
     COUNT_SHADOW
+    if (g.y < t / sharpness) g = seen(p + t * l, g);
     if (max(g.x, g.y) <= shadowHit) return 0.0;
     float ratio = g.y / t, step = t - far, rise = (g.y * g.y - least * least * far * far) / step;
     light = min(light, sharpness * ratio);
@@ -182,10 +202,11 @@ float shadow(vec3 p, vec3 l, float reach) {
   float t = shadowStart, light = 1.0, step = 0.0, before = 0.0;
   for (int i = 0; i < shadowSteps && (i == 0 || t < reach); ++i) {
     vec2 both = field(p + t * l);
-    float f = both.y;
     COUNT_SHADOW
+    if (both.y < t / sharpness) both = seen(p + t * l, both);
+    float f = both.y;
     if (max(both.x, f) <= shadowHit) return 0.0;
-    float y = step > 0.0 ? (step * step + f * f - before * before) / (2.0 * step) : 0.0;
+    float y = step > 0.0 && !LOOSE ? (step * step + f * f - before * before) / (2.0 * step) : 0.0;
     if (y >= step) y = 0.0;
     y = max(y, 0.0);
     light = min(light, sharpness * sqrt(max(0.0, f * f - y * y)) / (t - y));
@@ -203,6 +224,7 @@ float shadow(vec3 p, vec3 l, float reach) {
   for (int i = 0; i < shadowSteps && (i == 0 || t < reach); ++i) {
     vec2 g = field(p + t * l);
     COUNT_SHADOW
+    if (g.y < t / sharpness) g = seen(p + t * l, g);
     x = min(x, sharpness * g.y / t);
     if (x <= -1.0) return 0.0;
     t += max(abs(g.x), shadowHit);

@@ -6,6 +6,8 @@
 #include "sdf/eval/function.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/place.h"
 #include "viewer/reference/cpu_uniform.h"
 #include "viewer/render/gpu_render.h"
 #include "viewer/render/psnr.h"
@@ -279,6 +281,71 @@ TEST(Steep, AFlatRimIsMetWhereItIs) {
     }
   EXPECT_GT(seen, kWidth * kHeight / 12);
   EXPECT_LE(others, 4);
+}
+
+// A hit that is a pixel off lies where the gradient points elsewhere.
+TEST(Steep, AFlatRimIsShadedAsWhatIsAroundIt) {
+  Scene scene = darkScene();
+  scene.add("", field(heart(), Box::centred(glm::dvec3(1.4))).paint(painted()));
+  scene.camera.from = Vec3E(0.0, 0.0, 4.0);
+  scene.camera.to = Vec3E(0.0);
+  scene.camera.fov = 14.0;
+  scene.lights = {sunTowards({0.3, 0.2, 1.0})};
+  GpuRenderOptions options = materials(Method::AutoRelaxed, kWidth, kHeight);
+  options.shader.view = View::Normals;
+  const auto normals = renderOnGpu(scene, options);
+  options.shader.view = View::Shadow;
+  for (const auto kind : {Shadow::Kind::Hard, Shadow::Kind::Soft, Shadow::Kind::Improved}) {
+    scene.shadow = {.kind = kind, .steps = 500};
+    const auto light = renderOnGpu(scene, options);
+    int turned = 0, dark = 0;
+    for (int row = 0; row < kHeight; ++row)
+      for (int column = kWidth / 4; column < 3 * kWidth / 4; ++column) {  // away from the outline
+        const std::size_t i = static_cast<std::size_t>(row) * kWidth + column;
+        turned += 2.0 * normals[i].z - 1.0 < 0.5;
+        dark += light[i].r < 0.5;
+      }
+    EXPECT_LE(turned, 2);
+    EXPECT_LE(dark, 2) << static_cast<int>(kind);
+  }
+}
+
+// Where a formula is deformed, cut or blended, its steps are no shorter than they must be.
+TEST(Steep, FormulasAreMetAfterOperatorsToo) {
+  const Box bounds = Box::centred(glm::dvec3(1.4));
+  const Shape whole = field(heart(), bounds);
+  const auto moved = [](const Shape& s) { return translate(s, Vec3E(0.6, 0.3, 0.0)); };
+  const Blend blend{Blend::Kind::Quadratic, 0.1};
+  const Shape shapes[] = {twist(whole, 0.7),
+                          bend(whole, 0.35),
+                          taper(whole, 0.3),
+                          subtract(whole, cylinder(0.3, 3.0)),
+                          exclude({whole, sphere(0.9)}, {}),
+                          unite(whole, moved(sphere(0.5)), blend),
+                          intersect(whole, moved(whole), blend),
+                          round(whole, 0.05),
+                          displace(whole, 0.03 * sin(20.0 * position().x))};
+  for (const Shape& shape : shapes) {
+    Scene scene = darkScene();
+    scene.add("", Shape(shape).paint(painted()));
+    const auto place = std::to_string(&shape - shapes);
+    const GpuRenderOptions options = materials(Method::AutoRelaxed, kWidth, kHeight);
+    EXPECT_LE(readingsOnGpu(scene, options).primary, 12.0) << place;
+    const auto picture = renderOnGpu(scene, options);
+    const TapePtr distance = Function(shape.distance).at();
+    int seen = 0, others = 0, spent = 0;
+    for (int row = 0; row < kHeight; row += 3)
+      for (int column = 0; column < kWidth; column += 3) {
+        const glm::vec4& pixel = picture[static_cast<std::size_t>(row) * kWidth + column];
+        const bool isSolid = isMet(*distance, kEye, rayThrough(column, row));
+        seen += isSolid;
+        others += isSolid != isHit(pixel);
+        spent += pixel.a == 0.0f;
+      }
+    EXPECT_GT(seen, 40) << place;
+    EXPECT_LE(others, seen / 50 + 1) << place;
+    EXPECT_LE(spent, seen / 100) << place;
+  }
 }
 
 // Formulas that are far steeper at their bounds than at the surface.
