@@ -10,6 +10,7 @@
 #include "sdf/base/file.h"
 #include "sdf/scene/relative.h"
 #include "sdf/script/script.h"
+#include "sdf/shape/catalog.h"
 #include "sdf/triangles/mesh_field.h"
 #include "viewer/comparison.h"
 #include "viewer/gpu/context.h"
@@ -35,6 +36,22 @@ using command_line::ProgressLine;
 void warn(ProgressLine& progress, const std::string& text) {
   progress.clear();
   std::cerr << "sdfview: warning: " << text << '\n';
+}
+
+// Of a scene's formulas the steepest: rays take short steps where slopes are steep.
+std::string steepestFormula(const Scene& scene) {
+  const Shape* steepest = nullptr;
+  const auto look = [&](const Shape& shape) {
+    if (!shape.formulaAt.empty() && (!steepest || slopeOf(shape) > slopeOf(*steepest))) steepest = &shape;
+  };
+  for (const Part& part : scene.parts)
+    if (isHardUnion(part.shape))
+      std::ranges::for_each(part.shape.outer->operands, look);
+    else
+      look(part.shape);
+  if (!steepest) return "";
+  return "the formula in " + steepest->formulaAt + " has a slope of up to " + sdf::shown(slopeOf(*steepest)) +
+         ", for which rays go in short steps: give its field() the lipschitz that it has, if that is less; ";
 }
 
 class Headless {
@@ -329,8 +346,8 @@ class Headless {
     const std::size_t spent = pixelsOutOfSteps(*drawn), dark = pixelsOutOfShadowSteps(*drawn);
     for (std::size_t i = 3; i < drawn->bytes.size(); i += 4) drawn->bytes[i] = 255;
     if (spent > 0)
-      warn(progress_, std::to_string(spent) +
-                          " pixels ran out of steps; give more with --steps, or see them with --view steps");
+      warn(progress_, std::to_string(spent) + " pixels ran out of steps; " + steepestFormula(scene_) +
+                          "give more with --steps, or see them with --view steps");
     if (dark > 0)
       warn(progress_, "in " + std::to_string(dark) +
                           " pixels the ray of a shadow ran out of steps and is taken for dark; the scene has "

@@ -555,6 +555,24 @@ TEST_F(Sdfview, LeavesAPercentSignAloneInASinglePicture) {
   EXPECT_EQ(files(), (std::vector<std::string>{"a%04d.png", "scene.lua"}));
 }
 
+TEST_F(Sdfview, SaysWhichFormulaTakesTheSteps) {
+  const std::string quartic =
+      "local f = field(function(x, y, z) return x^4 + y^4 + z^4 - 0.1 end, "
+      "{bounds = {{-1, -1, -1}, {1, 1, 1}}})\n";
+  const Outcome outcome = run({scene(quartic + "return sphere(0.1) | f:repeat_grid(3, 3, 3)"), "--render",
+                               at("a.png"), "--size", "64x48", "--steps", "9"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(
+      outcome.err.find("pixels ran out of steps; the formula in " + at("scene.lua:1 has a slope of up to ")),
+      std::string::npos)
+      << outcome.err;
+  EXPECT_NE(
+      outcome.err.find(", for which rays go in short steps: give its field() the lipschitz that it has, "
+                       "if that is less; give more with --steps"),
+      std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(Sdfview, WarnsOfPixelsThatRanOutOfSteps) {
   const std::string png = at("a.png");
   const Outcome outcome = run({scene(kBall), "--render", png, "--size", "64x48", "--steps", "3"});

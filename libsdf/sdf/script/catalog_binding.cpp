@@ -198,7 +198,8 @@ class Call {
       raise(L_, what(p) + " must be a shape, got " + describe(L_, at) + "; write " + usageOf(entry_) +
                     " or shape:" + entry_.name + "(…)");
     const Shape& shape = readShape(L_, at, what(p));
-    if (formulaAt_.empty()) formulaAt_ = shape.formulaAt;
+    if (!shape.formulaAt.empty() && slopeOf(shape) > steepest_)
+      formulaAt_ = shape.formulaAt, steepest_ = slopeOf(shape);
     if (shape.claim.kind > weakest_) weakest_ = shape.claim.kind, inexactSince_ = shape.inexactSince;
     return shape;
   }
@@ -271,7 +272,8 @@ class Call {
   const CatalogEntry& entry_;
   int next_ = 1;           // the first argument in place that no parameter has taken
   int last_ = 0;           // the last argument in place
-  std::string formulaAt_;  // the first that a shape among the arguments has
+  std::string formulaAt_;  // of the steepest formula among the arguments
+  double steepest_ = 0.0;
   // The weakest claim that a shape among the arguments makes, and what made it.
   ClaimKind weakest_ = ClaimKind::Exact;
   std::string inexactSince_;
@@ -286,7 +288,7 @@ int pushGood(lua_State* L, Shape shape) {
 // A shape of the script's own formula.
 int pushFormulaShape(lua_State* L, const std::string& what, Shape shape) {
   shape.inexactSince = what + " in line " + std::to_string(currentLine(L));
-  if (slopeOf(shape) == kInfinity && shape.formulaAt.empty())
+  if (slopeOf(shape) > 1.0 && shape.formulaAt.empty())
     shape.formulaAt = contextOf(L).file + ":" + std::to_string(currentLine(L));
   return pushGood(L, std::move(shape));
 }

@@ -105,7 +105,8 @@ struct Shape {
   /// The operands where the shape is a union, else nothing. Moving, turning, scaling and painting a union
   /// keeps the list; whatever else is done to it makes one shape of it.
   std::shared_ptr<const Union> outer;
-  /// Where a scene file gives the formula in it whose slope is not known, "scene.lua:3"; else "".
+  /// Where a scene file gives the steepest formula in it whose slope is above 1 or not known, "scene.lua:3";
+  /// else "".
   std::string formulaAt;
   /// What in a scene file last weakened the claim, "field in line 3"; else "".
   std::string inexactSince;
