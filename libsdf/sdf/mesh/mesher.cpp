@@ -300,6 +300,7 @@ class Mesher {
     const std::vector<glm::vec3> extracted = raw.points;
     std::vector<glm::vec3> normals;
     refineVertices(raw.points, normals, field, progress_);
+    leaveFilms(outwardNormals(extracted, raw.triangles), raw.points, normals, field, progress_);
     begin("creases");
     auto [mesh, doubtful] =
         sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress_);

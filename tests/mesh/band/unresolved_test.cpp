@@ -2,10 +2,13 @@
 // neither.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <random>
 
 #include "mesh/scenes.h"
 #include "sdf/mesh/mesher.h"
+#include "sdf/shape/operators/deform.h"
 
 namespace sdf {
 namespace unresolved_test {
@@ -157,6 +160,24 @@ TEST(Films, AreNotSeenWhereAFormulaIsOnlySteeperElsewhere) {
     EXPECT_LT(made->stats.maxDistance, 0.1 * voxel) << scale;
     EXPECT_EQ(made->stats.components, 1) << scale;
     EXPECT_EQ(made->stats.eulerCharacteristic, 2) << scale;
+  }
+}
+
+// Shells of shells touch: the distance is 0 on spheres in the midst of what is solid, where no surface is.
+TEST(Films, BetweenShellsHoldNoPartOfTheMesh) {
+  for (const double voxel : {0.02, 0.0202, 0.0187}) {
+    Shape s = sphere(1.0);
+    for (int i = 1; i <= 3; ++i) {
+      s = shell(s, 0.02);
+      if (i == 1) continue;  // a voxel thin, and without a film
+      Progress progress;
+      const auto made = meshShape(s, "test", {.voxelSize = voxel}, progress);
+      ASSERT_TRUE(made);
+      EXPECT_LE(made->stats.maxDistance, 1e-4) << voxel << ", " << i;
+      EXPECT_EQ(made->stats.components, 2) << voxel << ", " << i;
+      for (const glm::vec3& p : made->mesh.positions)
+        ASSERT_NEAR(std::abs(glm::length(p) - 1.0), 0.01 * i, 1e-4) << voxel << ", " << i;
+    }
   }
 }
 
