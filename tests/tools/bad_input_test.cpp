@@ -149,7 +149,7 @@ TEST_F(BadInput, OnlyGltfIsCompressed) {
 
 TEST_F(BadInput, WhatCannotBeProvenIsSaidWithItsPlace) {
   // Two cubes that touch in an edge at x = y = 1, where ten times what is measured is more than three voxels;
-  // and a ball by a jump instead of a zero.
+  // and a ball by a jump instead of a zero, where it is less.
   expectBadScene("return union(box(1), box(1):translate(2, 2, 0))",
                  {"part 'part 1': no distance below 0.86", "cells, the first of side", "around (",
                   "elsewhere it is", "measured", "Take a smaller voxel size, or leave --certify out"},
@@ -157,7 +157,7 @@ TEST_F(BadInput, WhatCannotBeProvenIsSaidWithItsPlace) {
   expectBadScene(
       "bounds({-2, -2, -2}, {2, 2, 2}) return field(function(x, y, z)"
       " return floor(x * x + y * y + z * z) - 0.5 end)",
-      {"no distance below 1 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
+      {"no distance below 0.6 is proven"}, kLimits, {"--certify", "--voxel-size", "0.2"});
 }
 
 TEST_F(BadInput, WhatStoodInTheWayOfAProofIsNamedWithItsLine) {
