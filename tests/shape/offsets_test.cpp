@@ -78,7 +78,7 @@ TEST(OffsetsOfFields, StayWhereTheGradientVanishesOnTheSurface) {
     const glm::dvec3 p(at, 0.5 * at, -0.3);
     const double was = evaluate(*before, p);
     if (was > -0.5) {
-      EXPECT_NEAR(evaluate(*after, p), was - 0.1, 1e-15);
+      EXPECT_NEAR(evaluate(*after, p), was - 0.1, 1e-15);  // the roundings of a number below 1
     }
   }
 }

@@ -242,7 +242,6 @@ Shader background(const Scene& scene, const Plan& plan) {
   const Functions functions{{"sdfBackground", [&] { return partsOf(scene.background); }}};
   Macros macros = pictureMacros(scene, plan);
   macros["START_RAY"] = "";
-  macros["READ_BY_SHADOWS(p, enough)"] = readsRest(plan) ? "rest(p, enough)" : "field(p)";
   macros["SHADOW_SPENT"] = "false";
   Composer composer(plan.options.es, macros, functions, GlslWriter(plan.numbers));
   std::string text = composer.compose(

@@ -251,6 +251,25 @@ bool isMet(const Tape& distance, const glm::dvec3& eye, const glm::dvec3& way) {
   return false;
 }
 
+// Of every third pixel each way: those whose ray meets the solid, by signs of its distance in double; those
+// of which the picture says otherwise; and those that ran out of steps.
+struct AgainstSigns {
+  int seen = 0, others = 0, spent = 0;
+};
+AgainstSigns againstSigns(const Shape& shape, const std::vector<glm::vec4>& picture) {
+  const TapePtr distance = Function(shape.distance).at();
+  AgainstSigns count;
+  for (int row = 0; row < kHeight; row += 3)
+    for (int column = 0; column < kWidth; column += 3) {
+      const glm::vec4& pixel = picture[static_cast<std::size_t>(row) * kWidth + column];
+      const bool isSolid = isMet(*distance, kEye, rayThrough(column, row));
+      count.seen += isSolid;
+      count.others += isSolid != isHit(pixel);
+      count.spent += pixel.a == 0.0f;
+    }
+  return count;
+}
+
 Expr heart() {
   const Vec3E p = position();
   const Expr a = p.x * p.x + 2.25 * p.z * p.z + p.y * p.y - 1.0, cube = p.y * p.y * p.y;
@@ -331,17 +350,7 @@ TEST(Steep, FormulasAreMetAfterOperatorsToo) {
     const auto place = std::to_string(&shape - shapes);
     const GpuRenderOptions options = materials(Method::AutoRelaxed, kWidth, kHeight);
     EXPECT_LE(readingsOnGpu(scene, options).primary, 12.0) << place;
-    const auto picture = renderOnGpu(scene, options);
-    const TapePtr distance = Function(shape.distance).at();
-    int seen = 0, others = 0, spent = 0;
-    for (int row = 0; row < kHeight; row += 3)
-      for (int column = 0; column < kWidth; column += 3) {
-        const glm::vec4& pixel = picture[static_cast<std::size_t>(row) * kWidth + column];
-        const bool isSolid = isMet(*distance, kEye, rayThrough(column, row));
-        seen += isSolid;
-        others += isSolid != isHit(pixel);
-        spent += pixel.a == 0.0f;
-      }
+    const auto [seen, others, spent] = againstSigns(shape, renderOnGpu(scene, options));
     EXPECT_GT(seen, 40) << place;
     EXPECT_LE(others, seen / 50 + 1) << place;
     EXPECT_LE(spent, seen / 100) << place;
@@ -372,16 +381,7 @@ TEST(Steep, FormulasAreMetInFewReadings) {
     options.shader.steps = Steps::BySlope;
     EXPECT_LE(readings.primary, 10.0) << place;
     EXPECT_LE(readings.primary, 0.5 * readingsOnGpu(scene, options).primary) << place;
-    const TapePtr distance = Function(shape.distance).at();
-    int seen = 0, others = 0, spent = 0;
-    for (int row = 0; row < kHeight; row += 3)
-      for (int column = 0; column < kWidth; column += 3) {
-        const glm::vec4& pixel = picture[static_cast<std::size_t>(row) * kWidth + column];
-        const bool isSolid = isMet(*distance, kEye, rayThrough(column, row));
-        seen += isSolid;
-        others += isSolid != isHit(pixel);
-        spent += pixel.a == 0.0f;
-      }
+    const auto [seen, others, spent] = againstSigns(shape, picture);
     EXPECT_GT(seen, 60) << place;
     EXPECT_LE(others, seen / 50) << place;
     EXPECT_EQ(spent, 0) << place;
