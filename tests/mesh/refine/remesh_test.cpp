@@ -1,4 +1,5 @@
 #include "sdf/mesh/refine/remesh.h"
+#include "sdf/mesh/refine/coarsen.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -30,7 +31,7 @@ struct Meshed {
 Meshed remeshed(FeatureMesh mesh, const LocalField& field, const RemeshOptions& options) {
   Progress progress;
   Meshed m{std::move(mesh), {}, {}};
-  thinRoughly(m.mesh, field, options, progress);
+  coarsen(m.mesh, field, {0.7 * options.tolerance, options.painted}, progress);
   m.result = remesh(m.mesh, field, options, progress);
   measureTopology(m.mesh.triangles, m.mesh.positions.size(), m.stats);
   return m;

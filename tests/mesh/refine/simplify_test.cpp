@@ -53,6 +53,21 @@ double farthest(const FeatureMesh& mesh, const Distance& distance) {
   return most;
 }
 
+// Along an edge that sticks out of a rounding all points of the surface are near the triangles beside it.
+TEST(Simplify, WhatSticksOutOfARoundingIsSplit) {
+  constexpr double kTolerance = 4e-3;
+  for (const double radius : {0.01, 0.014, 0.02, 0.03}) {
+    const Shape shape = round(cylinder(0.5, 0.3), radius);
+    const Fine fine(shape, 0.01);
+    FeatureMesh mesh = fine.mesh;
+    Progress progress;
+    EXPECT_TRUE(simplify(mesh, fine.field, kTolerance, {}, nothing, false, progress));
+    const TapePtr tape = tapeOf(shape);
+    const double off = farthest(mesh, [&](const glm::dvec3& p) { return evaluate(*tape, p); });
+    EXPECT_LE(off, 1.02 * kTolerance) << radius;
+  }
+}
+
 // Of a ball equilateral triangles whose corners lie E outside and whose middles lie E inside are the fewest,
 // 0.1925 * 4 pi / E (Nadler 1986).
 TEST(Simplify, ABallTakesLittleMoreThanTheLeastNumberOfTriangles) {
@@ -190,7 +205,7 @@ TEST(Simplify, DoesNotChangeAMeshOnceItIsStopped) {
 TEST(SampledMesh, KeepsEachSampleInOneList) {
   const Fine fine(cylinder(0.5, 0.5), 0.1);
   Progress progress;
-  SampledMesh sampled(fine.mesh, fine.field, progress);
+  SampledMesh sampled(fine.mesh, fine.field, HUGE_VALF, progress);
   const auto count = [&] {
     std::size_t all = 0;
     for (std::uint32_t t = 0; t < sampled.onTriangle.count(); ++t)

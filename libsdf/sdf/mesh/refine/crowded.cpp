@@ -1,5 +1,7 @@
 #include "sdf/mesh/refine/crowded.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
@@ -22,8 +24,13 @@ using Index = SampledMesh::Index;
 using BoxPoint = boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>;
 using BoxOf = boost::geometry::model::box<BoxPoint>;
 
-BoxOf boxOf(const Corners& t) {
-  const glm::vec3 low = glm::min(glm::min(t[0], t[1]), t[2]), high = glm::max(glm::max(t[0], t[1]), t[2]);
+// Cosine: normals that are farther apart are opposite; those of both sides of an ordinary edge are not.
+constexpr float kOpposite = -0.5f;
+
+// Grown to all sides.
+BoxOf boxOf(const Corners& t, float grown = 0.0f) {
+  const glm::vec3 low = glm::min(glm::min(t[0], t[1]), t[2]) - grown,
+                  high = glm::max(glm::max(t[0], t[1]), t[2]) + grown;
   return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
 }
 
@@ -71,20 +78,20 @@ struct CellHash {
 // The vertices of each cell of a grid, and where their normals go.
 class CellVertices {
  public:
-  CellVertices(const SampledMesh& sampled, float size)
-      : sampled_(sampled), size_(size), next_(sampled.mesh.vertices(), SampledMesh::kNone) {
-    for (Index v = 0; v < sampled.mesh.vertices(); ++v) {
-      if (!sampled.mesh.vertexAlive(v)) continue;
+  CellVertices(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals, float size)
+      : mesh_(mesh), normals_(normals), size_(size), next_(mesh.vertices(), HalfEdgeMesh::kNone) {
+    for (Index v = 0; v < mesh.vertices(); ++v) {
+      if (!mesh.vertexAlive(v)) continue;
       Cell& cell = cells_[cellOf(v)];
       next_[v] = std::exchange(cell.first, v);
-      cell.directions |= std::uint64_t{1} << Directions::of(sampled.normals[v]);
+      cell.directions |= std::uint64_t{1} << Directions::of(normals[v]);
     }
   }
 
-  /// Is there a vertex within a cell's length of v whose normal is at more than a right angle to v's?
+  /// Is there a vertex within a cell's length of v whose normal is opposite to v's?
   bool hasOpposite(Index v) const {
     const glm::ivec3 at = cellOf(v);
-    const std::uint64_t opposite = directions_.oppositeOf(Directions::of(sampled_.normals[v]));
+    const std::uint64_t opposite = directions_.oppositeOf(Directions::of(normals_[v]));
     for (int i = 0; i < 27; ++i) {
       const auto found = cells_.find(at + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
       if (found == cells_.end() || (found->second.directions & opposite) == 0) continue;
@@ -99,30 +106,29 @@ class CellVertices {
     Index first = SampledMesh::kNone;
     std::uint64_t directions = 0;
   };
-  glm::ivec3 cellOf(Index v) const { return glm::ivec3(glm::floor(sampled_.mesh.positions[v] / size_)); }
+  glm::ivec3 cellOf(Index v) const { return glm::ivec3(glm::floor(mesh_.positions[v] / size_)); }
   bool isOpposite(Index u, Index v) const {
-    const glm::vec3 between = sampled_.mesh.positions[u] - sampled_.mesh.positions[v];
-    return glm::dot(between, between) <= size_ * size_ &&
-           glm::dot(sampled_.normals[u], sampled_.normals[v]) < 0.0f;
+    const glm::vec3 between = mesh_.positions[u] - mesh_.positions[v];
+    return glm::dot(between, between) <= size_ * size_ && glm::dot(normals_[u], normals_[v]) < kOpposite;
   }
 
-  const SampledMesh& sampled_;
+  const HalfEdgeMesh& mesh_;
+  const std::vector<glm::vec3>& normals_;
   float size_;
   Directions directions_;
   std::unordered_map<glm::ivec3, Cell, CellHash> cells_;
   std::vector<Index> next_;  // of the same cell
 };
 
-// The vertices that have one with an opposite normal within a cell's length.
-std::vector<char> crowdedVertices(const SampledMesh& sampled, float cell) {
-  const CellVertices cells(sampled, cell);
-  std::vector<char> crowded(sampled.mesh.vertices(), 0);
-  for (Index v = 0; v < sampled.mesh.vertices(); ++v)
-    crowded[v] = sampled.mesh.vertexAlive(v) && cells.hasOpposite(v);
+}  // namespace
+
+std::vector<char> crowdedVertices(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals,
+                                  float reach) {
+  const CellVertices cells(mesh, normals, reach);
+  std::vector<char> crowded(mesh.vertices(), 0);
+  for (Index v = 0; v < mesh.vertices(); ++v) crowded[v] = mesh.vertexAlive(v) && cells.hasOpposite(v);
   return crowded;
 }
-
-}  // namespace
 
 struct CrowdedTriangles::Trees {
   using Entry = std::pair<BoxOf, Index>;
@@ -137,22 +143,41 @@ CrowdedTriangles::CrowdedTriangles(const SampledMesh& sampled, const MeshBlocks&
       blocks_(blocks),
       crowded_(mesh_.halfEdges() / 3, 0),
       trees_(std::make_unique<Trees>()) {
-  const std::vector<char> vertices = crowdedVertices(sampled, reach);
+  findCrowded(reach);
   std::vector<std::vector<Trees::Entry>> entries(blocks.count() + 1);
   trees_->boxes.resize(crowded_.size()), trees_->block.resize(crowded_.size());
-  for (Index h = 0; h < mesh_.halfEdges(); h += 3) {
-    if (!mesh_.alive(h) || !(vertices[mesh_.from(h)] || vertices[mesh_.to(h)] || vertices[mesh_.apex(h)]))
-      continue;
+  for (Index t = 0; t < crowded_.size(); ++t) {
+    if (!crowded_[t]) continue;
     any_ = true;
-    crowded_[h / 3] = 1;
-    trees_->boxes[h / 3] = boxOf(mesh_.corners(h));
-    trees_->block[h / 3] = blockOf(h / 3);
-    entries[trees_->block[h / 3]].emplace_back(trees_->boxes[h / 3], h / 3);
+    trees_->boxes[t] = boxOf(mesh_.corners(3 * t));
+    trees_->block[t] = blockOf(t);
+    entries[trees_->block[t]].emplace_back(trees_->boxes[t], t);
   }
   for (const auto& own : entries) trees_->byBlock.emplace_back(own);
 }
 
 CrowdedTriangles::~CrowdedTriangles() = default;
+
+void CrowdedTriangles::findCrowded(float reach) {
+  namespace index = boost::geometry::index;
+  std::vector<Trees::Entry> entries;
+  std::vector<glm::vec3> areas(crowded_.size(), glm::vec3(0.0f));
+  for (Index t = 0; t < crowded_.size(); ++t) {
+    if (!mesh_.alive(3 * t)) continue;
+    const Corners corners = mesh_.corners(3 * t);
+    areas[t] = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    entries.emplace_back(boxOf(corners), t);
+  }
+  const Trees::Tree tree(entries);
+  tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
+    const Index t = entries[i].second;
+    const auto isOpposite = [&](const Trees::Entry& other) {
+      return glm::dot(areas[t], areas[other.second]) < 0.0f;
+    };
+    const auto near = index::intersects(boxOf(mesh_.corners(3 * t), reach)) && index::satisfies(isOpposite);
+    crowded_[t] = tree.qbegin(near) != tree.qend();
+  });
+}
 
 // That of all of its vertices, if they have one.
 std::uint8_t CrowdedTriangles::blockOf(Index triangle) const {

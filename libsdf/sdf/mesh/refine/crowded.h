@@ -11,6 +11,11 @@
 
 namespace sdf {
 
+/// By vertex: is there one within the reach whose normal is 120 degrees or more from its own? `normals` are
+/// unit, by vertex. Cost: linear.
+std::vector<char> crowdedVertices(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals,
+                                  float reach);
+
 /// The triangles of a mesh that have another sheet beside them, and what is made of them, in trees of boxes
 /// (R-trees; Guttman 1984), one for each block of the mesh and one for what is of none. Two sheets that come
 /// to cross while both keep to their surface within a distance are of these. Where a block is named all that
@@ -19,7 +24,8 @@ class CrowdedTriangles {
  public:
   using Index = SampledMesh::Index;
 
-  /// Those at vertices that have one with about the opposite normal within some `reach`. Cost: linear.
+  /// Those that have one that faces about the other way within some `reach`, and some that are farther. Cost:
+  /// n log n.
   CrowdedTriangles(const SampledMesh& sampled, const MeshBlocks& blocks, float reach);
   ~CrowdedTriangles();
 
@@ -34,6 +40,7 @@ class CrowdedTriangles {
 
  private:
   struct Trees;
+  void findCrowded(float reach);
   bool areCrowded(std::span<const Index> triangles) const;  // any of them
   bool crosses(const glm::uvec3& own, const Corners& at, std::span<const Index> but,
                std::uint8_t block) const;

@@ -41,10 +41,8 @@ std::vector<SampledMesh::Index> MissedSamples::addNextTo(const std::vector<glm::
   std::vector<glm::vec3> feet = places, normals;
   refineVertices(feet, normals, field_, progress_);
   if (progress_.stopped()) return {};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    added_.push_back(triangles[nearest[i].triangle]);
-    sampled_.add(added_.back() / 3, {feet[i], normals[i]});
-  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    take(triangles[nearest[i].triangle], places[i], {feet[i], normals[i]});
   surface_.insert(surface_.end(), feet.begin(), feet.end());
   return std::exchange(added_, {});
 }
@@ -65,6 +63,17 @@ std::vector<SampledMesh::Index> MissedSamples::changed(const std::vector<Index>&
     if (std::exchange(looked_[h / 3], corners) != corners) changed.push_back(h);
   }
   return changed;
+}
+
+// A sample, which was found from a place on or near a triangle.
+void MissedSamples::take(Index triangle, const glm::vec3& place, const SurfaceSample& sample) {
+  sampled_.add(triangle / 3, sample);
+  added_.push_back(triangle);
+  const OffSurface off{triangle, sampled_.mesh.corners(triangle), place, sample.at};
+  if (off_.empty() || off_.back().triangle != triangle)
+    off_.push_back(off);
+  else if (off.distance() > off_.back().distance())
+    off_.back() = off;
 }
 
 // At a grid over some triangles; `close` receives those that are nearly too far.
@@ -89,8 +98,7 @@ void MissedSamples::addAt(const std::vector<Index>& triangles, int steps, std::v
       const float off = glm::distance(feet[i], places[i]);
       most = std::max(most, off);
       if (off <= tolerance_) continue;
-      sampled_.add(triangles[t] / 3, {feet[i], normals[i]});
-      added_.push_back(triangles[t]);
+      take(triangles[t], places[i], {feet[i], normals[i]});
       looked_[triangles[t] / 3] = {};
     }
     if (close && most > kClose * tolerance_) close->push_back(triangles[t]);

@@ -1,6 +1,8 @@
 // What samples have missed: read from the field all over a mesh.
 #pragma once
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <utility>
 #include <vector>
 
 #include "sdf/base/progress.h"
@@ -8,6 +10,15 @@
 #include "sdf/mesh/surface/local_field.h"
 
 namespace sdf {
+
+/// A place on a triangle that is too far from the surface. The surface's next point may be within the
+/// tolerance from the triangle all the same, as where an edge sticks out of a rounding.
+struct OffSurface {
+  SampledMesh::Index triangle;  ///< its first half-edge
+  Corners corners;              ///< its own
+  glm::vec3 at, next;
+  float distance() const { return glm::distance(at, next); }
+};
 
 /// Looks at a mesh with the field, and adds samples where it is farther off than the tolerance.
 class MissedSamples {
@@ -25,10 +36,13 @@ class MissedSamples {
   /// Adds the points of the surface next to these places to the triangles that are nearest to them. Returns
   /// these.
   std::vector<SampledMesh::Index> addNextTo(const std::vector<glm::vec3>& places);
+  /// What these have found on the mesh: the farthest of each triangle, once.
+  std::vector<OffSurface> takeOff() { return std::exchange(off_, {}); }
 
  private:
   using Index = SampledMesh::Index;
   std::vector<Index> alive() const;
+  void take(Index triangle, const glm::vec3& place, const SurfaceSample& sample);
   std::vector<Index> changed(const std::vector<Index>& triangles);
   void addAt(const std::vector<Index>& triangles, int steps, std::vector<Index>* close);
   void addOfCreases();
@@ -42,6 +56,7 @@ class MissedSamples {
   float tolerance_;
   Progress& progress_;
   std::vector<Index> added_;
+  std::vector<OffSurface> off_;
   std::vector<Corners> looked_;         // by triangle: where its corners were when nothing was missed
   int fruitless_ = 0, sinceClimb_ = 0;  // climbs that found nothing, and looks since: ever more of them
 };

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -60,7 +61,7 @@ std::vector<char> SampledMesh::besideBorders(float away) const {
   return beside;
 }
 
-// The mean colour of the known samples between two creases, else what is seen in the largest triangle there.
+// The colour of the next known sample between two creases, else what is seen in the largest triangle there.
 void SampledMesh::paintSectors(const LocalField& field, Progress& progress, const std::vector<Paint>& paint,
                                Tints& own) const {
   std::vector<Sector> unseen;
@@ -68,18 +69,16 @@ void SampledMesh::paintSectors(const LocalField& field, Progress& progress, cons
   for (Index v = 0; v < mesh.vertices(); ++v) {
     if (!mesh.vertexAlive(v) || isSmooth(v)) continue;
     for (Sector& s : sectorsAround(mesh, v)) {
-      Tint sum{};
-      float count = 0.0f;
+      Index nearest = Lists::kNone;
+      float least = HUGE_VALF;
       for (const Index h : s.corners)
         for (Index w = onTriangle.first(h / 3); w != Lists::kNone; w = onTriangle.after(w)) {
           if (!own.isKnown(w)) continue;
-          const Tint seen = own.of(paint[w]);
-          for (std::size_t k = 0; k < own.channels(); ++k) sum[k] += seen[k];
-          count += 1.0f;
+          const float d = glm::distance(samples[w].at, mesh.positions[v]);
+          if (d < least) least = d, nearest = w;
         }
-      if (count > 0.0f) {
-        for (float& channel : sum) channel /= count;
-        for (const Index h : s.corners) own.corners[h] = sum;
+      if (nearest != Lists::kNone) {
+        for (const Index h : s.corners) own.corners[h] = own.of(paint[nearest]);
         continue;
       }
       const auto [a, b, c] = mesh.corners(s.largest - s.largest % 3);

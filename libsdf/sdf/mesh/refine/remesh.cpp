@@ -12,8 +12,6 @@ namespace {
 // Edges are collapsed until the error is this many tolerances, as relocation lessens the largest errors to
 // three quarters: measured on balls, tori and blends. With more, more has to be split in the end.
 constexpr double kOvershoot = 1.3;
-// Vertices on the surface have the error on one side: so much of it leaves the rest to do its work.
-constexpr double kRough = 0.7;
 // Cycles of adjusting and collapsing, of collapsing after splits, and sweeps over all vertices that adjusting
 // takes at most. Measured on eight scenes: two cycles of six sweeps take a third longer and leave as many
 // triangles within 2 %; with fewer sweeps or cycles a ball has too many.
@@ -165,15 +163,6 @@ class Remesher {
 };
 
 }  // namespace
-
-void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
-                 Progress& progress) {
-  Quiet quiet(progress);
-  HalfEdgeMesh topology(mesh);
-  RemeshChanges(topology, field, kRough * options.tolerance, options.painted, quiet)
-      .collapse(RemeshChanges::Care::Rough);
-  mesh = topology.compacted();
-}
 
 RemeshResult remesh(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
                     Progress& progress) {

@@ -30,11 +30,6 @@ struct RemeshResult {
   std::vector<glm::vec3> exceeding;
 };
 
-/// Takes out what the normals at the vertices alone show to be far more than the tolerance asks. What remesh
-/// says of the mesh holds of it, too. Cost: some 4 microseconds and 200 bytes for each triangle.
-void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
-                 Progress& progress);
-
 /// Changes the mesh, by collapsing, flipping and splitting edges and by moving vertices, into one with few
 /// triangles that is nowhere farther than the tolerance from the field's zero set.
 ///
@@ -59,7 +54,7 @@ void thinRoughly(FeatureMesh& mesh, const LocalField& field, const RemeshOptions
 /// resolution. It may be both finer and coarser than needed. Positions are exact to float rounding only: a
 /// tolerance below 2^-20 of the mesh's size cannot be kept. The result does not depend on the number of
 /// threads. Once progress is stopped the mesh is closed and manifold still, but unfinished. Cost: n log n;
-/// some 200 microseconds for each triangle that is left, if the mesh was thinned roughly before.
+/// some 200 microseconds for each triangle that is left, if the mesh was coarsened before.
 RemeshResult remesh(FeatureMesh& mesh, const LocalField& field, const RemeshOptions& options,
                     Progress& progress);
 

@@ -21,9 +21,6 @@ class RemeshChanges {
                 Progress& progress);
 
   enum class Care {
-    Rough,  ///< by what normals at the vertices foretell of the distances, at a reading or two for each
-            ///< collapse instead of a hundred: for what is far finer than the tolerance asks. Vertices stay
-            ///< on the surface. Ends when few of those that are tried can be made
     Usual,  ///< along creases a little more than the tolerance is let pass
     Strict
   };
@@ -75,9 +72,7 @@ class RemeshChanges {
   std::vector<Candidate> collapseCandidates(bool& more) const;
   bool collapseRound(std::size_t most, Care care, bool& more);
   // What the collapses make of the edges; the fans' centres move to where they would be.
-  void tryCollapses(const std::vector<std::uint32_t>& edges, Care care, Fans& fans,
-                    std::vector<FanError>& errors) const;
-  void estimate(Fans& fans, std::vector<FanError>& errors) const;
+  void tryCollapses(const std::vector<std::uint32_t>& edges, Fans& fans, std::vector<FanError>& errors) const;
   // Is the edge long enough to be resolved when it is halved, and not to be left as it is?
   bool maySplit(std::uint32_t edge) const;
   std::uint32_t longestSide(std::uint32_t h) const;

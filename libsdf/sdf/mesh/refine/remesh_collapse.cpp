@@ -104,35 +104,27 @@ std::vector<RemeshChanges::Candidate> RemeshChanges::collapseCandidates(bool& mo
   return all;
 }
 
-void RemeshChanges::tryCollapses(const std::vector<std::uint32_t>& edges, Care care, Fans& fans,
+void RemeshChanges::tryCollapses(const std::vector<std::uint32_t>& edges, Fans& fans,
                                  std::vector<FanError>& errors) const {
   for (const std::uint32_t h : edges) {
     fans.addCollapsed(mesh_, h);
     // The distance does not tell where a border is: its vertices stay on it.
     if (painted_ && mesh_.isCrease(h)) fans.all.back().centre = mesh_.positions[mesh_.to(h)];
   }
-  const auto addChords = [&](bool all) {
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      if (mesh_.isCrease(edges[i]) && (all || errors[i].smooth))
-        errors[i].largest = std::max(errors[i].largest, chordError(edges[i]));
-  };
-  if (care == Care::Rough) {
-    estimate(fans, errors);
-    addChords(true);
-  } else {
-    evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
-    moveToOffsets(fans, errors);
-    evaluate(fans, Sampling::Few, errors);
-    if (progress_.stopped()) return;
-    if (painted_) addChords(false);
-    std::vector<std::uint32_t> passing;
-    for (std::uint32_t i = 0; i < edges.size(); ++i)
-      if (errors[i].sound && errors[i].largest <= kCrease * tolerance_) passing.push_back(i);
-    const std::vector<FanError> closely = lookClosely(fans, passing);
-    if (progress_.stopped()) return;
-    for (std::size_t k = 0; k < passing.size(); ++k)
-      errors[passing[k]].largest = std::max(errors[passing[k]].largest, closely[k].largest);
-  }
+  evaluateFans(fans, tolerance_, Sampling::Few, field_, progress_, errors);
+  moveToOffsets(fans, errors);
+  evaluate(fans, Sampling::Few, errors);
+  if (progress_.stopped()) return;
+  for (std::size_t i = 0; painted_ && i < edges.size(); ++i)
+    if (mesh_.isCrease(edges[i]) && errors[i].smooth)
+      errors[i].largest = std::max(errors[i].largest, chordError(edges[i]));
+  std::vector<std::uint32_t> passing;
+  for (std::uint32_t i = 0; i < edges.size(); ++i)
+    if (errors[i].sound && errors[i].largest <= kCrease * tolerance_) passing.push_back(i);
+  const std::vector<FanError> closely = lookClosely(fans, passing);
+  if (progress_.stopped()) return;
+  for (std::size_t k = 0; k < passing.size(); ++k)
+    errors[passing[k]].largest = std::max(errors[passing[k]].largest, closely[k].largest);
 }
 
 bool RemeshChanges::collapseRound(std::size_t most, Care care, bool& more) {
@@ -152,7 +144,7 @@ bool RemeshChanges::collapseRound(std::size_t most, Care care, bool& more) {
   std::sort(chosen.begin(), chosen.end());
   Fans fans;
   std::vector<FanError> errors;
-  tryCollapses(chosen, care, fans, errors);
+  tryCollapses(chosen, fans, errors);
   if (progress_.stopped()) return false;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::uint32_t h = chosen[i], v = mesh_.to(h);
@@ -194,7 +186,7 @@ void RemeshChanges::collapse(Care care) {
     bool more = false;
     if (!collapseRound((before + 1) / 2, care, more)) return;
     const auto gone = static_cast<double>(before - mesh_.liveTriangles());
-    const bool enough = care == Care::Rough || (!more && before > kFewToCollapse);
+    const bool enough = !more && before > kFewToCollapse;
     if (enough && gone < kStale * static_cast<double>(before)) return;
   }
 }

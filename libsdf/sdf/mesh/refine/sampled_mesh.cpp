@@ -10,6 +10,23 @@
 
 namespace sdf {
 
+namespace {
+
+// The centroid, or the inner nodes of a grid that is no coarser than the spacing.
+void addInside(const Corners& t, float spacing, std::vector<glm::vec3>& points) {
+  const float longest =
+      std::max({glm::distance(t[0], t[1]), glm::distance(t[1], t[2]), glm::distance(t[2], t[0])});
+  const int steps = std::max(3, static_cast<int>(std::ceil(longest / spacing)));
+  for (int i = 1; i < steps; ++i)
+    for (int k = 1; i + k < steps; ++k) {
+      const float u = static_cast<float>(i) / static_cast<float>(steps),
+                  v = static_cast<float>(k) / static_cast<float>(steps);
+      points.push_back((1.0f - u - v) * t[0] + u * t[1] + v * t[2]);
+    }
+}
+
+}  // namespace
+
 // Those of a point of the triangle.
 glm::vec3 clampedWeights(const glm::vec3& weights) {
   const glm::vec3 positive = glm::max(weights, 0.0f);
@@ -26,7 +43,7 @@ OverTriangle over(const glm::vec3& p, const Corners& t) {
   return {inside, static_cast<float>(std::sqrt(nearestOf(p, t[0], t[1], t[2]).squared)), weights};
 }
 
-SampledMesh::SampledMesh(const FeatureMesh& given, const LocalField& field, Progress& progress)
+SampledMesh::SampledMesh(const FeatureMesh& given, const LocalField& field, float spacing, Progress& progress)
     : mesh(given), creaseOf(mesh.halfEdges(), kNone) {
   std::vector<char> onCreases(given.positions.size(), 0);
   for (const auto& [a, b] : given.creases) onCreases[a] = onCreases[b] = 1;
@@ -36,9 +53,8 @@ SampledMesh::SampledMesh(const FeatureMesh& given, const LocalField& field, Prog
     if (!onCreases[v] && mesh.vertexAlive(v)) triangleOf[v] = mesh.outgoing(v) / 3;
   for (Index h = 0; h < mesh.halfEdges(); ++h) {
     if (h % 3 == 0) {
-      const auto [a, b, c] = mesh.corners(h);
-      points.push_back((a + b + c) / 3.0f);
-      triangleOf.push_back(h / 3);
+      addInside(mesh.corners(h), spacing, points);
+      triangleOf.resize(points.size(), h / 3);
     }
     if (h > mesh.twin(h) || mesh.isCrease(h)) continue;
     points.push_back(0.5f * (mesh.positions[mesh.from(h)] + mesh.positions[mesh.to(h)]));

@@ -45,8 +45,9 @@ struct SampledMesh {
   static constexpr Index kNone = HalfEdgeMesh::kNone;
 
   /// The samples are the mesh's vertices, which lie on the surface, and the surface's points next to the
-  /// middles of its triangles and edges. Cost: some readings of the field for each.
-  SampledMesh(const FeatureMesh& mesh, const LocalField& field, Progress& progress);
+  /// middles of its triangles and edges, and inside of its triangles to places no farther apart than
+  /// `spacing`. Cost: some readings of the field for each.
+  SampledMesh(const FeatureMesh& mesh, const LocalField& field, float spacing, Progress& progress);
   /// Gives samples and corners their colours. `tolerance` is the distance's. Before any change.
   void paint(const LocalField& field, float tolerance, Progress& progress);
 

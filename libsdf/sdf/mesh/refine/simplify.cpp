@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "sdf/mesh/refine/blocks.h"
+#include "sdf/mesh/refine/coarsen.h"
 #include "sdf/mesh/refine/crowded.h"
 #include "sdf/mesh/refine/flip.h"
 #include "sdf/mesh/refine/missed.h"
@@ -39,6 +40,8 @@ constexpr int kOtherLooks = 12;
 constexpr float kFlat = 0.01f;
 // What is left as it is may be off by more than it was by its rounding.
 constexpr float kRounded = 1.0f + 1e-5f;
+// Of the tolerance: what coarsening may cost.
+constexpr double kCoarse = 0.25;
 // Where two sheets cross each is within a tolerance of its surface, and a vertex of each within two voxels.
 constexpr float kBesides = 2.0f;
 
@@ -52,12 +55,20 @@ struct Work {
   std::uint8_t block = MeshBlocks::kNone;
 };
 
+FeatureMesh coarsened(FeatureMesh mesh, const LocalField& field, double tolerance, bool painted,
+                      Progress& progress) {
+  coarsen(mesh, field, {.off = kCoarse * tolerance, .painted = painted}, progress);
+  return mesh;
+}
+
 class Simplifier {
  public:
   Simplifier(const FeatureMesh& mesh, const LocalField& field, double tolerance,
-             const std::vector<glm::vec3>& surface, Progress& progress)
+             const std::vector<glm::vec3>& surface, bool painted, Progress& progress)
       : field_(field),
-        sampled_(mesh, field, progress),
+        painted_(painted),
+        // Colours are seen at the samples alone, which are to be as close as the lattice's vertices.
+        sampled_(mesh, field, painted ? voxelAt(field, mesh.positions[0]) : HUGE_VALF, progress),
         mesh_(sampled_.mesh),
         tolerance_(static_cast<float>(tolerance)),
         missed_(sampled_, field, surface, tolerance_, progress),
@@ -76,9 +87,9 @@ class Simplifier {
         unflipped_(mesh_.halfEdges(), 0) {}
 
   // Colours are not collapsed beyond the tolerance: moves do not bring them back.
-  void run(bool painted) {
-    if (painted) paint();
-    const float most = painted ? 1.0f : kShares[std::size(kShares) - 1];
+  void run() {
+    if (painted_) paint();
+    const float most = painted_ ? 1.0f : kShares[std::size(kShares) - 1];
     for (const float share : kShares) collapseTo(std::min(share, most) * tolerance_);
     progress_.update(0.4);
     for (int i = 0; i < kImprovements && !progress_.stopped(); ++i) {
@@ -97,8 +108,8 @@ class Simplifier {
     progress_.update(1.0);
   }
   // No farther than the tolerance, as moves do not bring colours back; what was too far stays so.
-  void runUnresolved(bool painted) {
-    if (painted) paint();
+  void runUnresolved() {
+    if (painted_) paint();
     leaveExceeding();
     for (const float share : kShares) collapseTo(std::min(share, 1.0f) * tolerance_);
     if (mesh_.liveTriangles() > kMostToImprove) return;
@@ -128,12 +139,12 @@ class Simplifier {
   // Splits what is too far, here or seen by the field. Returns how often.
   std::size_t keep() {
     ring_.mayBend(true), keeps_ = true;
-    std::size_t all = splitExceeding();
+    std::size_t all = splitExceeding() + splitOff();
     for (int i = 0; i < kLooks && !progress_.stopped(); ++i) {
       const std::vector<Index> missed = missed_.add();
       touch(missed);
       if (missed.empty()) break;
-      const std::size_t made = splitExceeding();
+      const std::size_t made = splitExceeding() + splitOff();
       if (made == 0) break;
       all += made;
     }
@@ -149,6 +160,9 @@ class Simplifier {
         for (Index k = 0; k < 3; ++k) asItWas_[mesh_.from(h + k)] = 1;
   }
   bool isAsItWas(Index v) const { return v < asItWas_.size() && asItWas_[v]; }
+  bool isOfWhatWas(Index h) const {
+    return isAsItWas(mesh_.from(h)) || isAsItWas(mesh_.from(h + 1)) || isAsItWas(mesh_.from(h + 2));
+  }
 
   void paint() {
     sampled_.paint(field_, tolerance_, progress_);
@@ -425,18 +439,33 @@ class Simplifier {
     return ring_.place(at) && ring_.largest() <= was + too && moveTo(at, whole_);
   }
 
+  // Splits what sticks out of the surface, of which no sample tells. Returns how often.
+  std::size_t splitOff() {
+    std::size_t made = 0;
+    for (const OffSurface& off : missed_.takeOff())
+      if (mesh_.alive(off.triangle) && mesh_.corners(off.triangle) == off.corners &&
+          !isOfWhatWas(off.triangle) && splitNextTo(off.triangle, off.at, off.next))
+        ++made;
+    if (made > 0) flipAll(), moveAll();
+    return made;
+  }
+
   // Splits the side of the triangle that is next to its farthest sample, there.
   bool splitIfExceeding(Index h) {
-    if (isAsItWas(mesh_.from(h)) || isAsItWas(mesh_.from(h + 1)) || isAsItWas(mesh_.from(h + 2)))
-      return false;
+    if (isOfWhatWas(h)) return false;
     const SampledMesh::Farthest farthest = sampled_.farthestOf(h / 3);
     if (!(farthest.distance > tolerance_)) return false;
     const glm::vec3 p = sampled_.samples[farthest.sample].at;
+    return splitNextTo(h, p, p);
+  }
+
+  // The same of the side that is next to a place, at a point of the surface.
+  bool splitNextTo(Index h, const glm::vec3& place, const glm::vec3& p) {
     std::array<std::pair<float, Index>, 3> sides;
     for (Index k = 0; k < 3; ++k) {
       const glm::vec3 from = mesh_.positions[mesh_.from(h + k)],
                       way = mesh_.positions[mesh_.to(h + k)] - from;
-      sides[k] = {glm::length(glm::cross(p - from, way)) / glm::length(way), h + k};
+      sides[k] = {glm::length(glm::cross(place - from, way)) / glm::length(way), h + k};
     }
     std::ranges::sort(sides);
     // There, else in the middle of a side; on a crease at one of its samples.
@@ -497,6 +526,7 @@ class Simplifier {
   }
 
   const LocalField& field_;
+  bool painted_;  // are colours held?
   SampledMesh sampled_;
   HalfEdgeMesh& mesh_;
   float tolerance_;
@@ -527,8 +557,9 @@ bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
               const std::vector<glm::vec3>& surface,
               const std::function<std::vector<glm::vec3>(const FeatureMesh&)>& exceeding, bool painted,
               Progress& progress) {
-  Simplifier simplifier(mesh, field, tolerance, surface, progress);
-  simplifier.run(painted);
+  Simplifier simplifier(coarsened(mesh, field, tolerance, painted, progress), field, tolerance, surface,
+                        painted, progress);
+  simplifier.run();
   std::vector<glm::vec3> asked;
   const auto isAsked = [&](const glm::vec3& p) { return std::ranges::find(asked, p) != asked.end(); };
   for (int i = 0;; ++i) {
@@ -543,8 +574,9 @@ bool simplify(FeatureMesh& mesh, const LocalField& field, double tolerance,
 
 void simplifyUnresolved(FeatureMesh& mesh, const LocalField& field, double tolerance, bool painted,
                         Progress& progress) {
-  Simplifier simplifier(mesh, field, tolerance, {}, progress);
-  simplifier.runUnresolved(painted);
+  Simplifier simplifier(coarsened(mesh, field, tolerance, painted, progress), field, tolerance, {}, painted,
+                        progress);
+  simplifier.runUnresolved();
   mesh = simplifier.take();
 }
 

@@ -16,6 +16,7 @@
 #include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/refine/close_creases.h"
+#include "sdf/mesh/refine/coarsen.h"
 #include "sdf/mesh/refine/remesh.h"
 #include "sdf/mesh/refine/remesh_measure.h"
 #include "sdf/mesh/surface/local_field.h"
@@ -23,6 +24,9 @@
 namespace sdf {
 namespace {
 
+// Coarsening leaves the vertices on the surface, so that the error is on one side: so much of the tolerance
+// leaves remeshing to do its work.
+constexpr double kRough = 0.7;
 // What misses the tolerance by little is held to this share of what would have kept it, down to the least.
 constexpr double kStricter = 0.95, kStrictest = 0.5;
 // Where remeshing fails the mesh is held so many voxels around, each time so many times as far, so often.
@@ -107,7 +111,7 @@ class Thinner {
   }
 
   FeatureMesh thinned(FeatureMesh mesh, double tolerance) {
-    thinRoughly(mesh, field_, {.tolerance = tolerance, .painted = options_.painted}, progress_);
+    coarsen(mesh, field_, {kRough * tolerance, options_.painted}, progress_);
     return mesh;
   }
 
