@@ -1,12 +1,17 @@
 // A shape's mesh as it comes from the band.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <utility>
 #include <vector>
 
 #include "mesh/scenes.h"
 #include "sdf/mesh/creases/borders.h"
 #include "sdf/mesh/creases/sharpen.h"
+#include "sdf/mesh/edit/crossings.h"
 #include "sdf/mesh/edit/feature_mesh.h"
+#include "sdf/mesh/measure/topology.h"
+#include "sdf/mesh/mesh.h"
 #include "sdf/mesh/surface/project.h"
 
 namespace sdf::test {
@@ -27,5 +32,15 @@ struct LatticeMesh {
   BandField field;
   FeatureMesh mesh;
 };
+
+/// Is it closed, manifold, without crossings, of so many components and with this Euler characteristic?
+inline void expectTopology(const FeatureMesh& mesh, int components, int euler) {
+  MeshStats stats;
+  measureTopology(mesh.triangles, mesh.positions.size(), stats);
+  EXPECT_TRUE(stats.watertight && stats.manifold);
+  EXPECT_EQ(stats.components, components);
+  EXPECT_EQ(stats.eulerCharacteristic, euler);
+  EXPECT_TRUE(crossingTriangles(mesh.positions, mesh.triangles).empty());
+}
 
 }  // namespace sdf::test

@@ -28,15 +28,6 @@ FeatureMesh simplified(const Fine& fine, double tolerance) {
   return mesh;
 }
 
-void expectTopology(const FeatureMesh& mesh, int components, int euler) {
-  MeshStats stats;
-  measureTopology(mesh.triangles, mesh.positions.size(), stats);
-  EXPECT_TRUE(stats.watertight && stats.manifold);
-  EXPECT_EQ(stats.components, components);
-  EXPECT_EQ(stats.eulerCharacteristic, euler);
-  EXPECT_TRUE(crossingTriangles(mesh.positions, mesh.triangles).empty());
-}
-
 // The largest |distance(p)| of 16 random points of each triangle.
 template <class Distance>
 double farthest(const FeatureMesh& mesh, const Distance& distance) {

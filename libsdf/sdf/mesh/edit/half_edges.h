@@ -54,6 +54,12 @@ class HalfEdgeMesh {
   /// vertex that is not free counts as.
   int creasesAt(Index v) const { return creases_[v]; }
   bool adjacent(Index u, Index v) const;
+  /// The next half-edge out of from(h) that is a crease; h itself if there is no other.
+  Index otherOnCrease(Index h) const {
+    Index e = turned(h);
+    while (e != h && !isCrease(e)) e = turned(e);
+    return e;
+  }
 
   /// Whether from(h) can be merged into to(h): the link condition, and creases stay apart and keep their
   /// corners.

@@ -29,9 +29,6 @@ constexpr float kApart = 4.0f;
 constexpr int kTipRings = 3;
 // Stars grow no larger: what follows looks at all of a star at once.
 constexpr int kMostAround = 12;
-// Cosine: triangles are turned by less, and from the normals at their corners. What follows lets pass
-// kFacing, and needs room at tips.
-constexpr float kTurned = 0.8f;
 // The edges that are collapsed first, times the mean; and how many times as long ones the next pass takes.
 // Two passes that take out less than this share of the triangles are the last.
 constexpr float kFirstEdges = 1.5f, kLonger = 1.4f;
@@ -92,14 +89,15 @@ class Coarsener {
         bends_(mesh_.halfEdges(), 0.0f) {
     std::vector<glm::vec3> normals;
     gradientNormals(mesh.positions, field, progress, normals);
-    stays_ = crowdedVertices(mesh_, normals, meanEdge() + kApart * limit_);
+    edge_ = meanEdge();
+    stays_ = crowdedVertices(mesh_, normals, edge_ + kApart * limit_);
     for (Index v = 0; v < mesh.held.size(); ++v)
       if (mesh.held[v] == Hold::Tip) keepAround(v, kTipRings);
     corners_ = readCorners(mesh_, field, painted_, normals, progress);
   }
 
   FeatureMesh run() {
-    float longest = kFirstEdges * meanEdge();
+    float longest = kFirstEdges * edge_;
     for (int last = 0; last < 2 && !progress_.stopped(); longest *= kLonger) {
       const std::size_t before = mesh_.liveTriangles();
       for (Index h = 0; h < mesh_.halfEdges(); ++h)
@@ -186,16 +184,10 @@ class Coarsener {
     return kArc * std::max(std::abs(glm::dot(a.normal, way)), std::abs(glm::dot(b.normal, way))) <= limit_;
   }
 
-  // The other neighbour of from(h) along the crease that h is on.
-  Index otherAlongCrease(Index h) const {
-    Index e = mesh_.turned(h);
-    while (!mesh_.isCrease(e)) e = mesh_.turned(e);
-    return e;
-  }
   // Where from(h) is between its two neighbours on its crease, as a share of the way to to(h); and how far
   // beside.
   std::pair<float, float> placeOnCrease(Index h) const {
-    const glm::vec3 d = -along(otherAlongCrease(h)), way = d + along(h);
+    const glm::vec3 d = -along(mesh_.otherOnCrease(h)), way = d + along(h);
     const float t = glm::dot(d, way) / glm::dot(way, way);
     return {t, glm::distance(d, t * way)};
   }
@@ -203,21 +195,21 @@ class Coarsener {
   // of it.
   float bendWithout(Index h) const {
     const auto [t, off] = placeOnCrease(h);
-    return t > 0.0f && t < 1.0f ? std::max(bends_[h], bends_[otherAlongCrease(h)]) + off : HUGE_VALF;
+    return t > 0.0f && t < 1.0f ? std::max(bends_[h], bends_[mesh_.otherOnCrease(h)]) + off : HUGE_VALF;
   }
   void merge(Index h, float bend) {
     for (const Index side : {h, mesh_.twin(h)}) {  // what comes to lie on each other
       const Index n = mesh_.twin(HalfEdgeMesh::next(side)), p = mesh_.twin(HalfEdgeMesh::previous(side));
       bends_[n] = bends_[p] = std::max(bends_[n], bends_[p]);
     }
-    const Index rest = mesh_.isCrease(h) ? otherAlongCrease(h) : h, back = mesh_.twin(rest);
+    const Index rest = mesh_.isCrease(h) ? mesh_.otherOnCrease(h) : h, back = mesh_.twin(rest);
     mesh_.collapse(h);
     for (const Index side : {rest, back})
       if (mesh_.alive(side)) bends_[side] = bends_[mesh_.twin(side)] = bend;
   }
   // How far the colours of a vertex on a crease, on either side, are from those that its neighbours make.
   float creaseColors(Index h) const {
-    const Index e = otherAlongCrease(h), g = mesh_.twin(h);
+    const Index e = mesh_.otherOnCrease(h), g = mesh_.twin(h);
     const float t = placeOnCrease(h).first;
     const auto off = [&](Index own, Index other, Index to) {
       return difference(corners_[own].color,
@@ -259,7 +251,7 @@ class Coarsener {
   }
 
   HalfEdgeMesh mesh_;
-  float limit_;
+  float limit_, edge_ = 0.0f;  // what it may be off, and the mean of the edges at first
   bool painted_;
   Progress& progress_;
   std::vector<char> stays_;      // by vertex

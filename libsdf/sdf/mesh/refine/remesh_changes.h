@@ -64,7 +64,6 @@ class RemeshChanges {
   void dropWorse(const Fans& before, const Fans& after, std::vector<std::uint32_t>& changes) const;
   void readNormals();
   float collapseCost(std::uint32_t h) const;
-  std::uint32_t alongCrease(std::uint32_t h) const;
   float creaseCost(std::uint32_t h) const;
   float chordError(std::uint32_t h) const;
   std::uint32_t collapsible(std::uint32_t h) const;

@@ -29,16 +29,9 @@ constexpr float kFlatLeft = 1e-3f;
 
 }  // namespace
 
-// The other neighbour of the crease vertex from(h) along its crease.
-std::uint32_t RemeshChanges::alongCrease(std::uint32_t h) const {
-  std::uint32_t e = mesh_.turned(h);
-  while (e != h && !mesh_.isCrease(e)) e = mesh_.turned(e);
-  return mesh_.to(e);
-}
-
 // Distance of the crease vertex from(h) from the chord that a collapse leaves in its place.
 float RemeshChanges::creaseCost(std::uint32_t h) const {
-  const glm::vec3 p = mesh_.positions[mesh_.from(h)], a = mesh_.positions[alongCrease(h)],
+  const glm::vec3 p = mesh_.positions[mesh_.from(h)], a = mesh_.positions[mesh_.to(mesh_.otherOnCrease(h))],
                   along = mesh_.positions[mesh_.to(h)] - a;
   const float length = glm::length(along);
   return length > 0.0f ? 2.0f * glm::length(glm::cross(p - a, along)) / length : 0.0f;
@@ -47,7 +40,7 @@ float RemeshChanges::creaseCost(std::uint32_t h) const {
 // How far that chord is from the crease, taken as a parabola through its ends and the vertex.
 float RemeshChanges::chordError(std::uint32_t h) const {
   const glm::vec3 p = mesh_.positions[mesh_.from(h)];
-  const float a = glm::distance(p, mesh_.positions[alongCrease(h)]),
+  const float a = glm::distance(p, mesh_.positions[mesh_.to(mesh_.otherOnCrease(h))]),
               b = glm::distance(p, mesh_.positions[mesh_.to(h)]);
   return a > 0.0f && b > 0.0f ? 0.5f * creaseCost(h) * (a + b) * (a + b) / (4.0f * a * b) : 0.0f;
 }
