@@ -19,9 +19,9 @@
 #include "sdf/mesh/edit/crossings.h"
 #include "sdf/mesh/edit/feature_mesh.h"
 #include "sdf/mesh/edit/uncross.h"
+#include "sdf/mesh/measure/against_stated.h"
 #include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/measure/last_measured.h"
-#include "sdf/mesh/measure/steepest.h"
 #include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/measure/witnesses.h"
@@ -57,16 +57,6 @@ std::string unboundedAxes(const Box& b) {
   return text;
 }
 
-std::string place(const glm::dvec3& p) {
-  return "(" + shown(p.x) + ", " + shown(p.y) + ", " + shown(p.z) + ")";
-}
-
-// How far a point is beyond the sides of a box; negative inside.
-double beyond(const Box& box, const glm::dvec3& p) {
-  const glm::dvec3 d = glm::max(box.min - p, p - box.max);
-  return std::max({d.x, d.y, d.z});
-}
-
 Error sceneError(const std::string& name, const std::string& what) {
   return {ErrorKind::Scene, "part '" + name + "': " + what};
 }
@@ -77,9 +67,6 @@ Shape cut(const Shape& shape, const Box& bounds, const Box& by) {
   return intersect(shape, translate(box(Vec3E(by.size() * 0.5)), Vec3E(by.centre())));
 }
 
-// Times a slope that is stated: what is steeper refutes it. Chosen: far above the rounding of readings in
-// double, and below what tears a mesh.
-constexpr double kRefuted = 1.001;
 // Of the longest side of the bounds: below it positions, which are floats, cannot keep a tolerance.
 constexpr double kLeastTolerance = 0x1p-20;
 // Of a coordinate: what lies between it and the next float at most. A voxel has to have some of them.
@@ -278,7 +265,7 @@ class Mesher {
       move(*p);
   }
 
-  std::string placeOf(const glm::dvec3& p) const { return place(p + origin_); }
+  std::string placeOf(const glm::dvec3& p) const { return shownPlace(p + origin_); }
 
   Result<std::unique_ptr<Lattice>> sample(const ModelTapes& model, const Box& bounds, double voxel) {
     begin("sampling");
@@ -525,7 +512,7 @@ class Mesher {
     const std::vector<float>& distances = measured_.fromMesh(mesh, field, progress_, result_.stats);
     measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    return checkClaims(mesh, bounds, voxel, distances, model);
+    return checkStated(mesh, bounds, voxel, distances, model);
   }
 
   // Would voxels as small as these see what the present ones do not? Solids that touch are thinner than any.
@@ -546,7 +533,7 @@ class Mesher {
     measureTopology(features.triangles, features.positions.size(), result_.stats);
     measureCrossings(features.positions, features.triangles, result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    if (Status s = checkClaims(features, bounds, voxel, distances, model); !s) return s.error();
+    if (Status s = checkStated(features, bounds, voxel, distances, model); !s) return s.error();
     measureToMesh(features, field, model, bounds);
     if (Status s = checkTolerance(); !s) return s.error();
     if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
@@ -620,45 +607,10 @@ class Mesher {
 
   // Refuses a mesh that leaves the bounds that are stated of the shape, or is not the shape's. `distances`
   // are the vertices' to the surface.
-  Status checkClaims(const FeatureMesh& mesh, const Box& bounds, double voxel,
+  Status checkStated(const FeatureMesh& mesh, const Box& bounds, double voxel,
                      const std::vector<float>& distances, const ModelTapes& model) const {
-    const MeshStats& stats = result_.stats;
-    // Refinement may move a vertex by a voxel, remeshing by the tolerance, and the surface be as far from it.
-    const double near = std::max(voxel, stats.tolerance);
-    double farthest = near;
-    const glm::vec3* outside = nullptr;
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-      if (const double d = beyond(bounds, mesh.positions[i]); d > farthest && distances[i] < near)
-        farthest = d, outside = &mesh.positions[i];
-    if (outside)
-      return sceneError(name_, "the surface leaves the bounds " + placeOf(bounds.min) + " to " +
-                                   placeOf(bounds.max) + " that are stated for it, at " + placeOf(*outside) +
-                                   "; enlarge the bounds of its field, or leave them out");
-    if (!stats.watertight) {
-      const glm::dvec3 open = mesh.positions[*openVertex(mesh.triangles, mesh.positions.size())];
-      return notTheShapes("torn open at " + placeOf(open), open, voxel, model);
-    }
-    if (stats.maxDistance > std::max(kFarthestVoxels * voxel, stats.tolerance))
-      return notTheShapes("off by about " + shown(stats.maxDistance) + ", " +
-                              shown(stats.maxDistance / voxel) + " voxels, at " + placeOf(stats.farthest),
-                          stats.farthest, voxel, model);
-    return okStatus();
-  }
-
-  // An error for a mesh that has this fault at a place. It names the slope that is stated of the distance
-  // only where that is seen to be false.
-  Error notTheShapes(const std::string& fault, const glm::dvec3& at, double voxel,
-                     const ModelTapes& model) const {
-    const double reach = std::max(kFarthestVoxels * voxel, result_.stats.maxDistance);
-    const Steepest steepest = steepestAround(at, reach, *model.whole());
-    const std::string is = "the mesh is " + fault;
-    if (steepest.slope > kRefuted * model.slope())
-      return sceneError(name_, is + ": near " + placeOf(steepest.at) + " the distance changes by " +
-                                   shown(steepest.slope) + " a unit of length, and what is stated of the " +
-                                   "shape allows " + shown(model.slope()) +
-                                   ". Enlarge the lipschitz of its field, or leave it out");
-    return sceneError(name_, is + ", though nothing that is stated of the shape is seen to be false there; "
-                                  "take a smaller voxel size");
+    const auto fault = faultOf({mesh, distances, result_.stats, bounds, voxel, origin_}, model);
+    return fault ? Status(sceneError(name_, *fault)) : okStatus();
   }
 
   // Proves the distance, if that is asked for.
@@ -746,7 +698,7 @@ Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const
                               Progress& progress) {
   if (!isBySize(shape, options)) return Mesher(name, options, progress).run(shape);
   const double voxel = voxelSizeOf(options, shape.bounds);
-  // A mesh leaves its bounds by no more than the larger (checkClaims), so that two cannot meet.
+  // A mesh leaves its bounds by no more than the larger (faultOf), so that two cannot meet.
   const std::vector<Piece> pieces = isolatedPieces(shape, 2.0 * std::max(voxel, options.tolerance));
   if (pieces.size() > 1) {
     const auto mesh = [&](const Shape& piece, Progress& own) {
