@@ -48,6 +48,15 @@ std::vector<Steeply> steep() {
       {"blended", unite(whole, translate(sphere(0.5), Vec3E(0.9, 0.9, 0.0)), {Blend::Kind::Quadratic, 0.1})},
       {"displaced", displace(whole, 0.03 * sin(20.0 * x))},
       {"in a grid", repeatGrid(scale(whole, Vec3E(0.4)), Vec3E(1.5, 0.0, 1.5), glm::ivec3(2, 1, 2))},
+      {"in a grid without end", repeatGrid(whole, Vec3E(3.5, 0.0, 3.5))},
+      {"in a grid that is turned",
+       scale(rotate(repeatGrid(whole, Vec3E(3.0, 3.5, 0.0)), Vec3E(0.4, 0.3, 0.2)), Vec3E(0.7))},
+      {"in a grid that is cut", intersect(repeatGrid(whole, Vec3E(3.5, 0.0, 3.5)), cylinder(3.0, 3.0))},
+      {"about an axis", polarRepeat(translate(rotate(whole, Vec3E(0.4, 0.3, 0.2)), Vec3E(4.0, 0.0, 0.0)), 7)},
+      {"about an axis, each its own mirror image", polarRepeat(translate(whole, Vec3E(4.0, 0.0, 0.0)), 7)},
+      {"about an axis, stretched",
+       scale(polarRepeat(translate(rotate(whole, Vec3E(0.4, 0.3, 0.2)), Vec3E(4.0, 0.0, 0.0)), 5),
+             Vec3E(1.0, 1.5, 1.0))},
       {"heart", field(heart, {{-1.6, -1.6, -1.2}, {1.6, 1.6, 1.2}})},
       {"quartic", field(x * x * x * x + y * y * y * y + z * z * z * z - 1.0, Box::centred(glm::dvec3(1.2)))},
       {"product", field((ball - 0.5) * (ball + 1.0), Box::centred(glm::dvec3(1.0)))},
@@ -59,7 +68,8 @@ std::vector<Steeply> steep() {
 TEST(StepsByRegion, AreFreeOfTheSurface) {
   for (const auto& [name, shape] : steep()) {
     const Marchable m = marchable(shape, Steps::ByRegion), slow = marchable(shape);
-    const Box around = shape.bounds.grown(0.3 * shape.bounds.longestSide());
+    const Box around = shape.bounds.finite() ? shape.bounds.grown(0.3 * shape.bounds.longestSide())
+                                             : Box::centred(glm::dvec3(8.0, 2.0, 8.0));
     const TapePtr distance = Function(m.distance).at(), step = Function(m.step).at(),
                   bySlope = Function(slow.step).at();
     Random random(7);

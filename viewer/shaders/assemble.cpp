@@ -80,9 +80,11 @@ std::string choosing(const Plan& plan) {
 bool startsHere(const Plan& plan) { return plan.cones && !plan.grouped && plan.options.view != View::Slice; }
 
 // Shadows of these kinds are looked for between the half spaces, the balls and the rest.
-bool readsRest(const Plan& plan) {
-  return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft || plan.sized;
+bool marchesRest(const Plan& plan) {
+  return plan.shadow == ShadowKind::Hard || plan.shadow == ShadowKind::Soft;
 }
+
+bool readsRest(const Plan& plan) { return marchesRest(plan) || plan.sized; }
 
 const Box& boundsOfRest(const Plan& plan) { return plan.rest ? plan.rest->bounds : plan.whole.bounds; }
 
@@ -123,6 +125,7 @@ Macros pictureMacros(const Scene& scene, const Plan& plan, const std::string& ta
   macros["SHADE_LIGHT"] =
       plan.shadow == ShadowKind::None ? "" : "if (lightColor[i].w > 0.0) light *= arriving(i, p, l, far);";
   macros["READ_BY_SHADOWS(p, enough)"] = readsRest(plan) ? "rest(p, enough)" : "field(p)";
+  macros["READS_MORE"] = readsRest(plan) && !marchesRest(plan) ? "true" : "false";
   macros["SHADOW_SPENT"] = plan.shadow == ShadowKind::None ? "false" : "shadowSpent";
   macros["ERROR_COLORS"] = std::to_string(kErrorColors.size());
   macros["ATTRIBUTES"] = std::to_string(kAttributeCount);

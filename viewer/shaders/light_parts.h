@@ -114,20 +114,21 @@ uniform int shadowSteps;
 
 bool shadowSpent = false;  // a ray of the pixel's shadows ran out of steps
 
-// How far one may go and how far the surface is, from a reading g near it. The slope is that of what is marched: what
-// is nearer than that, such as a half space, is as far as it says.
+// How far one may go and how far the surface is, from a reading g near it: a root of order m is m times as far as the
+// value is by its slope, and the value bends with m (Schroeder 1870). A reading of more than what is marched, such as a
+// half space, is as far as it says where that is less.
 vec2 seen(vec3 p, vec2 g) {
-  if (!LOOSE || g.y <= 0.0) return g;
-  float h = 1e-4 * max(unit, max(abs(p.x), max(abs(p.y), abs(p.z)))), marched = 0.0;
+  if (!LOOSE || g.y <= 0.0 || READS_MORE && g.y < READ_BY_SHADOWS(p, 2.0 * g.y).y) return g;
+  float h = 1e-4 * max(unit, max(abs(p.x), max(abs(p.y), abs(p.z))));
   vec3 slope = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     vec3 corner = vec3(float(((i + 3) >> 1) & 1), float((i >> 1) & 1), float(i & 1)) * 2.0 - 1.0;
-    float f = READ_BY_SHADOWS(p + h * corner, 2.0 * g.y).y;
-    slope += 0.25 / h * f * corner;
-    marched += 0.25 * f;
+    slope += 0.25 / h * READ_BY_SHADOWS(p + h * corner, 2.0 * g.y).y * corner;
   }
-  if (g.y < 0.5 * marched) return g;
-  float far = max(g.x, g.y / max(length(slope), 1e-30));
+  float steep = max(length(slope), 1e-30), first = g.y / steep;
+  vec3 way = 0.5 * first / steep * slope;
+  float both = READ_BY_SHADOWS(p + way, 2.0 * g.y).y + READ_BY_SHADOWS(p - way, 2.0 * g.y).y;
+  float far = max(g.x, first / (1.0 - clamp(4.0 * (both / g.y - 2.0), 0.0, 0.75)));
   return vec2(max(g.x, min(0.5 * far, shadowHit)), far);
 }
 
@@ -175,7 +176,7 @@ float shadow(vec3 p, vec3 l, float reach) {
   for (int i = 0; i < shadowSteps && t < reach; ++i) {
     vec2 g = rest(p + t * l, 1.2 * t / sharpness);
     COUNT_SHADOW
-    if (g.y < t / sharpness) g = seen(p + t * l, g);
+    if (min(g.x, g.y) < t / sharpness) g = seen(p + t * l, g);
     if (max(g.x, g.y) <= shadowHit) return 0.0;
     float ratio = g.y / t, step = t - far, rise = (g.y * g.y - least * least * far * far) / step;
     light = min(light, sharpness * ratio);
@@ -203,7 +204,7 @@ float shadow(vec3 p, vec3 l, float reach) {
   for (int i = 0; i < shadowSteps && (i == 0 || t < reach); ++i) {
     vec2 both = field(p + t * l);
     COUNT_SHADOW
-    if (both.y < t / sharpness) both = seen(p + t * l, both);
+    if (min(both.x, both.y) < t / sharpness) both = seen(p + t * l, both);
     float f = both.y;
     if (max(both.x, f) <= shadowHit) return 0.0;
     float y = step > 0.0 && !LOOSE ? (step * step + f * f - before * before) / (2.0 * step) : 0.0;
@@ -224,7 +225,7 @@ float shadow(vec3 p, vec3 l, float reach) {
   for (int i = 0; i < shadowSteps && (i == 0 || t < reach); ++i) {
     vec2 g = field(p + t * l);
     COUNT_SHADOW
-    if (g.y < t / sharpness) g = seen(p + t * l, g);
+    if (min(g.x, g.y) < t / sharpness) g = seen(p + t * l, g);
     x = min(x, sharpness * g.y / t);
     if (x <= -1.0) return 0.0;
     t += max(abs(g.x), shadowHit);

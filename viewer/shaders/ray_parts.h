@@ -162,7 +162,8 @@ float march(Ray ray, out int status, out int readings) {
     float next = both.x;
     ++readings;
     bool inside = (step == BEHIND || step == ALONG) && next <= 0.0;
-    if (inside && z <= 8.0 * near) {
+    bool crosses = LOOSE && r > 0.0 && next <= 0.0 && (step == ONTO || z <= r);
+    if (crosses || inside && z <= 8.0 * near) {
       status = HIT;
       if (LOOSE && r > 0.0) return min(t + between(ray, t, z, r, next, near / 512.0, readings), tMax);
       return min(t + max(0.0, 4095.0 / 4096.0 * min(0.8 * z, z * r / (r - next))), tMax);

@@ -184,7 +184,7 @@ Marched marchedOf(const OperandKind& kind, const Box& bounds) {
 Marched leastOf(const std::vector<NumberedOperand>& operands, Steps steps) {
   std::vector<Steep> all;
   for (const NumberedOperand& operand : operands)
-    all.push_back({operand.distance, operand.slope, operand.bounds});
+    all.push_back({operand.distance, operand.slope, operand.bounds, operand.copies});
   const Marchable least = sdf::leastOf(all, steps);
   return {hoisted(least.distance), hoisted(least.step)};
 }

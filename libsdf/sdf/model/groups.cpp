@@ -207,8 +207,12 @@ Attributes chosen(std::span<const Attributes> all, const Expr& number) {
 }
 
 NumberedOperand numbered(const Shape& shape, double number) {
-  return {withoutClaims({&shape.distance, 1}).front(), shape.bounds, growthOf(shape.claim), number,
-          slopeOf(shape)};
+  return {withoutClaims({&shape.distance, 1}).front(),
+          shape.bounds,
+          growthOf(shape.claim),
+          number,
+          slopeOf(shape),
+          steepOf(shape).copies};
 }
 
 Attributes attributesFrom(const std::vector<Expr>& list) {

@@ -15,7 +15,8 @@ struct NumberedOperand {
   Box bounds;
   double growth;  ///< see Claim
   double number;
-  double slope = 1.0;  ///< of the distance; infinite where it is not known
+  double slope = 1.0;                      ///< of the distance; infinite where it is not known
+  std::shared_ptr<const Copies> copies{};  ///< see Shape
 };
 
 /// Is it the least of several operands, not blended?

@@ -119,12 +119,27 @@ double divisorOf(double slope) {
   return slope >= 1.0 && isOneLipschitz(slope) ? 1.0 : std::max(slope, kConstant);
 }
 
-Expr stepOf(const Expr& distance, double divisor, const Box& bounds, Steps steps) {
+// By regions of the one that is copied; nothing where these lead no farther.
+std::optional<Expr> stepByCopies(const Copies& copies) {
+  const Expr one = marchable(copies.one, Steps::ByRegion).step;
+  if (one == marchable(copies.one).step) return {};
+  std::optional<Expr> least = copies.others;
+  for (const auto& [x, y, z] : copies.places) {
+    const Expr seen = remap(one, {x, y, z}, kInfinity);
+    least = least ? min(*least, seen) : seen;
+  }
+  return least;
+}
+
+Expr stepOf(const Steep& steep, Steps steps) {
+  const auto& [distance, slope, bounds, copies] = steep;
+  const double divisor = divisorOf(slope);
   if (divisor == 1.0) return distance;
   Expr step = distance * (1.0 / divisor);
   if (divisor < 1.0 || bounds.empty()) return step;
   if (const auto outside = outsideBox(bounds)) step = max(step, *outside);
-  const auto near = steps == Steps::ByRegion ? stepByRegion(distance, bounds, divisor) : std::nullopt;
+  if (steps == Steps::BySlope) return step;
+  const auto near = copies ? stepByCopies(*copies) : stepByRegion(distance, bounds, divisor);
   return near ? max(step, *near) : step;
 }
 
@@ -144,7 +159,7 @@ Marchable leastOf(std::span<const Shape> operands, Steps steps) {
   std::optional<Marchable> others;
   for (const Shape& operand : operands) {
     if (slopeOf(operand) < kInfinity) {
-      known.push_back({operand.distance, slopeOf(operand), operand.bounds});
+      known.push_back(steepOf(operand));
       continue;
     }
     const Marchable one = marchable(operand, steps);
@@ -157,36 +172,46 @@ Marchable leastOf(std::span<const Shape> operands, Steps steps) {
 
 }  // namespace
 
+Steep steepOf(const Shape& shape) {
+  const double slope = divisorOf(slopeOf(shape));
+  return {shape.distance, slope, shape.bounds, slope > 1.0 ? shape.copies : nullptr};
+}
+
 Marchable leastOf(std::span<const Steep> all, Steps steps) {
   constexpr std::size_t kMostByRegion = 3;  // each of which a shader has a texture for
   struct Alike {
     std::vector<Expr> distances;
     Box bounds;
+    std::shared_ptr<const Copies> copies;
   };
-  std::map<double, Alike> bySlope;
+  std::map<std::pair<double, std::size_t>, Alike> bySlope;  // what is copied alone
   for (const Steep& one : all) {
-    const auto [alike, isFirst] = bySlope.try_emplace(divisorOf(one.slope), Alike{{}, one.bounds});
-    alike->second.distances.push_back(one.distance);
-    alike->second.bounds = unite(alike->second.bounds, one.bounds);
+    Alike& alike = bySlope[{divisorOf(one.slope), one.copies ? bySlope.size() + 1 : 0}];
+    alike.distances.push_back(one.distance);
+    alike.bounds = unite(alike.bounds, one.bounds);
+    alike.copies = one.copies;
   }
   std::vector<Expr> distances, ways;
-  for (std::size_t left = bySlope.size(); const auto& [slope, alike] : bySlope) {
+  for (std::size_t left = bySlope.size(); const auto& [key, alike] : bySlope) {
     distances.push_back(leastOf(alike.distances));
     const Steps here = left-- <= kMostByRegion ? steps : Steps::BySlope;
-    ways.push_back(stepOf(distances.back(), slope, alike.bounds, here));
+    ways.push_back(stepOf(Steep{distances.back(), key.first, alike.bounds, alike.copies}, here));
   }
-  return {leastOf(distances), leastOf(ways), bySlope.rbegin()->first};
+  return {leastOf(distances), leastOf(ways), bySlope.rbegin()->first.first};
 }
 
 Marchable marchable(const Shape& shape, Steps steps) {
-  const double slope = divisorOf(slopeOf(shape));
+  const Steep steep = steepOf(shape);
   if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard) {
-    const auto isAlike = [&](const Shape& operand) { return divisorOf(slopeOf(operand)) == slope; };
-    if (slope == kInfinity || !std::ranges::all_of(shape.outer->operands, isAlike))
+    const auto isAlike = [&](const Shape& operand) {
+      const Steep one = steepOf(operand);
+      return one.slope == steep.slope && !one.copies;
+    };
+    if (steep.slope == kInfinity || !std::ranges::all_of(shape.outer->operands, isAlike))
       return leastOf(shape.outer->operands, steps);
   }
-  if (slope == kInfinity) return {shape.distance, shape.distance, kInfinity};
-  return {shape.distance, stepOf(shape.distance, slope, shape.bounds, steps), slope};
+  if (steep.slope == kInfinity) return {shape.distance, shape.distance, kInfinity};
+  return {shape.distance, stepOf(steep, steps), steep.slope};
 }
 
 }  // namespace sdf

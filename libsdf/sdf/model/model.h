@@ -1,6 +1,7 @@
 // Model: a shape made ready for its readings.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -109,7 +110,11 @@ struct Steep {
   Expr distance;
   double slope;
   Box bounds = Box::everything();
+  std::shared_ptr<const Copies> copies{};  ///< what it is copies of, if its steps go by theirs
 };
+
+/// A shape's distance, where it is copies of one and steeper than 1 with these.
+Steep steepOf(const Shape& shape);
 
 /// What steps go by.
 enum class Steps {

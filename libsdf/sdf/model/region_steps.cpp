@@ -12,9 +12,8 @@
 #include <mutex>
 #include <vector>
 
-#include "sdf/eval/function.h"
-#include "sdf/eval/scalar_reading.h"
 #include "sdf/expr/payload.h"
+#include "sdf/model/case_reading.h"
 
 namespace sdf {
 namespace {
@@ -78,23 +77,15 @@ struct Cube {
 // The cubes of a box, halved where they may hold the surface.
 class Cubes {
  public:
-  Cubes(const Expr& distance, const Box& box, double slope) : tape_(Function(distance).at()), slope_(slope) {
+  Cubes(const Expr& distance, const Box& box, double slope)
+      : distance_(std::make_shared<CaseReading>(distance)), slope_(slope) {
     const double side = box.longestSide() / kFirst;
     size_ = glm::max(glm::ivec3(glm::ceil(box.size() / side)), 1) + 2;
     side_ = side;
     origin_ = box.centre() - 0.5 * side * glm::dvec3(size_);
     cubes_.assign(count(), {});
     for (std::size_t i = 0; i < count(); ++i) cubes_[i] = read(i);
-    // Some hundredths of a second's worth, as long as more cubes may help.
-    constexpr double kPromising = 1.25;
-    const std::size_t most =
-        std::clamp<std::size_t>(kMostOperations / tape_->instructions().size(), 1000, kMostCubes);
-    const auto mayHalve = [&] {
-      return 2 * std::max({size_.x, size_.y, size_.z}) <= kMostAlong && 8 * mixed() <= most;
-    };
-    if (mayHalve())
-      halve();  // copies of a shape are told from one another by cubes that are small beside them
-    while (mayHalve() && gain() > kPromising) halve();
+    divide();
   }
 
   double side() const { return side_; }
@@ -146,18 +137,36 @@ class Cubes {
   Cube read(std::size_t i) {
     const glm::dvec3 low = origin_ + side_ * glm::dvec3(placeOf(i));
     const Box box = Box{low, low + side_}.grown(1e-4 * side_);
-    const Interval value = evaluate(*tape_, box, reading_);
+    const auto [value, slope] = distance_->read(box);
     const auto side = value.nan        ? Cube::Side::Mixed
                       : value.lo > 0.0 ? Cube::Side::Outside
                       : value.hi < 0.0 ? Cube::Side::Inside
                                        : Cube::Side::Mixed;
-    return {side, std::min(slope_, lipschitzOfContinuous(*tape_, box))};
+    return {side, std::min(slope_, slope)};
   }
 
   bool isNearMixed(std::size_t i) const {
     bool is = false;
     forAround(i, [&](const Cube* cube) { is = is || (cube && cube->side == Cube::Side::Mixed); });
     return is;
+  }
+
+  // Some hundredths of a second's worth, as long as more cubes may help; some tenths where rays would run out
+  // of steps else.
+  void divide() {
+    constexpr double kPromising = 1.25, kTooSteep = 64.0;
+    constexpr std::size_t kMore = 8;
+    const std::size_t most =
+        std::clamp<std::size_t>(kMostOperations / distance_->operations(), 1000, kMostCubes);
+    bool isFirst = true;  // copies of a shape are told from one another by cubes that are small beside them
+    while (2 * std::max({size_.x, size_.y, size_.z}) <= kMostAlong) {
+      const double by = gain();
+      const bool isTooSteep = by > 0.0 && slope_ / by > kTooSteep;
+      if (!isFirst && by <= kPromising && !isTooSteep) return;
+      if (8 * mixed() > (isTooSteep ? kMore : 1) * most) return;
+      halve();
+      isFirst = false;
+    }
   }
 
   // Cubes whose parts have no use for more are copied.
@@ -220,8 +229,7 @@ class Cubes {
     return squares;
   }
 
-  TapePtr tape_;
-  ScalarReading<Interval> reading_;
+  std::shared_ptr<CaseReading> distance_;  // of cubes of any size
   double slope_;
   glm::ivec3 size_;
   double side_;

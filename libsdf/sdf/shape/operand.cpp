@@ -86,6 +86,7 @@ Shape settled(Shape s) {
   s.distance = s.distance.claimLipschitz(s.claim.lipschitz);
   s.claim.lipschitz = s.distance.lipschitz();
   s.outer.reset();
+  s.copies.reset();
   if (s.claim.kind == ClaimKind::Field && isOneLipschitz(s.claim.lipschitz)) s.claim.kind = ClaimKind::Bound;
   return s;
 }
@@ -135,6 +136,15 @@ std::shared_ptr<const Union> mappedUnion(const Shape& shape,
   mapped->operands.reserve(shape.outer->operands.size());
   for (const Shape& operand : shape.outer->operands) mapped->operands.push_back(operation(operand));
   return mapped;
+}
+
+std::shared_ptr<const Copies> movedCopies(const Shape& shape, const Vec3E& position) {
+  if (!shape.copies) return nullptr;
+  const auto at = [&](const Expr& e) { return remap(e, {position.x, position.y, position.z}, 1.0); };
+  auto moved = std::make_shared<Copies>(*shape.copies);
+  for (Vec3E& place : moved->places) place = {at(place.x), at(place.y), at(place.z)};
+  if (moved->others) moved->others = at(*moved->others);
+  return moved;
 }
 
 namespace {

@@ -76,6 +76,10 @@ Attributes mixed(const Attributes& a, const Attributes& b, const Expr& second,
 std::shared_ptr<const Union> mappedUnion(const Shape& shape,
                                          const std::function<Shape(const Shape&)>& operation);
 
+/// The copies that a shape is made of, looked up at another position, to which the way changes by no more
+/// than one moves; nothing where it is not made of copies.
+std::shared_ptr<const Copies> movedCopies(const Shape& shape, const Vec3E& position);
+
 /// The shapes with their materials numbered alike: each MaterialId is a place in the first shape's list,
 /// which holds the materials of all by first appearance.
 std::vector<Shape> numberedAlike(std::vector<Shape> shapes);

@@ -92,6 +92,7 @@ const MaterialPtr& defaultMaterial();
 Attributes attributesOf(const Material& material);
 
 struct Union;
+struct Copies;
 
 /// A shape is a value: operators return new shapes and share the graph. A shape made from bad arguments
 /// carries the first error on through every operator; whoever uses it (Scene, the mesher, the scene language)
@@ -105,6 +106,8 @@ struct Shape {
   /// The operands where the shape is a union, else nothing. Moving, turning, scaling and painting a union
   /// keeps the list; whatever else is done to it makes one shape of it.
   std::shared_ptr<const Union> outer;
+  /// What is repeated where the shape is copies of one, else nothing. Kept by what keeps a union's list.
+  std::shared_ptr<const Copies> copies;
   /// Where a scene file gives the steepest formula in it whose slope is above 1 or not known, "scene.lua:3";
   /// else "".
   std::string formulaAt;
@@ -133,6 +136,15 @@ struct Union {
 
   Blend blend;
   Operands operands;  ///< at least two; a union of this one and others shares them
+};
+
+/// Many copies of a shape, as a point sees them.
+struct Copies {
+  Shape one;
+  std::vector<Vec3E> places;   ///< of the point as the copies near it see it: a ball around it is seen within
+                               ///< a ball that is no larger
+  std::optional<Expr> others;  ///< how far all other copies are at least, scene units; they matter nowhere if
+                               ///< there is none
 };
 
 /// Proven bound of the distance's slope over all of space; infinite where none is known.

@@ -7,6 +7,7 @@
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/pattern.h"
 #include "sdf/shape/operators/place.h"
 #include "viewer/reference/cpu_uniform.h"
 #include "viewer/render/gpu_render.h"
@@ -329,21 +330,64 @@ TEST(Steep, AFlatRimIsShadedAsWhatIsAroundIt) {
   }
 }
 
+// The sun stands where it shines on most of what is seen.
+Scene sunlit(const Shape& shape, Shadow::Kind kind) {
+  Scene scene = darkScene();
+  scene.add("", Shape(shape).paint(painted()));
+  scene.camera.from = Vec3E(1.0, 1.5, 4.0);
+  scene.camera.to = Vec3E(0.0);
+  scene.camera.fov = 40.0;
+  scene.lights = {sunTowards({-0.3, 1.0, 1.0})};
+  scene.shadow = {.kind = kind, .steps = 500};
+  return scene;
+}
+
+// Hits lie outside of the solid, and shadows go by how far it is, not by the formula's value.
+TEST(Steep, WhatFacesTheLightIsLit) {
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(-0.3, 1.0, 1.0));
+  const Shape whole = field(heart(), Box::centred(glm::dvec3(1.4)));
+  const Shape shapes[] = {whole, repeatGrid(whole, Vec3E(40.0, 0.0, 40.0))};
+  for (const Shape& shape : shapes)
+    for (const auto kind : {Shadow::Kind::Hard, Shadow::Kind::Soft, Shadow::Kind::Improved}) {
+      const Scene scene = sunlit(shape, kind);
+      GpuRenderOptions options = materials(Method::AutoRelaxed, kWidth, kHeight);
+      options.shader.view = View::Normals;
+      const auto normals = renderOnGpu(scene, options);
+      options.shader.view = View::Shadow;
+      const auto light = renderOnGpu(scene, options);
+      options.shader.view = View::Material;
+      const auto seen = renderOnGpu(scene, options);
+      int facing = 0, dark = 0;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const glm::dvec3 n = 2.0 * glm::dvec3(normals[i]) - 1.0;
+        if (!isHit(seen[i]) || glm::dot(n, sun) < 0.3) continue;
+        ++facing;
+        dark += light[i].r < 0.85;
+      }
+      EXPECT_GT(facing, 1000);
+      EXPECT_LE(dark, 2) << static_cast<int>(kind);
+    }
+}
+
 // Where a formula is deformed, cut or blended, its steps are no shorter than they must be.
 TEST(Steep, FormulasAreMetAfterOperatorsToo) {
   const Box bounds = Box::centred(glm::dvec3(1.4));
-  const Shape whole = field(heart(), bounds);
+  const Shape whole = field(heart(), bounds), small = scale(whole, Vec3E(0.4));
   const auto moved = [](const Shape& s) { return translate(s, Vec3E(0.6, 0.3, 0.0)); };
   const Blend blend{Blend::Kind::Quadratic, 0.1};
-  const Shape shapes[] = {twist(whole, 0.7),
-                          bend(whole, 0.35),
-                          taper(whole, 0.3),
-                          subtract(whole, cylinder(0.3, 3.0)),
-                          exclude({whole, sphere(0.9)}, {}),
-                          unite(whole, moved(sphere(0.5)), blend),
-                          intersect(whole, moved(whole), blend),
-                          round(whole, 0.05),
-                          displace(whole, 0.03 * sin(20.0 * position().x))};
+  const Shape shapes[] = {
+      twist(whole, 0.7),
+      bend(whole, 0.35),
+      taper(whole, 0.3),
+      subtract(whole, cylinder(0.3, 3.0)),
+      exclude({whole, sphere(0.9)}, {}),
+      unite(whole, moved(sphere(0.5)), blend),
+      intersect(whole, moved(whole), blend),
+      round(whole, 0.05),
+      displace(whole, 0.03 * sin(20.0 * position().x)),
+      rotate(repeatGrid(small, Vec3E(1.2, 0.0, 1.2), glm::ivec3(3, 1, 3)), Vec3E(0.4, 0.2, 0.0)),
+      polarRepeat(translate(rotate(small, Vec3E(0.4, 0.3, 0.2)), Vec3E(1.3, 0.0, 0.0)), 5),
+      subtract(repeatGrid(small, Vec3E(1.2, 1.2, 0.0), glm::ivec3(2, 2, 1)), cylinder(0.3, 3.0))};
   for (const Shape& shape : shapes) {
     Scene scene = darkScene();
     scene.add("", Shape(shape).paint(painted()));

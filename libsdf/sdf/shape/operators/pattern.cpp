@@ -13,6 +13,12 @@ namespace sdf {
 
 namespace {
 
+Shape settledAs(Shape s, Copies copies) {
+  s = settled(std::move(s));
+  s.copies = std::make_shared<Copies>(std::move(copies));
+  return s;
+}
+
 // --- grids ---
 
 constexpr double kMostCells = 3.0;
@@ -72,9 +78,17 @@ std::vector<Expr> seenBy(const Axis& a, const Expr& x) {
   return seen;
 }
 
+// At the moment a window drops a copy, the point is this far beyond that copy's bounds.
+double halfCellOf(const std::array<Axis, 3>& axes) {
+  double least = kInfinity;
+  for (const Axis& a : axes)
+    if (a.windowed()) least = std::min(least, a.narrowest() / 2.0);
+  return least;
+}
+
 // The candidates' least distance with the attributes of the one that has it. Nothing is claimed: where a
 // window jumps, the parts do.
-Shape nearestCopy(const Shape& shape, const std::array<Axis, 3>& axes) {
+Shape nearestCopy(const Shape& shape, const std::array<Axis, 3>& axes, Copies& all) {
   const Vec3E p = position();
   const bool jumps = std::ranges::any_of(axes, &Axis::windowed);
   // |x - cell round(x / cell)| is a continuous zigzag of slope 1, and all that an even distance sees.
@@ -86,22 +100,20 @@ Shape nearestCopy(const Shape& shape, const std::array<Axis, 3>& axes) {
     for (const Expr& y : seenBy(axes[1], p.y))
       for (const Expr& z : seenBy(axes[2], p.z)) {
         Shape copy = movedTo(shape, {x, y, z}, kInfinity);
-        copy.distance = remap(shape.distance, {folded(axes[0], x), folded(axes[1], y), folded(axes[2], z)},
-                              jumps ? kInfinity : 1.0);
+        const Vec3E& place =
+            all.places.emplace_back(folded(axes[0], x), folded(axes[1], y), folded(axes[2], z));
+        copy.distance = remap(shape.distance, {place.x, place.y, place.z}, jumps ? kInfinity : 1.0);
         copy.claim = {ClaimKind::Field, kInfinity};
         copies.push_back(std::move(copy));
       }
+  if (jumps) all.others = halfCellOf(axes);
   return unite(copies);
 }
 
-// At the moment a window drops a copy, the point is half a cell beyond that copy's bounds. An exact distance
-// is then that of a nearer copy as well. Any other is at least half a cell / growth, and so hidden by a cap
-// of that size.
+// Where a window drops a copy, an exact distance is that of a nearer copy as well. Any other is at least half
+// a cell / growth, and so hidden by a cap of that size.
 double capOf(const Shape& shape, const std::array<Axis, 3>& axes) {
-  double least = kInfinity;
-  for (const Axis& a : axes)
-    if (a.windowed()) least = std::min(least, a.narrowest() / 2.0);
-  return least / growthOf(shape.claim);
+  return halfCellOf(axes) / growthOf(shape.claim);
 }
 
 // --- about the y axis ---
@@ -137,20 +149,25 @@ Shape copiedOut(const Shape& shape, int count) {
   return unite(copies);
 }
 
+// Of the way to the axis: what is half a sector away is as far as this. The window drops a copy half a sector
+// beyond its bounds.
+double shareOf(double sector) { return std::sin(std::min(sector, std::numbers::pi) / 2.0); }
+
 // A shape that is its own mirror image in z = 0 and keeps to the sector around +x: the copy in the point's
 // own sector is the nearest. Folding space into half a sector is continuous.
-Shape oneCopy(const Shape& shape, double sector) {
+Shape oneCopy(const Shape& shape, double sector, Copies& all) {
   const Vec3E p = position();
   const Expr angle = atan2(p.z, p.x), radius = length(p.x, p.z).claimLipschitz(1.0);
   const Expr inSector = round(angle * (1.0 / sector)) * -sector + angle;
   const Expr x = radius * cos(inSector), z = radius * sin(inSector);
   Shape result = movedTo(shape, {x, p.y, z}, kInfinity);
   result.distance = remap(shape.distance, {x, p.y, abs(z)}, 1.0);
+  all.places = {{x, p.y, abs(z)}};
   return result;
 }
 
 // Asks `candidates` copies, from the one whose far edge comes round(…) sectors before the point.
-Shape windowOfCopies(const Shape& shape, double sector, double farEdge, int candidates) {
+Shape windowOfCopies(const Shape& shape, double sector, double farEdge, int candidates, Copies& all) {
   const Vec3E p = position();
   const Expr angle = atan2(p.z, p.x);
   const Expr turn = round(angle * (1.0 / sector) - farEdge / sector) * sector;
@@ -160,9 +177,11 @@ Shape windowOfCopies(const Shape& shape, double sector, double farEdge, int cand
   for (int k = 0; k < candidates; ++k) {
     const double cosine = std::cos(sector * k), sine = std::sin(sector * k);
     const Vec3E turned = k == 0 ? Vec3E(x, p.y, z) : Vec3E(x * cosine + z * sine, p.y, z * cosine - x * sine);
+    all.places.push_back(turned);
     copies.push_back(movedTo(shape, turned, kInfinity));
     copies.back().claim = {ClaimKind::Field, kInfinity};
   }
+  all.others = length(p.x, p.z).claimLipschitz(1.0) * shareOf(sector);
   return unite(copies);
 }
 
@@ -183,7 +202,8 @@ Shape repeatGrid(const Shape& one, const Vec3E& cell, const std::optional<glm::i
   check.that(any, "cell must not be 0 along every axis");
   if (!check.ok()) return check.failure();
 
-  Shape result = nearestCopy(shape, axes);
+  Copies copies{shape, {}, {}};
+  Shape result = nearestCopy(shape, axes, copies);
   result.bounds = shape.bounds;
   bool apart = true;
   for (int i = 0; i < 3; ++i) {
@@ -206,7 +226,7 @@ Shape repeatGrid(const Shape& one, const Vec3E& cell, const std::optional<glm::i
       if (const auto outside = outsideBox(result.bounds)) result.distance = max(result.distance, *outside);
     }
   }
-  return settled(std::move(result));
+  return settledAs(std::move(result), std::move(copies));
 }
 
 Shape polarRepeat(const Shape& one, int count) {
@@ -230,7 +250,9 @@ Shape polarRepeat(const Shape& one, int count) {
     return check.ok() ? copiedOut(shape, count) : check.failure();
   }
 
-  Shape result = even ? oneCopy(shape, sector) : windowOfCopies(shape, sector, seen.hi, candidates);
+  Copies copies{shape, {}, {}};
+  Shape result =
+      even ? oneCopy(shape, sector, copies) : windowOfCopies(shape, sector, seen.hi, candidates, copies);
   const double outer = radiusAbout(b, 1), inner = nearestToAxis(b);
   result.bounds = {{-outer, b.min.y, -outer}, {outer, b.max.y, outer}};
   const bool apart = seen.width() < sector;
@@ -244,14 +266,13 @@ Shape polarRepeat(const Shape& one, int count) {
     if (known) {
       const Vec3E p = position();
       const Expr radius = length(p.x, p.z).claimLipschitz(1.0);
-      const double share =
-          std::sin(std::min(sector, std::numbers::pi) / 2.0) / std::max(1.0, std::numbers::sqrt2 * growth);
+      const double share = shareOf(sector) / std::max(1.0, std::numbers::sqrt2 * growth);
       result.distance = max(min(result.distance, radius * share), outsideSlab(radius, inner, outer));
       if (std::isfinite(b.min.y) || std::isfinite(b.max.y))
         result.distance = max(result.distance, outsideSlab(p.y, b.min.y, b.max.y));
     }
   }
-  return settled(std::move(result));
+  return settledAs(std::move(result), std::move(copies));
 }
 
 }  // namespace sdf

@@ -104,7 +104,9 @@ Shape mapped(const Shape& shape, const Matrix& m, const Vec3E& from) {
   Shape result = movedTo(shape, from, 1.0);
   result.bounds = turnedBox(shape.bounds, m);
   result.claim.growth *= turnedGrowth(m);
-  return settled(std::move(result));
+  result = settled(std::move(result));
+  result.copies = movedCopies(shape, from);
+  return result;
 }
 
 Shape turned(const Shape& shape, const Matrix& m) {
@@ -149,7 +151,8 @@ Matrix reflection(const Vec3E& n) {
 Shape translate(const Shape& shape, const Vec3E& offset) {
   Check check("translate", shape);
   if (!check.vector("offset", offset, Rule::Any).ok()) return check.failure();
-  Shape result = movedTo(shape, position() - offset, 1.0);
+  const Vec3E from = position() - offset;
+  Shape result = movedTo(shape, from, 1.0);
   for (int i = 0; i < 3; ++i) {
     const Interval& by = component(offset, i).range();
     result.bounds.min[i] += by.lo;
@@ -157,8 +160,35 @@ Shape translate(const Shape& shape, const Vec3E& offset) {
   }
   result = settled(std::move(result));
   result.outer = mappedUnion(shape, [&](const Shape& operand) { return translate(operand, offset); });
+  result.copies = movedCopies(shape, from);
   return result;
 }
+
+namespace {
+
+std::shared_ptr<const Copies> copiesRelativeTo(const Shape& shape, const glm::dvec3& origin) {
+  if (!shape.copies) return nullptr;
+  auto moved = std::make_shared<Copies>(*shape.copies);
+  for (Vec3E& place : moved->places) {
+    const std::vector<Expr> at = relativeTo(std::vector<Expr>{place.x, place.y, place.z}, origin);
+    place = {at[0], at[1], at[2]};
+  }
+  if (moved->others) moved->others = relativeTo(std::vector<Expr>{*moved->others}, origin)[0];
+  return moved;
+}
+
+// Of a shape that is as large along each axis.
+std::shared_ptr<const Copies> scaledCopies(const Shape& shape, const Vec3E& back, const Vec3E& factors,
+                                           const Expr& least) {
+  if (!shape.copies) return nullptr;
+  auto grown = std::make_shared<Copies>(*movedCopies(shape, back));
+  grown->one = scale(grown->one, factors);
+  for (Vec3E& place : grown->places) place = {place.x * factors.x, place.y * factors.y, place.z * factors.z};
+  if (grown->others) grown->others = *grown->others * least;
+  return grown;
+}
+
+}  // namespace
 
 Shape relativeTo(const Shape& shape, const glm::dvec3& origin) {
   if (!shape.ok()) return shape;
@@ -170,6 +200,7 @@ Shape relativeTo(const Shape& shape, const glm::dvec3& origin) {
   std::copy(graphs.begin() + 1, graphs.end(), result.surface.begin());
   result.bounds = {shape.bounds.min - origin, shape.bounds.max - origin};
   result.outer = mappedUnion(shape, [&](const Shape& operand) { return relativeTo(operand, origin); });
+  result.copies = copiesRelativeTo(shape, origin);
   return result;
 }
 
@@ -228,6 +259,7 @@ Shape scale(const Shape& shape, const Vec3E& factors) {
   result = settled(std::move(result));
   if (shape.outer && shape.outer->blend.kind == Blend::Kind::Hard)
     result.outer = mappedUnion(shape, [&](const Shape& operand) { return scale(operand, factors); });
+  if (uniform) result.copies = scaledCopies(shape, back, by, least);
   return result;
 }
 
