@@ -364,7 +364,8 @@ class Mesher {
         // What is painted is looked at as closely as in the finest lattice.
         blurred = painted_ && !keepsPaint(mesh, witnesses, fine->field);
       }
-      if (blurred && (times < kFinestPainted || !thinPainted(mesh, coarse, bounds, witnesses, fine->field)))
+      if (blurred &&
+          (times < kFinestPainted || !simplifyPainted(mesh, coarse, bounds, witnesses, fine->field)))
         continue;
       witnessed_.points = seen;  // the others are looked at again
       (painted_ ? *fine : coarse).mesh = std::move(mesh);
@@ -397,7 +398,7 @@ class Mesher {
       simplifyUnresolved(mesh, fine.field, thinnedTo(), blurred, progress_);
     } else if (blurred) {
       const bool thins = off <= std::max(options_.tolerance, kResolved * fine.band.voxelSize()) &&
-                         mesh.triangles.size() <= kMostToThin;
+                         mesh.triangles.size() <= kMostToThin && isMostlyFlat(mesh);
       if (!thins || !thinPainted(mesh, fine, bounds, witnesses, fine.field)) {
         mesh = fine.mesh;
         simplifyTo(mesh, 1.0, fine.field, fine.field, bounds, witnesses, true);
@@ -441,6 +442,16 @@ class Mesher {
   }
 
   double thinnedTo() const { return (options_.strict ? 1.0 : kThinnedTo) * options_.tolerance; }
+
+  // The mesh becomes that of the lattice with fewer triangles that hold the colours; returns whether the
+  // tolerance is kept. Measured: what curves is left with as many triangles or fewer by simplifying, in half
+  // of the time; of a board of wood thinning leaves three quarters.
+  bool simplifyPainted(FeatureMesh& mesh, const Lattice& lattice, const Box& bounds, Witnesses& witnesses,
+                       const BandField& fine) {
+    if (isMostlyFlat(lattice.mesh)) return thinPainted(mesh, lattice, bounds, witnesses, fine);
+    mesh = lattice.mesh;
+    return simplifyTo(mesh, 1.0, lattice.field, fine, bounds, witnesses, true) && !crosses(mesh);
+  }
 
   // The mesh becomes that of the lattice, thinned by readings of shape and colours; returns whether the
   // tolerance is kept.

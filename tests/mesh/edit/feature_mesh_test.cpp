@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/feature_meshes.h"
 #include "sdf/mesh/edit/indices-inl.h"
 
 namespace sdf::test {
@@ -22,6 +23,16 @@ TEST(FeatureMesh, DropsWhatIsGoneWithAllThatBelongsToIt) {
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
   EXPECT_EQ(mesh.creases, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {1, 2}}));
   EXPECT_EQ(mesh.held, (std::vector<Hold>{Hold::Tip, Hold::Exempt}));
+}
+
+TEST(FeatureMesh, KnowsWhetherMostOfItIsFlat) {
+  // At the rim of each face lie a fifth of its squares, if it has 20 along.
+  EXPECT_TRUE(isMostlyFlat(griddedCube(20)));
+  EXPECT_FALSE(isMostlyFlat(griddedCube(4)));
+  EXPECT_FALSE(isMostlyFlat(griddedCylinder(64, 16)));
+  FeatureMesh ball = griddedCube(20);
+  for (glm::vec3& p : ball.positions) p = glm::normalize(p);
+  EXPECT_FALSE(isMostlyFlat(ball));
 }
 
 TEST(FeatureMesh, TrianglesFaceNormalsUpTo60Degrees) {

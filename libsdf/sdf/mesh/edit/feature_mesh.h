@@ -56,6 +56,10 @@ bool isFacing(const Vector& area, const Vector& normal) {
   return along > 0 && along * along > kFacing * kFacing * square;
 }
 
+/// Is more than half of its area in triangles that lie in one plane with all that touch them, but for a
+/// tenth of a degree? Cost: linear.
+bool isMostlyFlat(const FeatureMesh& mesh);
+
 /// Drops the triangles that are gone, and the vertices that no triangle has, with their normals, if these are
 /// given. What is left keeps its order. Returns Compaction::after. Cost: linear.
 std::vector<std::uint32_t> dropUnused(FeatureMesh& mesh, std::vector<glm::vec3>* normals = nullptr);

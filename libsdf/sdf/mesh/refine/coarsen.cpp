@@ -11,6 +11,7 @@
 #include "sdf/mesh/refine/tints.h"
 #include "sdf/mesh/surface/project.h"
 #include "sdf/mesh/surface/surface_paint.h"
+#include "sdf/triangles/tree.h"
 
 namespace sdf {
 namespace {
@@ -243,10 +244,11 @@ class Coarsener {
     for (const Corner* c : {&corner, &atP, &atQ})
       if (!isFacing(area, c->normal)) return false;
     if (!isFlat(p - is, corner, atP) || !isFlat(q - is, corner, atQ)) return false;
-    const OverTriangle foot = over(was, {is, p, q});
-    if (foot.distance >= left.distance) return true;
-    left.distance = foot.distance;
-    if (painted_) left.color = mixed(corner.color, atP.color, atQ.color, clampedWeights(foot.weights));
+    const auto distance = static_cast<float>(std::sqrt(nearestOf(was, is, p, q).squared));
+    if (distance >= left.distance) return true;
+    left.distance = distance;
+    if (painted_)
+      left.color = mixed(corner.color, atP.color, atQ.color, clampedWeights(over(was, {is, p, q}).weights));
     return true;
   }
 

@@ -55,14 +55,19 @@ bool flipIfBetter(SampledMesh& sampled, CrowdedTriangles& crowded, Index h, floa
   for (int side = 0; side < 2; ++side)
     for (Index w = sampled.onTriangle.first((side ? g : h) / 3); w != Lists::kNone;
          w = sampled.onTriangle.after(w)) {
-      const SurfaceSample& sample = sampled.samples[w];
-      was = std::max(was, off(over(sample.at, before[side]), w, tintsBefore[side]));
-      const OverTriangle first = over(sample.at, after[0]), second = over(sample.at, after[1]);
-      const bool toFirst = first.inside > second.inside;
-      if (!isNone(sample.normal) && !isFacing(areaOf(after[toFirst ? 0 : 1]), sample.normal)) return false;
-      handed.emplace_back(w, toFirst ? h : g);
-      is = std::max(is, toFirst ? off(first, w, tintsAfter[0]) : off(second, w, tintsAfter[1]));
+      was = std::max(was, off(over(sampled.samples[w].at, before[side]), w, tintsBefore[side]));
+      handed.emplace_back(w, h);
     }
+  const float most = std::max(flat, kLess * was);
+  for (auto& [w, to] : handed) {
+    const SurfaceSample& sample = sampled.samples[w];
+    const OverTriangle first = over(sample.at, after[0]), second = over(sample.at, after[1]);
+    const bool toFirst = first.inside > second.inside;
+    if (!isNone(sample.normal) && !isFacing(areaOf(after[toFirst ? 0 : 1]), sample.normal)) return false;
+    to = toFirst ? h : g;
+    is = std::max(is, toFirst ? off(first, w, tintsAfter[0]) : off(second, w, tintsAfter[1]));
+    if (!(is < most)) return false;
+  }
   const bool isFlat = std::max(is, was) < flat;
   const float shape = std::min(flatness(after[0]), flatness(after[1])),
               shapeBefore = std::min(flatness(before[0]), flatness(before[1]));

@@ -92,8 +92,8 @@ class Ring {
   bool isWithin(float limit) const { return largest() <= limit && centreDistance() <= tolerance_; }
   /// From the centre to the surface, or to the crease that it is on.
   const glm::vec3& centreOff() const { return centreOff_; }
-  /// The sum of the distances' 16th powers, in limits.
-  float energy(float limit) const;
+  /// The sum of the distances' 16th powers, in limits; to first order so far along the centre's way.
+  float energy(float limit, float along = 0.0f) const;
   /// Hands the samples over as they are placed. Of triangles with many some are dropped.
   void assign(float limit);
 

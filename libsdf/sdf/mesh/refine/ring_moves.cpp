@@ -121,16 +121,23 @@ float Ring::largest() const {
   return most;
 }
 
-float Ring::energy(float limit) const {
+float Ring::energy(float limit, float along) const {
   const float scale = 1.0f / (limit * limit);
   const auto power = [&](float square) {
     square = std::max(square * scale, kLeastSquare);
     square *= square, square *= square;
     return square * square;
   };
-  float sum = power(glm::dot(centreOff_, centreOff_));
-  for (const Placed& p : placed_) sum += power(p.height * p.height) + power(p.tint * p.tint);
-  for (const PlacedOnCrease& p : placedOnCreases_) sum += power(glm::dot(p.off, p.off));
+  const auto of = [&](const glm::vec3& off, float weight) {
+    const glm::vec3 there = off - weight * along * way_;
+    return power(glm::dot(there, there));
+  };
+  float sum = of(centreOff_, 1.0f);
+  for (const Placed& p : placed_) {
+    const float height = p.height - p.weight * along;
+    sum += power(height * height) + power(p.tint * p.tint);
+  }
+  for (const PlacedOnCrease& p : placedOnCreases_) sum += of(p.off, p.weight);
   return sum;
 }
 

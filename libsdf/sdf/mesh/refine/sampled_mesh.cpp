@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "sdf/mesh/surface/project.h"
-#include "sdf/triangles/tree.h"
 
 namespace sdf {
 
@@ -33,6 +32,22 @@ glm::vec3 clampedWeights(const glm::vec3& weights) {
   return positive / (positive.x + positive.y + positive.z);
 }
 
+namespace {
+
+float distanceToSides(const glm::vec3& p, const Corners& t) {
+  float least = HUGE_VALF;
+  for (int k = 0; k < 3; ++k) {
+    const glm::vec3 side = t[k == 2 ? 0 : k + 1] - t[k], d = p - t[k];
+    const float square = glm::dot(side, side),
+                along = square > 0.0f ? std::clamp(glm::dot(d, side) / square, 0.0f, 1.0f) : 0.0f;
+    const glm::vec3 off = d - along * side;
+    least = std::min(least, glm::dot(off, off));
+  }
+  return std::sqrt(least);
+}
+
+}  // namespace
+
 OverTriangle over(const glm::vec3& p, const Corners& t) {
   const glm::vec3 u = t[1] - t[0], v = t[2] - t[0], n = glm::cross(u, v), d = p - t[0];
   const float square = glm::dot(n, n), beta = glm::dot(glm::cross(d, v), n) / square,
@@ -40,7 +55,7 @@ OverTriangle over(const glm::vec3& p, const Corners& t) {
               inside = std::min({1.0f - beta - gamma, beta, gamma});
   const glm::vec3 weights(1.0f - beta - gamma, beta, gamma);
   if (inside >= 0.0f) return {inside, std::abs(glm::dot(d, n)) / std::sqrt(square), weights};
-  return {inside, static_cast<float>(std::sqrt(nearestOf(p, t[0], t[1], t[2]).squared)), weights};
+  return {inside, distanceToSides(p, t), weights};
 }
 
 SampledMesh::SampledMesh(const FeatureMesh& given, const LocalField& field, float spacing, Progress& progress)
