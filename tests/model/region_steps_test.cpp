@@ -109,6 +109,33 @@ TEST(StepsByRegion, AreThoseByOneSlopeWhereThereAreInputs) {
   EXPECT_TRUE(marchable(shape, Steps::ByRegion).step == marchable(shape).step);
 }
 
+// What inputs move is known where it was.
+TEST(StepsByRegion, FollowWhatInputsMove) {
+  const Shape whole = steep().front().shape;
+  const Expr turn = Expr::parameter({"turn", 0.3, -2.0, 2.0});
+  const Shape turned = translate(rotate(whole, Vec3E(0.0, turn, 0.0)), Vec3E(turn, 0.0, 0.0));
+  for (const Shape& shape : {turned, repeatGrid(turned, Vec3E(8.0, 0.0, 8.0))}) {
+    const Marchable m = marchable(shape, Steps::ByRegion);
+    const Function distance(m.distance), step(m.step), bySlope(marchable(shape).step);
+    for (const double value : {-1.7, 0.0, 0.9}) {
+      const Values values{{"turn", value}};
+      const TapePtr f = distance.at(values), g = step.at(values), least = bySlope.at(values);
+      Random random(5);
+      double gain = 0.0;
+      for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 p = pointIn(Box::centred(glm::dvec3(5.0, 2.0, 5.0)), random);
+        const double by = evaluate(*g, p);
+        ASSERT_EQ(evaluate(*f, p) > 0.0, by > 0.0);
+        if (by <= 0.0) continue;
+        gain += by > 3.0 * evaluate(*least, p);
+        const glm::dvec3 way(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
+        ASSERT_GE(evaluate(*f, p + by * glm::normalize(way)), -1e-12);
+      }
+      EXPECT_GT(gain, 100) << value;
+    }
+  }
+}
+
 TEST(StepsByRegion, AreThoseByOneSlopeWhereTheDistanceIsAsSteepEverywhere) {
   const auto& [x, y, z] = position();
   const Shape shape = field(5.0 * (length(position()) - 1.0), Box::centred(glm::dvec3(1.5)));

@@ -1,6 +1,7 @@
 #include "sdf/shape/operand.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <unordered_map>
@@ -100,7 +101,10 @@ Shape withGrowth(Shape s) {
   s.distance = max(s.distance, min(*outside, *outside * kShare));
   s.claim.lipschitz = std::max(s.claim.lipschitz, 1.0);
   s.claim.growth = 1.0 / kShare;
-  return settled(std::move(s));
+  const auto copies = s.copies;
+  s = settled(std::move(s));
+  s.copies = copies;  // of the same solid
+  return s;
 }
 
 Shape movedTo(const Shape& s, const Vec3E& position, double stretch) {
@@ -138,8 +142,21 @@ std::shared_ptr<const Union> mappedUnion(const Shape& shape,
   return mapped;
 }
 
+namespace {
+
+bool hasInputs(const Vec3E& place) {
+  return std::ranges::any_of(topologicalOrder(std::array{place.x, place.y, place.z}),
+                             [](const Expr& node) { return node.op() == Op::Parameter; });
+}
+
+}  // namespace
+
 std::shared_ptr<const Copies> movedCopies(const Shape& shape, const Vec3E& position) {
-  if (!shape.copies) return nullptr;
+  if (!shape.copies) {
+    const double slope = slopeOf(shape);
+    if (isOneLipschitz(slope) || !std::isfinite(slope) || !hasInputs(position)) return nullptr;
+    return std::make_shared<Copies>(Copies{shape, {position}, {}});
+  }
   const auto at = [&](const Expr& e) { return remap(e, {position.x, position.y, position.z}, 1.0); };
   auto moved = std::make_shared<Copies>(*shape.copies);
   for (Vec3E& place : moved->places) place = {at(place.x), at(place.y), at(place.z)};

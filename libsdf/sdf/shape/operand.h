@@ -77,7 +77,8 @@ std::shared_ptr<const Union> mappedUnion(const Shape& shape,
                                          const std::function<Shape(const Shape&)>& operation);
 
 /// The copies that a shape is made of, looked up at another position, to which the way changes by no more
-/// than one moves; nothing where it is not made of copies.
+/// than one moves. Where it is not made of copies it is the only one if it is steeper than 1 and the position
+/// depends on inputs: what is known of it by place holds wherever it is moved to.
 std::shared_ptr<const Copies> movedCopies(const Shape& shape, const Vec3E& position);
 
 /// The shapes with their materials numbered alike: each MaterialId is a place in the first shape's list,

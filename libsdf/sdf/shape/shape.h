@@ -106,7 +106,8 @@ struct Shape {
   /// The operands where the shape is a union, else nothing. Moving, turning, scaling and painting a union
   /// keeps the list; whatever else is done to it makes one shape of it.
   std::shared_ptr<const Union> outer;
-  /// What is repeated where the shape is copies of one, else nothing. Kept by what keeps a union's list.
+  /// What is repeated where the shape is copies of one, or what inputs move, else nothing. Kept by what keeps
+  /// a union's list.
   std::shared_ptr<const Copies> copies;
   /// Where a scene file gives the steepest formula in it whose slope is above 1 or not known, "scene.lua:3";
   /// else "".
