@@ -13,9 +13,10 @@ namespace sdf {
 
 namespace {
 
+// Copies of what is no steeper than a distance need not be known.
 Shape settledAs(Shape s, Copies copies) {
   s = settled(std::move(s));
-  s.copies = std::make_shared<Copies>(std::move(copies));
+  if (!isOneLipschitz(slopeOf(copies.one))) s.copies = std::make_shared<Copies>(std::move(copies));
   return s;
 }
 
