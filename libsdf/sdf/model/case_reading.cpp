@@ -7,7 +7,8 @@
 namespace sdf {
 namespace {
 
-// Of one box, and of all.
+// Of one box, and of all. Chosen: a box across jumps along each axis has eight, and near an axis all sectors
+// meet; beyond, the box is read as a whole.
 constexpr double kMostCases = 16;
 constexpr std::size_t kMostTapes = 1024;
 

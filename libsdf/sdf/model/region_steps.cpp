@@ -155,6 +155,7 @@ class Cubes {
   // of steps else.
   void divide() {
     constexpr double kPromising = 1.25, kTooSteep = 64.0;
+    // One halving more: of copies about an axis, stretched, a tenth as many pixels run out of steps.
     constexpr std::size_t kMore = 8;
     const std::size_t most =
         std::clamp<std::size_t>(kMostOperations / distance_->operations(), 1000, kMostCubes);

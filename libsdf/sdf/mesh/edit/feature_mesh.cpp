@@ -7,7 +7,7 @@
 namespace sdf {
 
 bool isMostlyFlat(const FeatureMesh& mesh) {
-  constexpr float kAlike = 1.0f - 1e-6f;  // cosine
+  constexpr float kAlike = 1.0f - 1e-6f;  // cosine; chosen, far above the rounding of floats
   std::vector<glm::vec3> around(mesh.positions.size(), glm::vec3(0.0f)), areas;
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::vec3 a = mesh.positions[t.x];
