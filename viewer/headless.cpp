@@ -162,11 +162,8 @@ class Headless {
  private:
   // What meshes of files cost, and how far off the samples of their distances are, in voxels.
   Status tellOfMeshes(const SceneShaders& shaders, const Frame& f, nlohmann::ordered_json& report) const {
-    std::vector<ShaderVolume> volumes = shaders.picture.volumes;
-    for (const HitShaders& pass : shaders.hits)
-      volumes.insert(volumes.end(), pass.volumes.begin(), pass.volumes.end());
     std::vector<std::shared_ptr<const MeshField>> fields;
-    for (const ShaderVolume& volume : volumes) {
+    for (const ShaderVolume& volume : volumesOf(shaders)) {
       auto field = std::dynamic_pointer_cast<const MeshField>(volume.payload);
       if (field && std::ranges::find(fields, field) == fields.end()) fields.push_back(std::move(field));
     }
@@ -226,6 +223,7 @@ class Headless {
   Result<Renderer> rendererAt(double time, const ShaderOptions& shader) {
     ShaderOptions near = shader;
     near.origin = originFor(frame(time).look.eye);
+    near.steps = present_.steps();
     progress_.beginStage("compiling shaders");
     auto renderer = Renderer::make(sceneAt(time), near, present_.other());
     if (renderer)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sdf/eval/glsl.h"
+#include "sdf/expr/payload.h"
 #include "sdf/expr/vec.h"
 
 namespace sdf {
@@ -77,6 +78,53 @@ TEST(ChangingNumbersTest, KeepFormulasOfInputs) {
   written(numbers, wave(2.0));
   numbers->keep();
   EXPECT_EQ(written(numbers, wave(4.0), {{"time", 2.0}}).uniforms, (std::vector{std::sin(2.0), 0.25}));
+}
+
+// A table of a number or two.
+class Table : public Payload {
+ public:
+  explicit Table(std::string_view kind) : kind_(kind) {}
+  double value(const glm::dvec3& p) const override { return p.x; }
+  ValueAndGradient gradient(const glm::dvec3& p) const override { return {p.x, {1.0, 0.0, 0.0}}; }
+  Interval range(const std::array<Interval, 3>& box) const override { return box[0]; }
+  double lipschitz() const override { return 1.0; }
+  double rounding(const glm::dvec3&) const override { return 0.0; }
+  std::string glsl(const std::string& name) const override { return "float " + name + "(vec3 p);"; }
+  std::string_view kind() const override { return kind_; }
+
+ private:
+  std::string_view kind_;
+};
+
+TEST(ChangingNumbersTest, PayloadsOfOneKindStandInEachOthersPlaces) {
+  const auto& [x, y, z] = position();
+  const auto numbers = std::make_shared<ChangingNumbers>();
+  const auto of = [&](const auto& a, const auto& b) {
+    return Expr::payload({a, 0}, {x, y, z}) + 2.0 * Expr::payload({b, 0}, {y, z, x});
+  };
+  const auto made = [](const char* kind) { return std::make_shared<Table>(kind); };
+  const auto payloads = [&](const Expr& e) {
+    numbers->begin();
+    numbers->take({&e, 1});
+    numbers->settle();
+    numbers->keep();
+    GlslWriter writer(numbers);
+    writer.add("distance", {&e, 1});
+    std::vector<std::shared_ptr<const Payload>> all;
+    for (const auto& [name, payload] : writer.payloads()) all.push_back(payload);
+    return std::pair(writer.source(), all);
+  };
+  const auto a = made("table"), b = made("table"), c = made("table"), own = made(""), other = made("");
+  const auto [text, first] = payloads(of(a, b));
+  using All = std::vector<std::shared_ptr<const Payload>>;
+  EXPECT_EQ(first, (All{a, b}));
+  for (const All& now : {All{b, c}, All{b, a}}) {
+    const auto [same, taken] = payloads(of(now[0], now[1]));
+    EXPECT_EQ(same, text);
+    EXPECT_EQ(taken, now);
+  }
+  EXPECT_EQ(payloads(of(c, c)).second, All{c}) << "one that stands in both places is another form";
+  EXPECT_EQ(payloads(of(own, other)).second, (All{own, other})) << "those of no kind stay";
 }
 
 TEST(ChangingNumbersTest, OfBoundsAreEachAUniform) {

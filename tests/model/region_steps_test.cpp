@@ -107,6 +107,39 @@ TEST(StepsByRegion, AreThoseByOneSlopeWhereThereAreInputs) {
   const Shape shape =
       field(x * x * x * x + y * y * y * y + z * z * z * z - size, Box::centred(glm::dvec3(1.5)));
   EXPECT_TRUE(marchable(shape, Steps::ByRegion).step == marchable(shape).step);
+  EXPECT_TRUE(marchable(shape, Steps::ByRegionNow).step == marchable(shape).step);
+  EXPECT_TRUE(waitsForInputs(shape, Steps::ByRegionNow));
+}
+
+// With one value each, they are those of this value, and of one form for all.
+TEST(StepsByRegion, AreThoseOfKnownValues) {
+  const auto& [x, y, z] = position();
+  const auto of = [&, &x = x, &y = y, &z = z](const Expr& size) {
+    const Expr quartic = x * x * x * x + y * y * y * y + z * z * z * z;
+    return field(quartic - size, Box::centred(glm::dvec3(1.5)));
+  };
+  for (const double value : {0.5, 1.7}) {
+    const Shape known = of(Expr::parameter({"size", value, value, value}));
+    EXPECT_TRUE(waitsForInputs(known, Steps::ByRegion));
+    EXPECT_FALSE(waitsForInputs(known, Steps::ByRegionOfSliders));
+    EXPECT_TRUE(marchable(known, Steps::ByRegion).step == marchable(known).step);
+    const Marchable now = marchable(known, Steps::ByRegionNow), same = marchable(of(value), Steps::ByRegion);
+    EXPECT_DOUBLE_EQ(now.gain, same.gain);
+    const TapePtr a = Function(now.step).at(), b = Function(same.step).at();
+    Random random(3);
+    for (int i = 0; i < 1000; ++i) {
+      const glm::dvec3 p = pointIn(Box::centred(glm::dvec3(2.0)), random);
+      EXPECT_DOUBLE_EQ(evaluate(*a, p), evaluate(*b, p));
+    }
+  }
+}
+
+TEST(StepsByRegion, GoThroughWhereThereIsNoSurface) {
+  const auto& [x, y, z] = position();
+  const Box box = Box::centred(glm::dvec3(1.6));
+  const Marchable m =
+      marchable(field(exp(4.0 * x) + exp(-4.0 * x) + y * y + z * z - 1.9, box), Steps::ByRegion);
+  EXPECT_GT(evaluate(*Function(m.step).at(), glm::dvec3(0.0)), 0.01) << "4e-5 by one slope";
 }
 
 // What inputs move is known where it was.

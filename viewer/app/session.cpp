@@ -77,8 +77,9 @@ Session::Session(SceneFile file, Controls start, Loaded loaded, Built built)
 Result<Renderer> Session::build(const Scene& now, const PresentScene& present, const Built& wanted) {
   std::optional<Scene> other;
   if (present.other()) other = withSurfaceParameters(*present.other(), wanted.materials);
-  return Renderer::make(withSurfaceParameters(now, wanted.materials), wanted.shader,
-                        other ? &*other : nullptr);
+  ShaderOptions shader = wanted.shader;
+  shader.steps = present.steps();
+  return Renderer::make(withSurfaceParameters(now, wanted.materials), shader, other ? &*other : nullptr);
 }
 
 Status Session::fit() {

@@ -6,6 +6,7 @@
 
 #include "sdf/expr/alike.h"
 #include "sdf/model/groups.h"
+#include "sdf/model/region_steps.h"
 #include "viewer/shaders/source.h"
 
 namespace sdf::viewer {
@@ -61,14 +62,40 @@ bool sameAt(const Shape& a, const Shape& b, const Values& values) {
          (slope <= kSteep || sameBounds(a.bounds, b.bounds)) && sameAt(a.distance, b.distance, values);
 }
 
+// Whether such steps are known of the second alone.
+bool isKnownBy(Steps steps, const Shape& a, const Shape& b) {
+  return waitsForInputs(a, steps) && !waitsForInputs(b, steps);
+}
+
 // The inputs of those operands of a scene that are others in one which was made for fewer values.
-Names inputsOfOthers(const Scene& scene, const Scene& narrow, const Values& values) {
+Names inputsOfOthers(const Scene& scene, const Scene& narrow, const Values& values, Steps steps) {
   const std::vector<Shape> all = operandsOf(scene), others = operandsOf(narrow);
+  const auto isSame = [&](std::size_t i) {
+    return all.size() == others.size() && !isKnownBy(steps, all[i], others[i]) &&
+           sameAt(all[i], others[i], values);
+  };
   Names names;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (!isExact(all[i]) && (all.size() != others.size() || !sameAt(all[i], others[i], values)))
-      addInputs(all[i].distance, names);
+    if (!isExact(all[i]) && !isSame(i)) addInputs(all[i].distance, names);
   return names;
+}
+
+// By how much farther regions lead where they are known of the second scene alone; 1 where they are not.
+double gainOf(Steps steps, const Scene& scene, const Scene& narrow) {
+  const std::vector<Shape> all = operandsOf(scene), others = operandsOf(narrow);
+  std::vector<Steep> steep;
+  for (std::size_t i = 0; i < std::min(all.size(), others.size()); ++i)
+    if (isKnownBy(steps, all[i], others[i])) steep.push_back(steepOf(others[i]));
+  return steep.empty() ? 1.0 : leastOf(steep, steps).gain;
+}
+
+// A table takes about as long as a frame, measured on two cores of a CPU that draws 640 x 360 pixels as well:
+// those that the clock changes pay from gains of about 16 on.
+Steps stepsFor(double gain) {
+  constexpr double kWorthAFrame = 16.0;
+  return gain >= kWorthAFrame  ? Steps::ByRegionNow
+         : gain >= kWorthwhile ? Steps::ByRegionOfSliders
+                               : Steps::ByRegion;
 }
 
 // Within each range, away from its ends and its middle; those that the script has read stay.
@@ -102,12 +129,13 @@ PresentScene::PresentScene(SceneFile file, const Scene& scene, const Values& par
   if (!other_) other_ = run(values = parameters, moment = time, bounded);
   if (!other_) return;
   const Values all = withTime(values, moment);
-  inputs_ = inputsOfOthers(scene, *other_, all);
+  steps_ = stepsFor(gainOf(Steps::ByRegionNow, scene, *other_));
+  inputs_ = inputsOfOthers(scene, *other_, all, steps_);
   for (const std::string& name : Names(inputs_)) {
     Names fewer = inputs_;
     fewer.erase(name);
     auto narrow = fewer.empty() ? std::nullopt : run(values, moment, fewer);
-    if (!narrow || !inputsOfOthers(*narrow, *other_, all).empty()) continue;
+    if (!narrow || !inputsOfOthers(*narrow, *other_, all, steps_).empty()) continue;
     inputs_ = std::move(fewer);
   }
   other_ = inputs_.empty() ? std::nullopt : run(values, moment, inputs_);

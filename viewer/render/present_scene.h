@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sdf/eval/function.h"
+#include "sdf/model/model.h"
 #include "sdf/scene/scene.h"
 #include "viewer/render/scene_file.h"
 
@@ -28,6 +29,9 @@ class PresentScene {
   /// Returns the scene at these values. Where the file allows none for them, as where a radius is 0, it is
   /// the given one, of all values.
   Scene at(const Scene& all, const Values& parameters, double time) const;
+  /// Returns what rays through at() go by: where regions lead farther than one slope, by those of the present
+  /// values. The clock's are not looked for unless rays would run out of steps.
+  Steps steps() const { return steps_; }
   /// Returns the scene at other values, from which renderers see which numbers change; null without inputs.
   const Scene* other() const { return other_ ? &*other_ : nullptr; }
 
@@ -38,6 +42,7 @@ class PresentScene {
   std::set<std::string> known_;  // parameters of the file
   std::set<std::string> inputs_;
   std::optional<Scene> other_;  // at other values
+  Steps steps_ = Steps::ByRegion;
   Values last_;
 };
 

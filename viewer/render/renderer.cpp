@@ -103,6 +103,7 @@ Result<bool> Renderer::follow(const Scene& scene) {
     made->compileSeconds_ = compileSeconds_;
     *this = std::move(*made);
   } else {
+    if (auto s = volumes_.follow(volumesOf(shaders_), volumesOf(*shaders)); !s) return s.error();
     takeNumbers(near, std::move(*shaders));
   }
   if (!marched_) return compiles;

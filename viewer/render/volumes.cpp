@@ -63,6 +63,22 @@ Status Volumes::giveTo(const Program& program, const std::vector<ShaderVolume>& 
   return okStatus();
 }
 
+Status Volumes::follow(const std::vector<ShaderVolume>& before, const std::vector<ShaderVolume>& after) {
+  decltype(units_) units;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const int unit = units_.at({before[i].payload.get(), before[i].number});
+    const auto& payload = after[i].payload;
+    const bool isNew = units.try_emplace({payload.get(), after[i].number}, unit).second;
+    Texture& own = textures_[static_cast<std::size_t>(unit - kFirstUnit)];
+    if (!isNew || own.payload == payload) continue;
+    auto texture = textureOf(payload->volumes()[after[i].number]);
+    if (!texture) return texture.error();
+    own = {payload, std::move(*texture)};
+  }
+  units_ = std::move(units);
+  return okStatus();
+}
+
 void Volumes::bind() const {
   for (std::size_t i = 0; i < textures_.size(); ++i) {
     glActiveTexture(GL_TEXTURE0 + GLenum(kFirstUnit) + GLenum(i));

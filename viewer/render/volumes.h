@@ -19,6 +19,9 @@ class Volumes {
   /// Lets a program read the volumes of its shader, and makes the textures that there are not yet. Errors:
   /// Limits if the driver has no room for so many, or for one so large.
   Status giveTo(const Program& program, const std::vector<ShaderVolume>& volumes);
+  /// Puts the volumes of other shaders of the same code (sameCode) in the places of those that the programs
+  /// were given, one for one. Errors: Limits if the driver has no room for one so large.
+  Status follow(const std::vector<ShaderVolume>& before, const std::vector<ShaderVolume>& after);
   /// Makes them what samplers read. It need not be called again before something else is bound to their
   /// units.
   void bind() const;

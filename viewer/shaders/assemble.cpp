@@ -1,6 +1,7 @@
 #include "viewer/shaders/assemble.h"
 
 #include <algorithm>
+#include <map>
 
 #include "sdf/model/float_range.h"
 #include "viewer/shaders/error_colors.h"
@@ -268,16 +269,37 @@ Status checkNumbers(const Scene& scene) {
   return okStatus();
 }
 
+std::vector<ShaderVolume> volumesOf(const SceneShaders& shaders) {
+  std::vector<ShaderVolume> volumes = shaders.picture.volumes;
+  for (const HitShaders& pass : shaders.hits)
+    volumes.insert(volumes.end(), pass.volumes.begin(), pass.volumes.end());
+  return volumes;
+}
+
+namespace {
+
+// Payloads of one kind may take each other's places, each the same one's everywhere.
+bool canFollow(const std::vector<ShaderVolume>& before, const std::vector<ShaderVolume>& after) {
+  std::map<const Payload*, const Payload*> next, previous;
+  return std::ranges::equal(before, after, [&](const ShaderVolume& a, const ShaderVolume& b) {
+    const Payload *const p = a.payload.get(), *const q = b.payload.get();
+    return a.sampler == b.sampler && a.number == b.number &&
+           (p == q || (!p->kind().empty() && p->kind() == q->kind())) &&
+           next.try_emplace(p, q).first->second == q && previous.try_emplace(q, p).first->second == p;
+  });
+}
+
+}  // namespace
+
 bool sameCode(const SceneShaders& a, const SceneShaders& b) {
   const auto text = [](const std::optional<Shader>& shader) { return shader ? shader->text : ""; };
   const auto isSamePass = [](const HitShaders& p, const HitShaders& q) {
-    return p.cones == q.cones && p.hits == q.hits && p.boxes.empty() == q.boxes.empty() &&
-           p.volumes == q.volumes;
+    return p.cones == q.cones && p.hits == q.hits && p.boxes.empty() == q.boxes.empty();
   };
   const auto isSameMesh = [](const DrawnMesh& m, const DrawnMesh& n) {
     return m.placed.field == n.placed.field && m.own == n.own;
   };
-  return a.picture.text == b.picture.text && a.picture.volumes == b.picture.volumes &&
+  return a.picture.text == b.picture.text && canFollow(volumesOf(a), volumesOf(b)) &&
          text(a.background) == text(b.background) && text(a.boxCones) == text(b.boxCones) &&
          a.triangles == b.triangles && a.hull == b.hull && a.resolve == b.resolve &&
          std::ranges::equal(a.hits, b.hits, isSamePass) &&

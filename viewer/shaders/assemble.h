@@ -67,6 +67,9 @@ struct SceneShaders {
   std::size_t bytes() const;
 };
 
+/// Returns what all of its shaders read.
+std::vector<ShaderVolume> volumesOf(const SceneShaders& shaders);
+
 /// Refuses scenes whose numbers shaders cannot hold. Errors: Scene.
 Status checkNumbers(const Scene& scene);
 
@@ -76,7 +79,7 @@ Result<SceneShaders> assemble(const Scene& scene, const ShaderOptions& options,
                               std::shared_ptr<ChangingNumbers> numbers = {});
 
 /// Returns whether shaders of one scene at two moments are the same code: what they differ in are uniforms,
-/// rows and boxes.
+/// rows, boxes and payloads of one kind.
 bool sameCode(const SceneShaders& a, const SceneShaders& b);
 
 }  // namespace sdf::viewer

@@ -67,8 +67,8 @@ Error withoutSlope(const Scene& scene) {
 }
 
 Result<Marched> marched(const Shape& shape, const Scene& scene, const ShaderOptions& options) {
-  const auto [distance, step, slope] = marchable(shape, options.steps);
-  if (slope < kInfinity) return Marched{hoisted(distance), hoisted(step), shape.bounds};
+  const Marchable m = marchable(shape, options.steps);
+  if (m.slope < kInfinity) return Marched{hoisted(m.distance), hoisted(m.step), shape.bounds};
   return withoutSlope(scene);
 }
 

@@ -15,7 +15,6 @@ struct ShaderVolume {
   std::string sampler;
   std::shared_ptr<const Payload> payload;
   std::size_t number;
-  bool operator==(const ShaderVolume&) const = default;
 };
 
 /// Returns what a writer's source reads.

@@ -1,14 +1,33 @@
 #include "sdf/eval/changing_numbers.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "sdf/expr/alike.h"
 
 namespace sdf {
+namespace {
+
+// Any payload of a kind: where a form has it, each moment has its own.
+class StandIn : public Payload {
+ public:
+  double value(const glm::dvec3&) const override { return kUnknown; }
+  ValueAndGradient gradient(const glm::dvec3&) const override { return {kUnknown, glm::dvec3(kUnknown)}; }
+  Interval range(const std::array<Interval, 3>&) const override { return Interval::everything(); }
+  double lipschitz() const override { return std::numeric_limits<double>::infinity(); }
+  double rounding(const glm::dvec3&) const override { return std::numeric_limits<double>::infinity(); }
+  std::string glsl(const std::string&) const override { return {}; }
+
+ private:
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace
 
 void ChangingNumbers::begin() {
   outputs_.clear();
   numbers_.clear();
+  payloads_.clear();
   settled_ = false;
 }
 
@@ -36,12 +55,29 @@ void ChangingNumbers::keep() {
 
 std::vector<Expr> ChangingNumbers::take(std::span<const Expr> outputs) {
   if (!settled_) {
-    outputs_.insert(outputs_.end(), outputs.begin(), outputs.end());
+    const auto form = rewrite(outputs, [&](const Expr& e, std::span<const Expr> args) -> std::optional<Expr> {
+      const PayloadPart* const p = e.payloadPart();
+      if (!p || p->payload->kind().empty()) return {};
+      return Expr::payload({standInFor(p->payload), p->part}, {args[0], args[1], args[2]});
+    });
+    outputs_.insert(outputs_.end(), form.begin(), form.end());
     return {outputs.begin(), outputs.end()};
   }
   const auto first = form_.begin() + static_cast<std::ptrdiff_t>(taken_);
   taken_ += outputs.size();
   return {first, first + static_cast<std::ptrdiff_t>(outputs.size())};
+}
+
+std::shared_ptr<const Payload> ChangingNumbers::standInFor(const std::shared_ptr<const Payload>& payload) {
+  const auto place = static_cast<std::size_t>(std::ranges::find(payloads_, payload) - payloads_.begin());
+  if (place == payloads_.size()) payloads_.push_back(payload);
+  if (place == standIns_.size()) standIns_.push_back(std::make_shared<StandIn>());
+  return standIns_[place];
+}
+
+std::shared_ptr<const Payload> ChangingNumbers::now(const std::shared_ptr<const Payload>& payload) const {
+  const auto place = static_cast<std::size_t>(std::ranges::find(standIns_, payload) - standIns_.begin());
+  return place < payloads_.size() ? payloads_[place] : payload;
 }
 
 Expr ChangingNumbers::now(const Expr& part) const {

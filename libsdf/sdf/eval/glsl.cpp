@@ -278,7 +278,8 @@ std::string GlslWriter::nameOf(const std::shared_ptr<const Payload>& payload) {
 
 std::vector<std::pair<std::string, std::shared_ptr<const Payload>>> GlslWriter::payloads() const {
   std::vector<std::pair<std::string, std::shared_ptr<const Payload>>> all;
-  for (const auto& payload : payloads_) all.emplace_back(kPayload + std::to_string(all.size()), payload);
+  for (const auto& payload : payloads_)
+    all.emplace_back(kPayload + std::to_string(all.size()), numbers_ ? numbers_->now(payload) : payload);
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sdf/number/interval.h"
@@ -59,6 +60,8 @@ class Payload {
   virtual std::string glsl(const std::string& name) const = 0;
   /// The textures that this GLSL reads, by a linear filter. They may be made when they are first asked for.
   virtual std::span<const PayloadVolume> volumes() const { return {}; }
+  /// Payloads of one kind have one GLSL, and differ in their volumes alone. Empty: it is of no kind.
+  virtual std::string_view kind() const { return {}; }
 };
 
 /// A payload's value or one of its derivatives, as a node of the graph or an instruction of a tape has it.

@@ -114,33 +114,54 @@ namespace {
 
 constexpr double kConstant = 0x1p-64;  // stands for 0: the slope of a distance that is the same everywhere
 
+bool isInput(const Expr& node) { return node.op() == Op::Parameter; }
+
+// Inputs whose values these steps do not know.
+bool hasOpenInputs(const Expr& e, Steps steps) {
+  return std::ranges::any_of(topologicalOrder({&e, 1}), [&](const Expr& node) {
+    if (!isInput(node)) return false;
+    const bool isTaken =
+        node.parameterInfo().name == "time" ? steps == Steps::ByRegionNow : steps >= Steps::ByRegionOfSliders;
+    return !isTaken || !node.range().isPoint();
+  });
+}
+
 // What distances are divided by. What is 1-Lipschitz up to rounding counts as such.
 double divisorOf(double slope) {
   return slope >= 1.0 && isOneLipschitz(slope) ? 1.0 : std::max(slope, kConstant);
 }
 
-// By regions of the one that is copied; nothing where these lead no farther.
-std::optional<Expr> stepByCopies(const Copies& copies) {
-  const Expr one = marchable(copies.one, Steps::ByRegion).step;
-  if (one == marchable(copies.one).step) return {};
-  std::optional<Expr> least = copies.others;
-  for (const auto& [x, y, z] : copies.places) {
-    const Expr seen = remap(one, {x, y, z}, kInfinity);
-    least = least ? min(*least, seen) : seen;
-  }
-  return least;
+// By regions of the distance; nothing where these lead no farther, or hang on inputs.
+std::optional<RegionStep> regionStepOf(const Steep& steep, Steps steps) {
+  if (hasOpenInputs(steep.distance, steps)) return {};
+  const bool hangs = std::ranges::any_of(topologicalOrder({&steep.distance, 1}), isInput);
+  const auto step = stepByRegion(steep.distance, steep.bounds, divisorOf(steep.slope));
+  return step && (step->gain >= kWorthwhile || hangs) ? step : std::nullopt;
 }
 
-Expr stepOf(const Steep& steep, Steps steps) {
+// By regions of the one that is copied; nothing where these lead no farther.
+std::optional<RegionStep> stepByCopies(const Copies& copies, Steps steps) {
+  const Marchable one = marchable(copies.one, steps);
+  if (one.gain == 1.0) return {};
+  std::optional<Expr> least = copies.others;
+  for (const auto& [x, y, z] : copies.places) {
+    const Expr seen = remap(one.step, {x, y, z}, kInfinity);
+    least = least ? min(*least, seen) : seen;
+  }
+  return RegionStep{*least, one.gain};
+}
+
+Marchable marchableBy(const Steep& steep, Steps steps) {
   const auto& [distance, slope, bounds, copies] = steep;
   const double divisor = divisorOf(slope);
-  if (divisor == 1.0) return distance;
+  if (divisor == 1.0) return {distance, distance, slope};
   Expr step = distance * (1.0 / divisor);
-  if (divisor < 1.0 || bounds.empty()) return step;
+  if (divisor < 1.0 || bounds.empty()) return {distance, step, slope};
   if (const auto outside = outsideBox(bounds)) step = max(step, *outside);
-  if (steps == Steps::BySlope) return step;
-  const auto near = copies ? stepByCopies(*copies) : stepByRegion(distance, bounds, divisor);
-  return near ? max(step, *near) : step;
+  if (steps == Steps::BySlope) return {distance, step, slope};
+  const auto near = copies ? stepByCopies(*copies, steps) : regionStepOf(steep, steps);
+  if (!near) return {distance, step, slope};
+  return {distance, max(step, near->step), slope, near->gain};
 }
 
 // As a balanced tree.
@@ -151,7 +172,8 @@ Expr leastOf(std::span<const Expr> all) {
 }
 
 Marchable leastOf(const Marchable& a, const Marchable& b) {
-  return {min(a.distance, b.distance), min(a.step, b.step), std::max(a.slope, b.slope)};
+  return {min(a.distance, b.distance), min(a.step, b.step), std::max(a.slope, b.slope),
+          std::max(a.gain, b.gain)};
 }
 
 Marchable leastOf(std::span<const Shape> operands, Steps steps) {
@@ -177,6 +199,12 @@ Steep steepOf(const Shape& shape) {
   return {shape.distance, slope, shape.bounds, slope > 1.0 ? shape.copies : nullptr};
 }
 
+bool waitsForInputs(const Shape& shape, Steps steps) {
+  const Steep steep = steepOf(shape);
+  if (steep.slope <= 1.0) return false;
+  return steep.copies ? waitsForInputs(steep.copies->one, steps) : hasOpenInputs(steep.distance, steps);
+}
+
 Marchable leastOf(std::span<const Steep> all, Steps steps) {
   constexpr std::size_t kMostByRegion = 3;  // each of which a shader has a texture for
   struct Alike {
@@ -192,12 +220,15 @@ Marchable leastOf(std::span<const Steep> all, Steps steps) {
     alike.copies = one.copies;
   }
   std::vector<Expr> distances, ways;
+  double gain = 1.0;
   for (std::size_t left = bySlope.size(); const auto& [key, alike] : bySlope) {
     distances.push_back(leastOf(alike.distances));
     const Steps here = left-- <= kMostByRegion ? steps : Steps::BySlope;
-    ways.push_back(stepOf(Steep{distances.back(), key.first, alike.bounds, alike.copies}, here));
+    const Marchable one = marchableBy({distances.back(), key.first, alike.bounds, alike.copies}, here);
+    ways.push_back(one.step);
+    gain = std::max(gain, one.gain);
   }
-  return {leastOf(distances), leastOf(ways), bySlope.rbegin()->first.first};
+  return {leastOf(distances), leastOf(ways), bySlope.rbegin()->first.first, gain};
 }
 
 Marchable marchable(const Shape& shape, Steps steps) {
@@ -211,7 +242,7 @@ Marchable marchable(const Shape& shape, Steps steps) {
       return leastOf(shape.outer->operands, steps);
   }
   if (steep.slope == kInfinity) return {shape.distance, shape.distance, kInfinity};
-  return {shape.distance, stepOf(steep, steps), steep.slope};
+  return marchableBy(steep, steps);
 }
 
 }  // namespace sdf

@@ -102,7 +102,8 @@ struct Marchable {
   /// How far one may go: the ball of this radius around a point is free of the surface. It has the distance's
   /// sign and zero set. Where the slope is not known it is the distance itself.
   Expr step;
-  double slope;  ///< of the distance, over all of space, positive; infinite where it is not known
+  double slope;       ///< of the distance, over all of space, positive; infinite where it is not known
+  double gain = 1.0;  ///< by how much farther regions lead at the surface than the slope; 1 where it is that
 };
 
 /// A distance whose slope is known, and what contains its solid.
@@ -118,14 +119,22 @@ Steep steepOf(const Shape& shape);
 
 /// What steps go by.
 enum class Steps {
-  BySlope,  ///< one bound of the slope: they change by no more than one moves
-  ByRegion  ///< bounds by region where these lead farther (model/region_steps.h): they jump
+  BySlope,   ///< one bound of the slope: they change by no more than one moves
+  ByRegion,  ///< bounds by region where these lead farther (model/region_steps.h): they jump
+  /// ByRegion also of what hangs on inputs whose values are known, the clock apart, whether these lead
+  /// farther or not: so steps for other values differ in numbers alone.
+  ByRegionOfSliders,
+  ByRegionNow  ///< and of what hangs on a clock whose time is known
 };
 
 /// The least of these, at least one, each divided by its own slope. Distances of one slope are joined first,
 /// so that they are divided once. Cost: linear in their number but for sorting their slopes, and for the
 /// regions of at most three distances, the steepest.
 Marchable leastOf(std::span<const Steep> all, Steps steps = Steps::BySlope);
+
+/// Would steps of this kind have to know more inputs? Not where these only move the shape, or where its slope
+/// is 1.
+bool waitsForInputs(const Shape& shape, Steps steps);
 
 /// The distance and the step by which the shape is marched. The step of one shape is its distance divided by
 /// its slope; where the slope is above 1, it is at least the way to its bounds. The step of a hard union is

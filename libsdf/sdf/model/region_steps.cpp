@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <deque>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,28 +11,28 @@
 #include <mutex>
 #include <vector>
 
+#include "sdf/base/parallel.h"
 #include "sdf/expr/payload.h"
 #include "sdf/model/case_reading.h"
 
 namespace sdf {
 namespace {
 
-// A table of one number for each cube, which is read at the point's place in it, in cubes. Outside of the
-// table it is another number.
+// A table of one number for each cube, which is read at the point's place in it, in cubes. Beyond its edge
+// the edge goes on.
 class CubeTable : public Payload {
  public:
-  CubeTable(const glm::ivec3& size, std::vector<float> values, float outside)
-      : outside_(outside), volumes_{{{"Cubes", size, 1, false, std::move(values)}}} {
+  CubeTable(const glm::ivec3& size, std::vector<float> values)
+      : volumes_{{{"Cubes", size, 1, false, std::move(values)}}} {
     const auto [least, most] = std::ranges::minmax(volumes_[0].values);
-    range_ = {std::min(least, outside), std::max(most, outside)};
+    range_ = {least, most};
   }
 
   double value(const glm::dvec3& p) const override {
-    const glm::dvec3 cube = glm::floor(p);
     const glm::ivec3& size = volumes_[0].size;
+    glm::ivec3 at(0);
     for (int k = 0; k < 3; ++k)
-      if (!(cube[k] >= 0.0 && cube[k] < size[k])) return outside_;
-    const glm::ivec3 at(cube);
+      if (p[k] > 0.0) at[k] = static_cast<int>(std::min(p[k], size[k] - 0.5));
     return volumes_[0].values[(static_cast<std::size_t>(at.z) * size.y + at.y) * size.x + at.x];
   }
   ValueAndGradient gradient(const glm::dvec3& p) const override { return {value(p), glm::dvec3(0.0)}; }
@@ -43,27 +42,20 @@ class CubeTable : public Payload {
   std::string glsl(const std::string& name) const override {
     return "uniform sampler3D " + name + "Cubes;\nfloat " + name +
            "(vec3 p) {\n"
-           "  ivec3 size = textureSize(" +
+           "  vec3 last = vec3(textureSize(" +
            name +
-           "Cubes, 0);\n"
-           "  bool within = all(greaterThanEqual(p, vec3(0.0))) && all(lessThan(p, vec3(size)));\n"
-           "  return within ? texelFetch(" +
-           name + "Cubes, ivec3(p), 0).r : " + shown(outside_) +
-           ";\n"
+           "Cubes, 0)) - 0.5;\n"
+           "  return texelFetch(" +
+           name +
+           "Cubes, ivec3(min(max(p, vec3(0.0)), last)), 0).r;\n"
            "}\n"
            "vec3 " +
            name + "Slopes(vec3 p) { return vec3(0.0); }\n";
   }
   std::span<const PayloadVolume> volumes() const override { return volumes_; }
+  std::string_view kind() const override { return "table of cubes"; }
 
  private:
-  static std::string shown(float value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9e", value);
-    return text;
-  }
-
-  float outside_;
   std::array<PayloadVolume, 1> volumes_;
   Interval range_;
 };
@@ -84,35 +76,40 @@ class Cubes {
     side_ = side;
     origin_ = box.centre() - 0.5 * side * glm::dvec3(size_);
     cubes_.assign(count(), {});
-    for (std::size_t i = 0; i < count(); ++i) cubes_[i] = read(i);
+    read(std::vector<char>(count(), true));
     divide();
   }
 
   double side() const { return side_; }
-  const glm::dvec3& origin() const { return origin_; }
 
-  // By how much faster one is at the surface than by the slope of all: the median of its cubes.
+  // By how much faster one is at the surface than by the slope of all: the median of its cubes. Where there
+  // is no surface nothing bounds it.
   double gain() const {
     std::vector<double> gains;
     for (std::size_t i = 0; i < count(); ++i)
       if (isMixed(i)) gains.push_back(slope_ / around(i));
-    if (gains.empty()) return 0.0;
+    if (gains.empty()) return kInfinity;
     const auto median = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
     std::ranges::nth_element(gains, median);
     return *median;
   }
 
   // For each cube how far one may go from anywhere in it, in scene units; where that is less than a cube's
-  // side, the speed 1 / slope, negative.
-  std::vector<float> table() const {
+  // side, the speed 1 / slope, negative. A layer of cubes around them stands for all of space beyond.
+  std::shared_ptr<const Payload> table() const {
     constexpr double kLess = 1.0 - 1e-5;  // than is proven, for what is rounded
     const std::vector<double> free = freeAround();
-    std::vector<float> values(count());
-    for (std::size_t i = 0; i < count(); ++i)
-      values[i] = static_cast<float>(kLess * (free[i] >= 1.0 ? free[i] * side_ : -1.0 / around(i)));
-    return values;
+    const glm::ivec3 size = size_ + 2;
+    std::vector<float> values(static_cast<std::size_t>(size.x) * size.y * size.z,
+                              static_cast<float>(-kLess / slope_));
+    for (std::size_t i = 0; i < count(); ++i) {
+      const glm::ivec3 at = placeOf(i) + 1;
+      values[(static_cast<std::size_t>(at.z) * size.y + at.y) * size.x + at.x] =
+          static_cast<float>(kLess * (free[i] >= 1.0 ? free[i] * side_ : -1.0 / around(i)));
+    }
+    return std::make_shared<CubeTable>(size, std::move(values));
   }
-  const glm::ivec3& size() const { return size_; }
+  glm::dvec3 cornerOfTable() const { return origin_ - side_; }
 
  private:
   // Tried: with 160 cubes along and ten times the operations a gyroid is read a third as often, but the start
@@ -133,11 +130,21 @@ class Cubes {
     return static_cast<std::size_t>(std::ranges::count(cubes_, Cube::Side::Mixed, &Cube::side));
   }
 
+  // Reads some of the cubes. So many parts whatever the cores are: a reading keeps tapes of its own.
+  void read(const std::vector<char>& which) {
+    constexpr std::size_t kParts = 16;
+    inParallel(kParts, [&](std::size_t part) {
+      CaseReading distance = *distance_;
+      for (std::size_t i = part * count() / kParts; i < (part + 1) * count() / kParts; ++i)
+        if (which[i]) cubes_[i] = cubeAt(i, distance);
+    });
+  }
+
   // A little larger than it is: places in it are rounded.
-  Cube read(std::size_t i) {
+  Cube cubeAt(std::size_t i, CaseReading& distance) const {
     const glm::dvec3 low = origin_ + side_ * glm::dvec3(placeOf(i));
     const Box box = Box{low, low + side_}.grown(1e-4 * side_);
-    const auto [value, slope] = distance_->read(box);
+    const auto [value, slope] = distance.read(box);
     const auto side = value.nan        ? Cube::Side::Mixed
                       : value.lo > 0.0 ? Cube::Side::Outside
                       : value.hi < 0.0 ? Cube::Side::Inside
@@ -145,16 +152,21 @@ class Cubes {
     return {side, std::min(slope_, slope)};
   }
 
-  bool isNearMixed(std::size_t i) const {
-    bool is = false;
-    forAround(i, [&](const Cube* cube) { is = is || (cube && cube->side == Cube::Side::Mixed); });
-    return is;
+  // Those that may hold the surface, and those that touch them.
+  std::vector<char> nearMixed() const {
+    std::vector<char> are(count(), false);
+    for (std::size_t i = 0; i < count(); ++i)
+      if (isMixed(i))
+        forAround(i, [&](const Cube* cube) {
+          if (cube) are[static_cast<std::size_t>(cube - cubes_.data())] = true;
+        });
+    return are;
   }
 
   // Some hundredths of a second's worth, as long as more cubes may help; some tenths where rays would run out
   // of steps else.
   void divide() {
-    constexpr double kPromising = 1.25, kTooSteep = 64.0;
+    constexpr double kPromising = 1.25;
     // One halving more: of copies about an axis, stretched, a tenth as many pixels run out of steps.
     constexpr std::size_t kMore = 8;
     const std::size_t most =
@@ -162,7 +174,8 @@ class Cubes {
     bool isFirst = true;  // copies of a shape are told from one another by cubes that are small beside them
     while (2 * std::max({size_.x, size_.y, size_.z}) <= kMostAlong) {
       const double by = gain();
-      const bool isTooSteep = by > 0.0 && slope_ / by > kTooSteep;
+      const bool isTooSteep = slope_ / by > kTooSteep;
+      if (by == kInfinity) return;
       if (!isFirst && by <= kPromising && !isTooSteep) return;
       if (8 * mixed() > (isTooSteep ? kMore : 1) * most) return;
       halve();
@@ -172,20 +185,21 @@ class Cubes {
 
   // Cubes whose parts have no use for more are copied.
   void halve() {
-    Cubes finer = *this;
-    finer.size_ = size_ * 2;
-    finer.side_ = 0.5 * side_;
-    finer.cubes_.assign(finer.count(), {});
+    const Cubes coarse = *this;
+    size_ *= 2;
+    side_ *= 0.5;
+    cubes_.assign(count(), {});
+    const std::vector<char> near = coarse.nearMixed();
+    std::vector<char> isRead(count(), false);
+    const auto around = [&](std::size_t i) { return coarse.numberOf(placeOf(i) / 2); };
+    for (std::size_t i = 0; i < count(); ++i) isRead[i] = near[around(i)];
+    read(isRead);
     for (std::size_t i = 0; i < count(); ++i) {
-      const bool isNear = isNearMixed(i);
-      for (int part = 0; part < 8; ++part) {
-        const std::size_t k = finer.numberOf(placeOf(i) * 2 + glm::ivec3(part & 1, part >> 1 & 1, part >> 2));
-        finer.cubes_[k] = isNear ? finer.read(k) : cubes_[i];
-        if (!isMixed(i)) finer.cubes_[k].side = cubes_[i].side;
-        finer.cubes_[k].slope = std::min(finer.cubes_[k].slope, cubes_[i].slope);
-      }
+      const Cube& whole = coarse.cubes_[around(i)];
+      if (!isRead[i]) cubes_[i] = whole;
+      if (whole.side != Cube::Side::Mixed) cubes_[i].side = whole.side;
+      cubes_[i].slope = std::min(cubes_[i].slope, whole.slope);
     }
-    *this = std::move(finer);
   }
 
   // Calls visit for the cube and those that touch it; with null for those outside of the box.
@@ -207,23 +221,43 @@ class Cubes {
     return std::max(most, slope_ * 1e-6);
   }
 
+  template <class Visit>
+  void forSlice(int axis, int slice, const Visit& visit) const {
+    glm::ivec3 from(0), to = size_;
+    from[axis] = slice;
+    to[axis] = slice + 1;
+    for (int z = from.z; z < to.z; ++z)
+      for (int y = from.y; y < to.y; ++y)
+        for (int x = from.x; x < to.x; ++x) visit(numberOf({x, y, z}), {x, y, z});
+  }
+
+  // The least of the squares along a row, each with that of the cubes between.
+  static double leastAlong(const double* own, std::size_t stride, int place, int size) {
+    double least = *own;
+    for (int k = 1; k <= kMostFree && (k - 1) * (k - 1) < least; ++k) {
+      const double between = (k - 1) * (k - 1);
+      if (place >= k) least = std::min(least, *(own - k * stride) + between);
+      if (place + k < size) least = std::min(least, own[k * stride] + between);
+    }
+    return least;
+  }
+
   // For each cube how many sides away the nearest cube is that is not outside, kMostFree at most: along one
   // axis after the other (Saito and Toriwaki 1994).
   std::vector<double> freeAround() const {
     std::vector<double> squares(count());
     for (std::size_t i = 0; i < count(); ++i)
       squares[i] = cubes_[i].side == Cube::Side::Outside ? kInfinity : 0.0;
+    const std::size_t strides[] = {1, static_cast<std::size_t>(size_.x),
+                                   static_cast<std::size_t>(size_.x) * size_.y};
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> next(count(), kInfinity);
-      for (std::size_t i = 0; i < count(); ++i) {
-        glm::ivec3 at = placeOf(i);
-        const int here = at[axis];
-        const int last = std::min(size_[axis] - 1, here + kMostFree);
-        for (at[axis] = std::max(0, here - kMostFree); at[axis] <= last; ++at[axis]) {
-          const int between = std::max(0, std::abs(at[axis] - here) - 1);
-          next[i] = std::min(next[i], squares[numberOf(at)] + between * between);
-        }
-      }
+      std::vector<double> next(count());
+      const int slices = axis == 2 ? 1 : 2;  // along an axis that is not walked
+      inParallel(static_cast<std::size_t>(size_[slices]), [&](std::size_t slice) {
+        forSlice(slices, static_cast<int>(slice), [&](std::size_t i, const glm::ivec3& at) {
+          next[i] = leastAlong(&squares[i], strides[axis], at[axis], size_[axis]);
+        });
+      });
       squares = std::move(next);
     }
     for (double& s : squares) s = std::min(std::sqrt(s), static_cast<double>(kMostFree));
@@ -238,39 +272,35 @@ class Cubes {
   std::vector<Cube> cubes_;
 };
 
-bool hasInputs(const Expr& e) {
-  return std::ranges::any_of(topologicalOrder({&e, 1}),
-                             [](const Expr& node) { return node.op() == Op::Parameter; });
-}
-
-std::optional<Expr> made(const Expr& distance, const Box& box, double slope) {
-  constexpr double kWorthwhile = 2.0;
+RegionStep made(const Expr& distance, const Box& box, double slope) {
   const Cubes cubes(distance, box, slope);
-  if (!(cubes.gain() >= kWorthwhile)) return {};
-  const auto table =
-      std::make_shared<CubeTable>(cubes.size(), cubes.table(), static_cast<float>(-1.0 / slope));
-  const glm::dvec3 o = cubes.origin();
-  const double perSide = 1.0 / cubes.side();
-  const Vec3E p = position();
-  const Expr known =
-      Expr::payload({table, 0}, {(p.x - o.x) * perSide, (p.y - o.y) * perSide, (p.z - o.z) * perSide});
-  return select(less(0.0, known), known, min(distance * -known, cubes.side()));
+  const std::vector<Expr> order = topologicalOrder({&distance, 1});
+  // Of what hangs on an input they are formulas of it: shaders have such as uniforms, whatever they are.
+  const auto input = std::ranges::find(order, Op::Parameter, &Expr::op);
+  const auto number = [&](double v) { return input == order.end() ? Expr(v) : v + 0.0 * *input; };
+  const glm::dvec3 corner = cubes.cornerOfTable();
+  const Vec3E o(number(corner.x), number(corner.y), number(corner.z)), p = position();
+  const Expr perSide = number(1.0 / cubes.side());
+  const Expr known = Expr::payload({cubes.table(), 0},
+                                   {(p.x - o.x) * perSide, (p.y - o.y) * perSide, (p.z - o.z) * perSide});
+  return RegionStep{select(less(0.0, known), known, min(distance * -known, number(cubes.side()))),
+                    cubes.gain()};
 }
 
 struct Kept {
   Expr distance;
   Box box;
   double slope;
-  std::optional<Expr> step;
+  RegionStep step;
 };
 
 }  // namespace
 
-std::optional<Expr> stepByRegion(const Expr& distance, const Box& box, double slope) {
+std::optional<RegionStep> stepByRegion(const Expr& distance, const Box& box, double slope) {
   constexpr std::size_t kMostKept = 16;
   static std::mutex lock;
   static std::deque<Kept> kept;
-  if (!box.finite() || box.empty() || !(slope < kInfinity) || hasInputs(distance)) return {};
+  if (!box.finite() || box.empty() || !(slope < kInfinity)) return {};
   const std::lock_guard guard(lock);
   const auto found = std::ranges::find_if(kept, [&](const Kept& k) {
     return k.distance == distance && k.box.min == box.min && k.box.max == box.max && k.slope == slope;

@@ -1,16 +1,15 @@
 #include "sdf/triangles/bricks.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
-#include <thread>
 #include <utility>
 
+#include "sdf/base/parallel.h"
 #include "sdf/triangles/brick_samples.h"
 
 namespace sdf {
@@ -27,17 +26,6 @@ constexpr double kFlawed = 0.06;
 constexpr int kLevels = 3;
 constexpr int kTable = kParts + 1;         // the bricks of a cube's parts, and its own
 constexpr std::size_t kMostLayers = 2048;  // of the grid with the tables behind it: what all drivers have
-
-/// Calls work(i) for each i below count, on all cores.
-void inParallel(std::size_t count, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  const auto run = [&] {
-    for (std::size_t i; (i = next++) < count;) work(i);
-  };
-  std::vector<std::jthread> others;
-  for (unsigned i = 1; i < std::max(std::thread::hardware_concurrency(), 1u); ++i) others.emplace_back(run);
-  run();
-}
 
 std::size_t placeIn(const glm::ivec3& size, const glm::ivec3& at) {
   return (static_cast<std::size_t>(at.z) * size.y + at.y) * size.x + at.x;
