@@ -198,6 +198,7 @@ MeshOptions FrameExport::meshOptions(double voxelSize, double tolerance) const {
   return {.voxelSize = voxelSize,
           .tolerance = options_.compress ? kBeforeRounding * tolerance : tolerance,
           .strict = options_.strict,
+          .keepsFiles = !options_.strict && !options_.levels,
           .bounds = clip,
           .certify = options_.certify,
           .maxMemory = options_.maxMemory};

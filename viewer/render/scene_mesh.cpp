@@ -16,6 +16,7 @@ Result<SceneMesh> meshScene(Scene scene, const MeshSettings& settings, Progress&
   const MeshOptions options{.voxelSize = settings.voxelSize.value_or(size->voxelSize),
                             .tolerance = tolerance,
                             .strict = settings.tolerance.has_value(),
+                            .keepsFiles = !settings.tolerance,
                             .bounds = scene.bounds};
   SceneMesh result{std::move(scene), {}, tolerance, size->diagonal};
   for (const Part& part : result.scene.parts) {

@@ -19,6 +19,7 @@
 #include "sdf/mesh/edit/crossings.h"
 #include "sdf/mesh/edit/feature_mesh.h"
 #include "sdf/mesh/edit/uncross.h"
+#include "sdf/mesh/extract/placed_triangles.h"
 #include "sdf/mesh/measure/against_stated.h"
 #include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/measure/last_measured.h"
@@ -167,6 +168,10 @@ class Mesher {
     const double finest = thins ? std::ldexp(h, -kHalvings) : h;
     const ModelTapes model = Model(shape).at(options_.values, Accuracy{*bounds, kReadWithin * finest});
     distance_ = shape.distance;
+    if (thins && !painted_)
+      if (auto own = placedTriangles(shape, options_.values);
+          own && (options_.keepsFiles || isManifold(*own)))
+        return takeTriangles(std::move(*own), shape, model, *bounds, h);
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
       if (!sampled) return sampled.error();
@@ -423,6 +428,12 @@ class Mesher {
     return isClosed(mesh) && !keepsColors(mesh, options_.tolerance, fine.field, progress_);
   }
 
+  static bool isManifold(const FeatureMesh& mesh) {
+    MeshStats stats;
+    measureTopology(mesh.triangles, mesh.positions.size(), stats);
+    return stats.manifold;
+  }
+
   static bool isClosed(const FeatureMesh& mesh) {
     return !mesh.triangles.empty() && !openVertex(mesh.triangles, mesh.positions.size());
   }
@@ -496,6 +507,28 @@ class Mesher {
                                exceeding, painted, progress_);
     if (!kept) missed_ = std::min(missed_, exceeded_);
     return kept;
+  }
+
+  // A mesh from a file has its surface. The lattice is for measuring.
+  Result<MeshedShape> takeTriangles(FeatureMesh own, const Shape& shape, const ModelTapes& model,
+                                    const Box& bounds, double voxel) {
+    Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, kCoarsest * voxel);
+    if (!sampled) return sampled.error();
+    Lattice& lattice = **sampled;
+    result_.stats.voxelSize = lattice.band.voxelSize();
+    result_.stats.tolerance = options_.tolerance;
+    if (!options_.keepsFiles) {
+      begin("remeshing");
+      surface_ = surfacePoints(model, bounds, progress_);
+      Witnesses witnesses(surface_, own, false);
+      FeatureMesh& mesh = lattice.mesh = own;
+      const bool kept = simplifyTo(mesh, 1.0, lattice.field, lattice.field, bounds, witnesses);
+      if (kept && mesh.triangles.size() < own.triangles.size() && !crosses(mesh))
+        return finish(shape, model, bounds, lattice);
+      witnessed_ = {};
+    }
+    lattice.mesh = std::move(own);
+    return finish(shape, model, bounds, lattice);
   }
 
   // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are

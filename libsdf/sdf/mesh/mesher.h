@@ -25,6 +25,9 @@ struct MeshOptions {
   /// and voxels are not halved for the rest where that would take long; stats.maxDistance tells what was
   /// reached.
   bool strict = true;
+  /// Has a mesh from a file that is only moved, turned and scaled its own triangles, whatever the tolerance?
+  /// Else they are simplified to it.
+  bool keepsFiles = false;
   std::optional<Box> bounds{};  ///< clips the shape, closed and watertight
   Values values{};              ///< of the shape's inputs; its bounds hold for all in their ranges
   bool certify = false;  ///< also prove the mesh's two-sided distance to the surface (stats.provenDistance)

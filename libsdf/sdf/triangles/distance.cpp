@@ -148,6 +148,18 @@ void TriangleDistance::setPatches(const std::vector<char>& crossing) {
   for (std::uint32_t i = 0; i < count; ++i) patches_[i].inside = patches_[sets.of(i)].inside;
 }
 
+std::optional<std::vector<glm::uvec3>> TriangleDistance::surface() const {
+  if (signBy_ == SignBy::Normals) return triangles_.triangles;
+  if (!std::ranges::all_of(patches_, &Patch::known)) return {};
+  std::vector<glm::uvec3> all;
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    const auto [before, behind] = patches_[i].inside;
+    const glm::uvec3& t = triangles_.triangles[i];
+    if (before != behind) all.push_back(behind ? t : glm::uvec3(t.x, t.z, t.y));
+  }
+  return all;
+}
+
 std::array<bool, 2> TriangleDistance::sidesOf(std::uint32_t triangle) const {
   const std::array<glm::dvec3, 3> t = corners(triangle);
   const glm::dvec3 area = areaOf(t), middle = (t[0] + t[1] + t[2]) / 3.0;

@@ -36,6 +36,9 @@ class TriangleDistance {
   SignBy signBy() const { return signBy_; }
   /// Do the triangles wind around something? Asked is beside at most 20,000 of them.
   bool hasInside() const;
+  /// The triangles that have the solid on one side, with that side behind them; nothing where some cross.
+  /// Their edges may have more than two of them.
+  std::optional<std::vector<glm::uvec3>> surface() const;
   /// The corners of the box around all.
   const glm::dvec3& min() const { return min_; }
   const glm::dvec3& max() const { return max_; }

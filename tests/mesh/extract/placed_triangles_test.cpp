@@ -1,0 +1,150 @@
+// Meshes from files that are only moved keep their triangles.
+#include "sdf/mesh/extract/placed_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/mesher.h"
+#include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/triangle_solid.h"
+#include "support/triangle_meshes.h"
+
+namespace sdf::test {
+namespace placed_triangles_test {
+
+Shape meshOf(TriangleMesh mesh) { return triangleSolid(MeshField::make(std::move(mesh), 64).value()); }
+
+const glm::vec3 kHalf(0.5f, 0.25f, 0.75f);
+Shape boxOfTriangles() { return meshOf(apart(boxOf(-kHalf, kHalf))); }
+
+Shape placed(const Shape& shape) {
+  return translate(rotate(scale(shape, 2.0), Vec3E(0.3, 0.5, 0.1)), Vec3E(1.0, -2.0, 3.0));
+}
+
+Result<MeshedShape> meshed(const Shape& shape, MeshOptions options) {
+  Progress progress;
+  return meshShape(shape, "mesh", options, progress);
+}
+
+TEST(PlacedTriangles, AreTheFilesWithItsEdges) {
+  const Shape shape = placed(boxOfTriangles());
+  const auto mesh = placedTriangles(shape, {});
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(mesh->triangles.size(), 12u);
+  EXPECT_EQ(mesh->positions.size(), 8u);
+  EXPECT_EQ(mesh->creases.size(), 12u) << "not those within its sides";
+  const TapePtr distance = Function(shape.distance).at();
+  for (const glm::vec3& p : mesh->positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-6);
+  for (const glm::uvec3& t : mesh->triangles) {
+    const glm::dvec3 a(mesh->positions[t.x]), b(mesh->positions[t.y]), c(mesh->positions[t.z]);
+    const glm::dvec3 out = 1e-3 * glm::normalize(glm::cross(b - a, c - a));
+    EXPECT_NEAR(evaluate(*distance, (a + b + c) / 3.0 + out), 1e-3, 1e-5) << "they face outwards";
+  }
+}
+
+TEST(PlacedTriangles, FollowInputs) {
+  const Expr turn = Expr::parameter({"turn", 0.0, -1.0, 1.0});
+  const Shape shape = translate(rotate(boxOfTriangles(), Vec3E(0.0, turn, 0.0)), Vec3E(turn, 0.0, 0.0));
+  const Values values{{"turn", 0.7}};
+  const auto mesh = placedTriangles(shape, values);
+  ASSERT_TRUE(mesh);
+  const TapePtr distance = Function(shape.distance).at(values);
+  for (const glm::vec3& p : mesh->positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-6);
+}
+
+TEST(PlacedTriangles, OfCurvesHaveNoEdges) {
+  const auto mesh = placedTriangles(meshOf(bumpyTorus(48)), {});
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(mesh->triangles.size(), 2u * 48 * 48);
+  EXPECT_TRUE(mesh->creases.empty());
+}
+
+TEST(PlacedTriangles, AreOfNothingElse) {
+  const TriangleMesh one = boxOf(-kHalf, kHalf), other = boxOf(glm::vec3(0.0f), glm::vec3(1.0f));
+  EXPECT_FALSE(placedTriangles(meshOf(together(one, other)), {})) << "they cross";
+  EXPECT_FALSE(placedTriangles(round(boxOfTriangles(), 0.1), {}));
+  EXPECT_FALSE(placedTriangles(subtract({boxOfTriangles(), sphere(0.1)}), {}));
+  EXPECT_FALSE(placedTriangles(twist(boxOfTriangles(), 0.5), {}));
+  EXPECT_FALSE(placedTriangles(sphere(1.0), {}));
+}
+
+// Whatever way the file's triangles run, they have the solid behind them, and none lies in it.
+TEST(PlacedTriangles, AreTheSolidsSurface) {
+  TriangleMesh inverted = boxOf(-kHalf, kHalf);
+  for (glm::uvec3& t : inverted.triangles) std::swap(t.y, t.z);
+  const auto turned = placedTriangles(meshOf(inverted), {}), right = placedTriangles(boxOfTriangles(), {});
+  ASSERT_TRUE(turned && right);
+  EXPECT_EQ(turned->triangles.size(), 12u);
+  const auto volume = [](const FeatureMesh& mesh) {
+    double sum = 0.0;
+    for (const glm::uvec3& t : mesh.triangles) {
+      const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+      sum += glm::dot(a, glm::cross(b, c)) / 6.0;
+    }
+    return sum;
+  };
+  EXPECT_NEAR(volume(*turned), volume(*right), 1e-6);
+  EXPECT_GT(volume(*turned), 0.0);
+  const auto nested =
+      placedTriangles(meshOf(together(boxOf(-kHalf, kHalf), boxOf(-0.5f * kHalf, 0.5f * kHalf))), {});
+  ASSERT_TRUE(nested);
+  EXPECT_EQ(nested->triangles.size(), 12u);
+  EXPECT_EQ(nested->positions.size(), 8u);
+}
+
+// Wedges on one edge took minutes as voxels.
+TEST(PlacedTriangles, MayShareAnEdge) {
+  TriangleMesh fan;
+  fan.positions = {{0, 0, 0}, {0, 0, 1}};
+  constexpr int kWedges = 40;
+  for (std::uint32_t i = 0; i < kWedges; ++i) {
+    const auto k = static_cast<std::uint32_t>(fan.positions.size());
+    for (const double angle : {i * 2.0, i * 2.0 + 1.0})
+      for (const double z : {0.0, 1.0})
+        fan.positions.emplace_back(std::cos(std::numbers::pi * angle / kWedges),
+                                   std::sin(std::numbers::pi * angle / kWedges), z);
+    for (const glm::uvec3& t : {glm::uvec3(0, k + 2, k), glm::uvec3(1, k + 1, k + 3), glm::uvec3(0, k, k + 1),
+                                glm::uvec3(0, k + 1, 1), glm::uvec3(1, k + 3, k + 2), glm::uvec3(1, k + 2, 0),
+                                glm::uvec3(k, k + 2, k + 3), glm::uvec3(k, k + 3, k + 1)})
+      fan.triangles.push_back(t);
+  }
+  fan.materialOf.assign(fan.triangles.size(), 0);
+  const auto mesh = meshed(meshOf(fan), {.tolerance = 1e-3, .strict = false, .keepsFiles = true});
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  EXPECT_EQ(mesh->stats.triangles, 8u * kWedges);
+  EXPECT_TRUE(mesh->stats.watertight);
+  EXPECT_FALSE(mesh->stats.manifold);
+  EXPECT_EQ(mesh->stats.crossings, 0u);
+  EXPECT_LT(mesh->stats.maxDistance, 1e-6);
+}
+
+TEST(PlacedTriangles, LeaveAsTheyCame) {
+  const auto box = meshed(placed(boxOfTriangles()), {.tolerance = 1e-3, .strict = false, .keepsFiles = true});
+  ASSERT_TRUE(box.ok()) << box.error().message;
+  EXPECT_EQ(box->stats.triangles, 12u);
+  EXPECT_EQ(box->mesh.positions.size(), 24u) << "each side has normals of its own";
+  EXPECT_LT(box->stats.maxDistance, 1e-6);
+  EXPECT_GT(box->stats.surfacePoints, 0u);
+  EXPECT_TRUE(box->stats.watertight);
+  const auto torus = meshed(meshOf(bumpyTorus(48)), {.tolerance = 0.05, .strict = false, .keepsFiles = true});
+  ASSERT_TRUE(torus.ok()) << torus.error().message;
+  EXPECT_EQ(torus->stats.triangles, 2u * 48 * 48) << "whatever the tolerance";
+  EXPECT_EQ(torus->mesh.positions.size(), 48u * 48);
+}
+
+TEST(PlacedTriangles, AreSimplifiedToATolerance) {
+  const auto box = meshed(placed(boxOfTriangles()), {.tolerance = 5e-4});
+  ASSERT_TRUE(box.ok()) << box.error().message;
+  EXPECT_EQ(box->stats.triangles, 12u);
+  const auto torus = meshed(meshOf(bumpyTorus(48)), {.tolerance = 0.05});
+  ASSERT_TRUE(torus.ok()) << torus.error().message;
+  EXPECT_LT(torus->stats.triangles, 1500u);
+  EXPECT_LE(torus->stats.maxDistance, 0.05);
+  EXPECT_GT(torus->stats.maxDistance, 0.005);
+}
+
+}  // namespace placed_triangles_test
+}  // namespace sdf::test
