@@ -64,6 +64,7 @@ TriangleTree::TriangleTree(const std::vector<glm::vec3>& points, const std::vect
   std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(triangles.size());
   nodes_.emplace_back();
+  slabs_.emplace_back();
   build(0, 0, static_cast<std::uint32_t>(order_.size()), 0);
   setDipoles();
   findLinks();
@@ -84,6 +85,7 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
     middles.add(middleOf(order_[i]));
   }
   nodes_[node] = {all.min, all.max, first, count};
+  slabs_[node] = slabOf(first, count);
   const glm::vec3 sides = middles.max - middles.min;
   const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
   if (count <= kLeaf || !(sides[axis] > 0.0f)) return;
@@ -122,9 +124,43 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
   const auto left = static_cast<std::uint32_t>(half - begin);
   const auto child = static_cast<std::uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
+  slabs_.resize(nodes_.size());
   nodes_[node].first = child, nodes_[node].count = 0;
   build(child, first, left, depth + 1);
   build(child + 1, first + left, count - left, depth + 1);
+}
+
+// Triangles are taken with the sign by which they agree with the first that has an area.
+TriangleTree::Slab TriangleTree::slabOf(std::uint32_t first, std::uint32_t count) const {
+  glm::dvec3 sum(0.0);
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const glm::uvec3& t = triangles_[order_[i]];
+    const glm::dvec3 a(points_[t.x]), b(points_[t.y]), c(points_[t.z]), area = glm::cross(b - a, c - a);
+    sum += glm::dot(area, sum) < 0.0 ? -area : area;
+  }
+  const double length = glm::length(sum);
+  if (!(length > 0.0)) return {};
+  Slab slab{sum / length, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::uint32_t i = first; i < first + count; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double along = glm::dot(slab.normal, glm::dvec3(points_[triangles_[order_[i]][k]]));
+      slab.low = std::min(slab.low, along);
+      slab.high = std::max(slab.high, along);
+    }
+  return slab;
+}
+
+// The planes are asked where the box is nearer than `enough`.
+double TriangleTree::leastSquaredTo(const glm::dvec3& p, std::uint32_t node, double enough) const {
+  const double squared = squaredTo(p, nodes_[node].min, nodes_[node].max);
+  if (!(squared < enough)) return squared;
+  constexpr double kRounded = 1.0 - 1e-12;
+  const Slab& slab = slabs_[node];
+  const double along = glm::dot(slab.normal, p);
+  const double gap = std::max({slab.low - along, along - slab.high, 0.0});
+  const double rounding = 1e-15 * (std::abs(along) + std::abs(slab.low) + std::abs(slab.high));
+  const double least = std::max(gap - rounding, 0.0);
+  return std::max(squared, kRounded * least * least);
 }
 
 NearestPoint TriangleTree::nearest(const glm::dvec3& p, std::uint32_t hint, double enough) const {
@@ -153,8 +189,8 @@ NearestPoint TriangleTree::nearest(const glm::dvec3& p, std::uint32_t hint, doub
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) look(order_[i]);
       continue;
     }
-    Open near{squaredTo(p, nodes_[node.first].min, nodes_[node.first].max), node.first};
-    Open far{squaredTo(p, nodes_[node.first + 1].min, nodes_[node.first + 1].max), node.first + 1};
+    Open near{leastSquaredTo(p, node.first, best.squared), node.first};
+    Open far{leastSquaredTo(p, node.first + 1, best.squared), node.first + 1};
     if (far.squared < near.squared) std::swap(near, far);
     if (far.squared < best.squared) open[left++] = far;
     if (near.squared < best.squared) open[left++] = near;

@@ -65,6 +65,12 @@ class TriangleTree {
     glm::vec3 min, max;
     std::uint32_t first = 0, count = 0;  // of order_; or, where count is 0, the first of two nodes
   };
+  /// Between two planes, across about the mean normal of a node's triangles, lie all of them. Boxes of
+  /// triangles that share an edge, or lie askew, are wide.
+  struct Slab {
+    glm::dvec3 normal{0.0};
+    double low = 0.0, high = 0.0;
+  };
   struct Link;
   struct Nodes;
   struct Asked;
@@ -73,6 +79,8 @@ class TriangleTree {
     double reach = 0.0;  // of a ball around the centre that holds all
   };
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth);
+  Slab slabOf(std::uint32_t first, std::uint32_t count) const;
+  double leastSquaredTo(const glm::dvec3& p, std::uint32_t node, double enough) const;
   void setDipoles();
   void findLinks();
   void findHubs();
@@ -91,6 +99,7 @@ class TriangleTree {
   const std::vector<glm::vec3>& points_;
   const std::vector<glm::uvec3>& triangles_;
   std::vector<Node> nodes_;
+  std::vector<Slab> slabs_;           // by node
   std::vector<std::uint32_t> order_;  // of triangles, by leaf
   std::vector<Dipole> dipoles_;       // by node
   // By corner, of those of many triangles; and by node the one that all of its triangles have in common.
