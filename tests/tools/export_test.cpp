@@ -5,11 +5,14 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cfloat>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "exported.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/mesh.h"
+#include "support/triangle_meshes.h"
 
 namespace sdf {
 namespace export_test {
@@ -230,6 +233,24 @@ TEST_F(Export, WritesLevelsOfDetail) {
     EXPECT_LE(part["triangles"], 1.5 * 0.1925 * 4.0 * std::numbers::pi / tolerance);
     tolerance *= 4.0;
   }
+}
+
+// Of a ring of 512 triangles.
+TEST_F(Export, LeavesAFilesMeshAsItCameUnlessFewerTrianglesAreAskedFor) {
+  const std::string file = scene("return mesh('ring.obj'):rotate(10, 20, 30)");
+  const TriangleMesh ring = test::bumpyTorus(16);
+  std::ofstream obj(std::filesystem::path(file).parent_path() / "ring.obj");
+  for (const glm::vec3& p : ring.positions) obj << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const glm::uvec3& t : ring.triangles)
+    obj << "f " << t.x + 1 << ' ' << t.y + 1 << ' ' << t.z + 1 << '\n';
+  obj.close();
+  const auto triangles = [&](const std::vector<std::string>& asked) {
+    std::vector<std::string> words{file, "-o", out("a.glb")};
+    words.insert(words.end(), asked.begin(), asked.end());
+    return report(words)["outputs"].back()["total"]["triangles"].get<int>();
+  };
+  EXPECT_EQ(triangles({}), 512);
+  EXPECT_LT(triangles({"--tolerance", "5%"}), 400);
 }
 
 TEST_F(Export, UnitesOnlyThePartAskedFor) {

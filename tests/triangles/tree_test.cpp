@@ -40,6 +40,29 @@ TEST(TriangleTree, FindsTheNearestTriangleAtAnyScale) {
   }
 }
 
+// Boxes of triangles on one edge hold one another; planes tell them apart.
+TEST(TriangleTree, FindsTheNearestOfManyOnAnEdge) {
+  std::mt19937 random(9);
+  TriangleMesh mesh;
+  mesh.positions = {{0.0f, 0.0f, -1.0f}, {0.0f, 0.0f, 1.0f}};
+  constexpr int kCount = 500;
+  for (int i = 0; i < kCount; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCount;
+    mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.1 * std::sin(5.0 * angle));
+    const auto third = static_cast<std::uint32_t>(i + 2);
+    mesh.triangles.emplace_back(i % 2, 1 - i % 2, third);  // by turns one way and the other
+  }
+  const TriangleTree tree(mesh.positions, mesh.triangles);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 p = randomIn(random, i % 2 ? 0.1 : 1.5);
+    double least = std::numeric_limits<double>::infinity();
+    for (const glm::uvec3& t : mesh.triangles)
+      least = std::min(least,
+                       nearestOf(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]).squared);
+    ASSERT_EQ(tree.nearest(p).squared, least);
+  }
+}
+
 // What is near enough is any triangle that is; what is not is the nearest one.
 TEST(TriangleTree, StopsAtWhatIsNearEnough) {
   std::mt19937 random(4);

@@ -134,6 +134,12 @@ bool isPainted(const Shape& shape) {
   return false;
 }
 
+// The triangles of what is a mesh from a file alone, where a tolerance is to be kept.
+std::optional<FeatureMesh> ownTriangles(const Shape& shape, const MeshOptions& options) {
+  if (!(options.tolerance > 0.0) || isPainted(shape)) return {};
+  return placedTriangles(shape, options.values);
+}
+
 // A shape's samples at one resolution, and the mesh that is made of them.
 struct Lattice {
   Lattice(NarrowBand samples, LocalTapes whole) : band(std::move(samples)), field(band, std::move(whole)) {}
@@ -168,9 +174,8 @@ class Mesher {
     const double finest = thins ? std::ldexp(h, -kHalvings) : h;
     const ModelTapes model = Model(shape).at(options_.values, Accuracy{*bounds, kReadWithin * finest});
     distance_ = shape.distance;
-    if (thins && !painted_)
-      if (auto own = placedTriangles(shape, options_.values);
-          own && (options_.keepsFiles || isManifold(*own)))
+    if (options_.keepsFiles)
+      if (auto own = ownTriangles(shape, options_))
         return takeTriangles(std::move(*own), shape, model, *bounds, h);
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
@@ -428,12 +433,6 @@ class Mesher {
     return isClosed(mesh) && !keepsColors(mesh, options_.tolerance, fine.field, progress_);
   }
 
-  static bool isManifold(const FeatureMesh& mesh) {
-    MeshStats stats;
-    measureTopology(mesh.triangles, mesh.positions.size(), stats);
-    return stats.manifold;
-  }
-
   static bool isClosed(const FeatureMesh& mesh) {
     return !mesh.triangles.empty() && !openVertex(mesh.triangles, mesh.positions.size());
   }
@@ -517,16 +516,6 @@ class Mesher {
     Lattice& lattice = **sampled;
     result_.stats.voxelSize = lattice.band.voxelSize();
     result_.stats.tolerance = options_.tolerance;
-    if (!options_.keepsFiles) {
-      begin("remeshing");
-      surface_ = surfacePoints(model, bounds, progress_);
-      Witnesses witnesses(surface_, own, false);
-      FeatureMesh& mesh = lattice.mesh = own;
-      const bool kept = simplifyTo(mesh, 1.0, lattice.field, lattice.field, bounds, witnesses);
-      if (kept && mesh.triangles.size() < own.triangles.size() && !crosses(mesh))
-        return finish(shape, model, bounds, lattice);
-      witnessed_ = {};
-    }
     lattice.mesh = std::move(own);
     return finish(shape, model, bounds, lattice);
   }
@@ -735,25 +724,38 @@ MeshOptions bySize(const Box& bounds, double voxel, MeshOptions options) {
   return options;
 }
 
+// What is a mesh from a file leaves by its own triangles where they are asked for, or where others that keep
+// the tolerance are no fewer.
+Result<MeshedShape> meshOne(const Shape& shape, const std::string& name, const MeshOptions& options,
+                            Progress& progress, bool isPiece = false) {
+  Result<MeshedShape> made = Mesher(name, options, progress, isPiece).run(shape);
+  if (options.keepsFiles || progress.stopped()) return made;
+  const auto own = ownTriangles(shape, options);
+  if (!own || (made && made->stats.triangles < own->triangles.size())) return made;
+  MeshOptions kept = options;
+  kept.keepsFiles = true;
+  return Mesher(name, kept, progress, isPiece).run(shape);
+}
+
 }  // namespace
 
 Shape clipped(const Shape& shape, const Box& box) { return cut(shape, findBounds(shape), box); }
 
 Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
                               Progress& progress) {
-  if (!isBySize(shape, options)) return Mesher(name, options, progress).run(shape);
+  if (!isBySize(shape, options)) return meshOne(shape, name, options, progress);
   const double voxel = voxelSizeOf(options, shape.bounds);
   // A mesh leaves its bounds by no more than the larger (faultOf), so that two cannot meet.
   const std::vector<Piece> pieces = isolatedPieces(shape, 2.0 * std::max(voxel, options.tolerance));
   if (pieces.size() > 1) {
     const auto mesh = [&](const Shape& piece, Progress& own) {
-      return Mesher(name, bySize(piece.bounds, voxel, options), own, true).run(piece);
+      return meshOne(piece, name, bySize(piece.bounds, voxel, options), own, true);
     };
     Result<MeshedShape> meshed = meshPieces(shape, pieces, options.values, mesh, progress);
     if (!meshed || !meshed->mesh.triangles.empty()) return meshed;
   }
-  if (!(options.voxelSize > 0.0)) return Mesher(name, options, progress).run(shape);
-  return Mesher(name, bySize(shape.bounds, voxel, options), progress).run(shape);
+  if (!(options.voxelSize > 0.0)) return meshOne(shape, name, options, progress);
+  return meshOne(shape, name, bySize(shape.bounds, voxel, options), progress);
 }
 
 }  // namespace sdf

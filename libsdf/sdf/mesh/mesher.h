@@ -26,7 +26,7 @@ struct MeshOptions {
   /// reached.
   bool strict = true;
   /// Has a mesh from a file that is only moved, turned and scaled its own triangles, whatever the tolerance?
-  /// Else they are simplified to it.
+  /// Else it has those where others that keep the tolerance are no fewer.
   bool keepsFiles = false;
   std::optional<Box> bounds{};  ///< clips the shape, closed and watertight
   Values values{};              ///< of the shape's inputs; its bounds hold for all in their ranges

@@ -135,14 +135,14 @@ TEST(PlacedTriangles, LeaveAsTheyCame) {
   EXPECT_EQ(torus->mesh.positions.size(), 48u * 48);
 }
 
-TEST(PlacedTriangles, AreSimplifiedToATolerance) {
-  const auto box = meshed(placed(boxOfTriangles()), {.tolerance = 5e-4});
+TEST(PlacedTriangles, AreTakenForAToleranceWhereOthersAreNoFewer) {
+  const auto box = meshed(placed(boxOfTriangles()), {.tolerance = 0.02});
   ASSERT_TRUE(box.ok()) << box.error().message;
   EXPECT_EQ(box->stats.triangles, 12u);
-  const auto torus = meshed(meshOf(bumpyTorus(48)), {.tolerance = 0.05});
+  const auto torus = meshed(meshOf(bumpyTorus(24)), {.tolerance = 0.1});
   ASSERT_TRUE(torus.ok()) << torus.error().message;
-  EXPECT_LT(torus->stats.triangles, 1500u);
-  EXPECT_LE(torus->stats.maxDistance, 0.05);
+  EXPECT_LT(torus->stats.triangles, 1000u);
+  EXPECT_LE(torus->stats.maxDistance, 0.1);
   EXPECT_GT(torus->stats.maxDistance, 0.005);
 }
 
