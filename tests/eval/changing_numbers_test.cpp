@@ -97,10 +97,10 @@ class Table : public Payload {
 };
 
 TEST(ChangingNumbersTest, PayloadsOfOneKindStandInEachOthersPlaces) {
-  const auto& [x, y, z] = position();
+  const Vec3E p = position();
   const auto numbers = std::make_shared<ChangingNumbers>();
   const auto of = [&](const auto& a, const auto& b) {
-    return Expr::payload({a, 0}, {x, y, z}) + 2.0 * Expr::payload({b, 0}, {y, z, x});
+    return Expr::payload({a, 0}, {p.x, p.y, p.z}) + 2.0 * Expr::payload({b, 0}, {p.y, p.z, p.x});
   };
   const auto made = [](const char* kind) { return std::make_shared<Table>(kind); };
   const auto payloads = [&](const Expr& e) {
