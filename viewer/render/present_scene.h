@@ -30,7 +30,7 @@ class PresentScene {
   /// the given one, of all values.
   Scene at(const Scene& all, const Values& parameters, double time) const;
   /// Returns what rays through at() go by: where regions lead farther than one slope, by those of the present
-  /// values. The clock's are not looked for unless rays would run out of steps.
+  /// values; by those of the clock only where they save more than they cost in each frame.
   Steps steps() const { return steps_; }
   /// Returns the scene at other values, from which renderers see which numbers change; null without inputs.
   const Scene* other() const { return other_ ? &*other_ : nullptr; }

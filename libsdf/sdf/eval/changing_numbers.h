@@ -14,8 +14,8 @@ namespace sdf {
 /// A scene that is made anew for other values of its parameters has the same functions as before but for
 /// numbers, such as slopes. ChangingNumbers finds out which numbers differ and puts parameters in their
 /// places (expr/alike.h), so that the same text serves all moments. Payloads of one kind serve one another's
-/// moments, too. A scene's functions are handed over
-/// twice, in the same order: between begin() and settle() to be compared, and after settle() to be written.
+/// moments, too. A scene's functions are handed over twice, in the same order: between begin() and settle()
+/// to be compared, and after settle() to be written.
 class ChangingNumbers {
  public:
   void begin();

@@ -174,8 +174,8 @@ class Cubes {
     bool isFirst = true;  // copies of a shape are told from one another by cubes that are small beside them
     while (2 * std::max({size_.x, size_.y, size_.z}) <= kMostAlong) {
       const double by = gain();
-      const bool isTooSteep = slope_ / by > kTooSteep;
       if (by == kInfinity) return;
+      const bool isTooSteep = slope_ / by > kTooSteep;
       if (!isFirst && by <= kPromising && !isTooSteep) return;
       if (8 * mixed() > (isTooSteep ? kMore : 1) * most) return;
       halve();

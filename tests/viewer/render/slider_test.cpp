@@ -121,6 +121,8 @@ class SliderTest : public HeadlessTest {
     return PresentScene(scene, *loaded, options.values, options.time).inputs();
   }
 
+  std::size_t outOfStepsMoved(Moving& moving, const std::string& shape, const Inputs& to);
+
   const Folder folder;
   int files = 0;
 };
@@ -136,6 +138,19 @@ void expectAlike(const Drawn& drawn, const Drawn& right) {
 
 constexpr Inputs kFrom{0.4, 0.7, 0.3};
 
+// Expects what was drawn before to look at other values as with numbers, and to compile nothing for it.
+// Returns the pixels out of steps.
+std::size_t SliderTest::outOfStepsMoved(Moving& moving, const std::string& shape, const Inputs& to) {
+  const auto right = byNumbers(shape, to);
+  EXPECT_TRUE(right);
+  if (!right) return 0;
+  const CompileCount compiled;
+  const Drawn drawn = moving.drawn(to);
+  EXPECT_EQ(compiled.value(), 0);
+  expectAlike(drawn, *right);
+  return drawn.outOfSteps;
+}
+
 // As they were reported: the slope of the whole range is 50 times that of the present values.
 constexpr const char* kSteep[] = {
     "part('logo', (box(1, 0.2, 0.5) | cylinder(0.2, 0.5):translate(0.3, 0.5, 0)):bend(40 * a))",
@@ -150,15 +165,7 @@ TEST_F(SliderTest, SteepensNoMoreThanItsValueAndCompilesNothing) {
     SCOPED_TRACE(shape);
     Moving moving = bySliders(shape, kFrom);
     moving.drawn(kFrom);
-    for (const Inputs& to : kTo) {
-      const auto right = byNumbers(shape, to);
-      ASSERT_TRUE(right);
-      const CompileCount compiled;
-      const Drawn drawn = moving.drawn(to);
-      EXPECT_EQ(compiled.value(), 0);
-      expectAlike(drawn, *right);
-      EXPECT_EQ(drawn.outOfSteps, 0u);
-    }
+    for (const Inputs& to : kTo) EXPECT_EQ(outOfStepsMoved(moving, shape, to), 0u);
   }
 }
 
@@ -190,14 +197,7 @@ TEST_F(SliderTest, SteepFormulasAreReadAsOftenAsWithNumbers) {
     Moving moving = bySliders(scene, kFrom);
     EXPECT_TRUE(moving.inputs().contains("a"));
     moving.drawn(kFrom);
-    for (const Inputs& to : kTo) {
-      const auto right = byNumbers(scene, to);
-      ASSERT_TRUE(right);
-      const CompileCount compiled;
-      const Drawn drawn = moving.drawn(to);
-      EXPECT_EQ(compiled.value(), 0);
-      expectAlike(drawn, *right);
-    }
+    for (const Inputs& to : kTo) outOfStepsMoved(moving, scene, to);
   }
 }
 
