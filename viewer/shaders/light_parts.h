@@ -114,9 +114,9 @@ uniform int shadowSteps;
 
 bool shadowSpent = false;  // a ray of the pixel's shadows ran out of steps
 
-// How far one may go and how far the surface is, from a reading g near it: a root of order m is m times as far as the
-// value is by its slope, and the value bends with m (Schroeder 1870). A reading of more than what is marched, such as a
-// half space, is as far as it says where that is less.
+// How far one may go and how far the surface is, from a reading g near it: where the value along its slope is 0, by a
+// step of Newton's and one of Schroeder's (1870), who takes the order of a root from how the value bends. A reading of
+// more than what is marched, such as a half space, is as far as it says where that is less.
 vec2 seen(vec3 p, vec2 g) {
   if (!LOOSE || g.y <= 0.0 || READS_MORE && g.y < READ_BY_SHADOWS(p, 2.0 * g.y).y) return g;
   float h = 1e-4 * max(unit, max(abs(p.x), max(abs(p.y), abs(p.z))));
@@ -126,9 +126,12 @@ vec2 seen(vec3 p, vec2 g) {
     slope += 0.25 / h * READ_BY_SHADOWS(p + h * corner, 2.0 * g.y).y * corner;
   }
   float steep = max(length(slope), 1e-30), first = g.y / steep;
-  vec3 way = 0.5 * first / steep * slope;
-  float both = READ_BY_SHADOWS(p + way, 2.0 * g.y).y + READ_BY_SHADOWS(p - way, 2.0 * g.y).y;
-  float far = max(g.x, first / (1.0 - clamp(4.0 * (both / g.y - 2.0), 0.0, 0.75)));
+  vec3 way = 0.5 * first / steep * slope, there = p - 2.0 * way;
+  float before = READ_BY_SHADOWS(there + way, 2.0 * g.y).y, value = READ_BY_SHADOWS(there, 2.0 * g.y).y;
+  float after = READ_BY_SHADOWS(there - way, 2.0 * g.y).y, fall = before - after;
+  float bend = 4.0 * value * (before + after - 2.0 * value) / max(fall * fall, 1e-30);
+  float second = fall > 0.0 ? first * value / (fall * (1.0 - clamp(bend, -1.0, 0.75))) : 0.0;
+  float far = max(g.x, first + clamp(second, -0.5 * first, 3.0 * first));
   return vec2(max(g.x, min(0.5 * far, shadowHit)), far);
 }
 

@@ -369,6 +369,28 @@ TEST(Steep, WhatFacesTheLightIsLit) {
     }
 }
 
+std::vector<glm::dvec3> shadowOnFloor(const Shape& shape, Shadow::Kind kind) {
+  Scene scene = sunlit(shape, kind);
+  scene.add("floor", plane({0.0, 1.0, 0.0}, -1.2).paint(painted()));
+  GpuRenderOptions options = materials(Method::AutoRelaxed);
+  options.shader.view = View::Shadow;
+  std::vector<glm::dvec3> light;
+  for (const auto& pixel : renderOnGpu(scene, options)) light.emplace_back(pixel);
+  return light;
+}
+
+// Rims of shadows go by distances that are estimated where the formula's value is none.
+TEST(Steep, RimsOfShadowsAreThoseOfTheDistance) {
+  const Vec3E p = position();
+  const Expr square = p.x * p.x + p.y * p.y + p.z * p.z + (0.64 - 0.09);
+  const Expr quartic = square * square - 2.56 * (p.x * p.x + p.z * p.z);
+  const Shape formula = field(quartic, Box::centred({1.2, 0.4, 1.2})), exact = torus(0.8, 0.3);
+  for (const auto& [kind, decibels] :
+       {std::pair(Shadow::Kind::Soft, 42.0), std::pair(Shadow::Kind::Improved, 36.0)})
+    EXPECT_GE(psnr(shadowOnFloor(formula, kind), shadowOnFloor(exact, kind)), decibels)
+        << static_cast<int>(kind);
+}
+
 // Where a formula is deformed, cut or blended, its steps are no shorter than they must be.
 TEST(Steep, FormulasAreMetAfterOperatorsToo) {
   const Box bounds = Box::centred(glm::dvec3(1.4));
