@@ -137,6 +137,18 @@ TEST_F(Meshes, WithoutAnInsideAreRefused) {
             std::string::npos);
 }
 
+// Nothing is done with these that grows with the square of how many there are.
+TEST_F(Meshes, OfTooManyTrianglesOnAnEdgeAreRefused) {
+  writeObj(scenes() / "fan.obj", wedgesOnAnEdge(20000));
+  const std::string fan = (std::filesystem::canonical(scenes()) / "fan.obj").string();
+  EXPECT_EQ(errorOf(R"(return mesh("fan.obj"))"), here(":1: " + fan +
+                                                       ": an edge of this mesh, at (0, 0, 0), has 40000 "
+                                                       "triangles, and at most 2000 are taken; move some of "
+                                                       "them away from it"));
+  writeObj(scenes() / "fan.obj", wedgesOnAnEdge(300));
+  EXPECT_TRUE(run(R"(return mesh("fan.obj"))").ok());
+}
+
 TEST_F(Meshes, TheReadersErrorIsShown) {
   EXPECT_NE(errorOf(R"(return mesh("bad.obj"))").find("bad.obj': line 1: "), std::string::npos);
 }

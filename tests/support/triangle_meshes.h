@@ -65,6 +65,25 @@ inline TriangleMesh apart(const TriangleMesh& mesh) {
   return result;
 }
 
+/// Three-sided prisms of length 1 around the z axis, where all have an edge.
+inline TriangleMesh wedgesOnAnEdge(std::uint32_t count) {
+  TriangleMesh fan;
+  fan.positions = {{0, 0, 0}, {0, 0, 1}};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto k = static_cast<std::uint32_t>(fan.positions.size());
+    for (const double angle : {i * 2.0, i * 2.0 + 1.0})
+      for (const double z : {0.0, 1.0})
+        fan.positions.emplace_back(std::cos(std::numbers::pi * angle / count),
+                                   std::sin(std::numbers::pi * angle / count), z);
+    for (const glm::uvec3& t : {glm::uvec3(0, k + 2, k), glm::uvec3(1, k + 1, k + 3), glm::uvec3(0, k, k + 1),
+                                glm::uvec3(0, k + 1, 1), glm::uvec3(1, k + 3, k + 2), glm::uvec3(1, k + 2, 0),
+                                glm::uvec3(k, k + 2, k + 3), glm::uvec3(k, k + 3, k + 1)})
+      fan.triangles.push_back(t);
+  }
+  fan.materialOf.assign(fan.triangles.size(), 0);
+  return fan;
+}
+
 /// Without some triangles.
 inline TriangleMesh without(const TriangleMesh& mesh, const std::function<bool(std::size_t)>& gone) {
   TriangleMesh result = mesh;

@@ -135,7 +135,7 @@ bool isPainted(const Shape& shape) {
 }
 
 // The triangles of what is a mesh from a file alone, where a tolerance is to be kept.
-std::optional<FeatureMesh> ownTriangles(const Shape& shape, const MeshOptions& options) {
+std::optional<PlacedTriangles> ownTriangles(const Shape& shape, const MeshOptions& options) {
   if (!(options.tolerance > 0.0) || isPainted(shape)) return {};
   return placedTriangles(shape, options.values);
 }
@@ -508,16 +508,34 @@ class Mesher {
     return kept;
   }
 
-  // A mesh from a file has its surface. The lattice is for measuring.
-  Result<MeshedShape> takeTriangles(FeatureMesh own, const Shape& shape, const ModelTapes& model,
+  // A mesh from a file has its surface, but for the rounding of its vertices. The lattice is for normals.
+  Result<MeshedShape> takeTriangles(PlacedTriangles own, const Shape& shape, const ModelTapes& model,
                                     const Box& bounds, double voxel) {
     Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, kCoarsest * voxel);
     if (!sampled) return sampled.error();
     Lattice& lattice = **sampled;
     result_.stats.voxelSize = lattice.band.voxelSize();
     result_.stats.tolerance = options_.tolerance;
-    lattice.mesh = std::move(own);
-    return finish(shape, model, bounds, lattice);
+    round(own.mesh);
+    lattice.mesh = std::move(own.mesh);
+    begin("measuring");
+    measureRounding(lattice.mesh.positions, own.places);
+    measureTopology(lattice.mesh.triangles, lattice.mesh.positions.size(), result_.stats);
+    measureCrossings(lattice.mesh.positions, lattice.mesh.triangles, result_.stats);
+    return dress(shape, model, bounds, lattice);
+  }
+
+  // How far vertices are from their places; no other point is farther, either way.
+  void measureRounding(const std::vector<glm::vec3>& positions, const std::vector<glm::dvec3>& places) {
+    MeshStats& stats = result_.stats;
+    double squares = 0.0;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      const double off = glm::distance(glm::dvec3(positions[v]), places[v]);
+      squares += off * off;
+      if (off > stats.maxDistance) stats.maxDistance = off, stats.farthest = positions[v];
+    }
+    stats.rmsDistance = std::sqrt(squares / static_cast<double>(places.size()));
+    stats.surfacePoints = places.size();
   }
 
   // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are
@@ -555,7 +573,7 @@ class Mesher {
     return stats.unresolved > 0 && (stats.resolvingVoxel == 0.0 || stats.resolvingVoxel >= least);
   }
 
-  // Measures, checks and colours what was made.
+  // Measures and checks what was made, and dresses it.
   Result<MeshedShape> finish(const Shape& shape, const ModelTapes& model, const Box& bounds,
                              Lattice& lattice) {
     round(lattice.mesh);
@@ -569,8 +587,16 @@ class Mesher {
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     if (Status s = checkStated(features, bounds, voxel, distances, model); !s) return s.error();
     measureToMesh(features, field, model, bounds);
+    return dress(shape, model, bounds, lattice);
+  }
+
+  // Holds what was measured to what was asked for, and gives the mesh its normals and colours.
+  Result<MeshedShape> dress(const Shape& shape, const ModelTapes& model, const Box& bounds,
+                            const Lattice& lattice) {
+    const FeatureMesh& features = lattice.mesh;
+    const BandField& field = lattice.field;
     if (Status s = checkTolerance(); !s) return s.error();
-    if (Status s = certifyMesh(model, features, bounds, voxel); !s) return s.error();
+    if (Status s = certifyMesh(model, features, bounds, result_.stats.voxelSize); !s) return s.error();
     begin("normals");
     Mesh& mesh = result_.mesh;
     const double far =
@@ -731,7 +757,7 @@ Result<MeshedShape> meshOne(const Shape& shape, const std::string& name, const M
   Result<MeshedShape> made = Mesher(name, options, progress, isPiece).run(shape);
   if (options.keepsFiles || progress.stopped()) return made;
   const auto own = ownTriangles(shape, options);
-  if (!own || (made && made->stats.triangles < own->triangles.size())) return made;
+  if (!own || (made && made->stats.triangles < own->mesh.triangles.size())) return made;
   MeshOptions kept = options;
   kept.keepsFiles = true;
   return Mesher(name, kept, progress, isPiece).run(shape);

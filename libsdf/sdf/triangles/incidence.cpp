@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "sdf/base/disjoint_sets.h"
+#include "sdf/base/flat_map.h"
 
 namespace sdf {
 
@@ -49,6 +50,17 @@ std::optional<std::uint32_t> openVertex(const std::vector<glm::uvec3>& triangles
     if (std::ranges::any_of(ways, [](const auto& way) { return way.second != 0; })) return v;
   }
   return std::nullopt;
+}
+
+MostOnEdge mostOnEdge(const std::vector<glm::uvec3>& triangles) {
+  FlatMap<std::uint32_t> counts;
+  MostOnEdge most;
+  for (const glm::uvec3& t : triangles)
+    for (int k = 0; k < 3; ++k)
+      if (const std::uint32_t count = ++counts.insert(edgeKey(t[k], t[(k + 1) % 3]), 0).first;
+          count > most.triangles)
+        most = {count, t[k]};
+  return most;
 }
 
 }  // namespace sdf

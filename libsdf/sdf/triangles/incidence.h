@@ -35,4 +35,10 @@ std::vector<std::uint32_t> piecesOf(const std::vector<glm::uvec3>& triangles, st
 /// Cost: linear, times the triangles around a vertex.
 std::optional<std::uint32_t> openVertex(const std::vector<glm::uvec3>& triangles, std::size_t vertices);
 
+/// How many triangles an edge has at most, and one of its vertices. Cost: linear.
+struct MostOnEdge {
+  std::uint32_t triangles = 0, vertex = 0;
+};
+MostOnEdge mostOnEdge(const std::vector<glm::uvec3>& triangles);
+
 }  // namespace sdf

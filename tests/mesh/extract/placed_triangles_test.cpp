@@ -33,13 +33,13 @@ TEST(PlacedTriangles, AreTheFilesWithItsEdges) {
   const Shape shape = placed(boxOfTriangles());
   const auto mesh = placedTriangles(shape, {});
   ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh->triangles.size(), 12u);
-  EXPECT_EQ(mesh->positions.size(), 8u);
-  EXPECT_EQ(mesh->creases.size(), 12u) << "not those within its sides";
+  EXPECT_EQ(mesh->mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh->mesh.positions.size(), 8u);
+  EXPECT_EQ(mesh->mesh.creases.size(), 12u) << "not those within its sides";
   const TapePtr distance = Function(shape.distance).at();
-  for (const glm::vec3& p : mesh->positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-6);
-  for (const glm::uvec3& t : mesh->triangles) {
-    const glm::dvec3 a(mesh->positions[t.x]), b(mesh->positions[t.y]), c(mesh->positions[t.z]);
+  for (const glm::vec3& p : mesh->mesh.positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-6);
+  for (const glm::uvec3& t : mesh->mesh.triangles) {
+    const glm::dvec3 a(mesh->mesh.positions[t.x]), b(mesh->mesh.positions[t.y]), c(mesh->mesh.positions[t.z]);
     const glm::dvec3 out = 1e-3 * glm::normalize(glm::cross(b - a, c - a));
     EXPECT_NEAR(evaluate(*distance, (a + b + c) / 3.0 + out), 1e-3, 1e-5) << "they face outwards";
   }
@@ -52,14 +52,14 @@ TEST(PlacedTriangles, FollowInputs) {
   const auto mesh = placedTriangles(shape, values);
   ASSERT_TRUE(mesh);
   const TapePtr distance = Function(shape.distance).at(values);
-  for (const glm::vec3& p : mesh->positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-6);
+  for (const glm::vec3& p : mesh->mesh.positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-6);
 }
 
 TEST(PlacedTriangles, OfCurvesHaveNoEdges) {
   const auto mesh = placedTriangles(meshOf(bumpyTorus(48)), {});
   ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh->triangles.size(), 2u * 48 * 48);
-  EXPECT_TRUE(mesh->creases.empty());
+  EXPECT_EQ(mesh->mesh.triangles.size(), 2u * 48 * 48);
+  EXPECT_TRUE(mesh->mesh.creases.empty());
 }
 
 TEST(PlacedTriangles, AreOfNothingElse) {
@@ -77,7 +77,7 @@ TEST(PlacedTriangles, AreTheSolidsSurface) {
   for (glm::uvec3& t : inverted.triangles) std::swap(t.y, t.z);
   const auto turned = placedTriangles(meshOf(inverted), {}), right = placedTriangles(boxOfTriangles(), {});
   ASSERT_TRUE(turned && right);
-  EXPECT_EQ(turned->triangles.size(), 12u);
+  EXPECT_EQ(turned->mesh.triangles.size(), 12u);
   const auto volume = [](const FeatureMesh& mesh) {
     double sum = 0.0;
     for (const glm::uvec3& t : mesh.triangles) {
@@ -86,33 +86,20 @@ TEST(PlacedTriangles, AreTheSolidsSurface) {
     }
     return sum;
   };
-  EXPECT_NEAR(volume(*turned), volume(*right), 1e-6);
-  EXPECT_GT(volume(*turned), 0.0);
+  EXPECT_NEAR(volume(turned->mesh), volume(right->mesh), 1e-6);
+  EXPECT_GT(volume(turned->mesh), 0.0);
   const auto nested =
       placedTriangles(meshOf(together(boxOf(-kHalf, kHalf), boxOf(-0.5f * kHalf, 0.5f * kHalf))), {});
   ASSERT_TRUE(nested);
-  EXPECT_EQ(nested->triangles.size(), 12u);
-  EXPECT_EQ(nested->positions.size(), 8u);
+  EXPECT_EQ(nested->mesh.triangles.size(), 12u);
+  EXPECT_EQ(nested->mesh.positions.size(), 8u);
 }
 
 // Wedges on one edge took minutes as voxels.
 TEST(PlacedTriangles, MayShareAnEdge) {
-  TriangleMesh fan;
-  fan.positions = {{0, 0, 0}, {0, 0, 1}};
-  constexpr int kWedges = 40;
-  for (std::uint32_t i = 0; i < kWedges; ++i) {
-    const auto k = static_cast<std::uint32_t>(fan.positions.size());
-    for (const double angle : {i * 2.0, i * 2.0 + 1.0})
-      for (const double z : {0.0, 1.0})
-        fan.positions.emplace_back(std::cos(std::numbers::pi * angle / kWedges),
-                                   std::sin(std::numbers::pi * angle / kWedges), z);
-    for (const glm::uvec3& t : {glm::uvec3(0, k + 2, k), glm::uvec3(1, k + 1, k + 3), glm::uvec3(0, k, k + 1),
-                                glm::uvec3(0, k + 1, 1), glm::uvec3(1, k + 3, k + 2), glm::uvec3(1, k + 2, 0),
-                                glm::uvec3(k, k + 2, k + 3), glm::uvec3(k, k + 3, k + 1)})
-      fan.triangles.push_back(t);
-  }
-  fan.materialOf.assign(fan.triangles.size(), 0);
-  const auto mesh = meshed(meshOf(fan), {.tolerance = 1e-3, .strict = false, .keepsFiles = true});
+  constexpr std::uint32_t kWedges = 40;
+  const auto mesh =
+      meshed(meshOf(wedgesOnAnEdge(kWedges)), {.tolerance = 1e-3, .strict = false, .keepsFiles = true});
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
   EXPECT_EQ(mesh->stats.triangles, 8u * kWedges);
   EXPECT_TRUE(mesh->stats.watertight);
@@ -133,6 +120,21 @@ TEST(PlacedTriangles, LeaveAsTheyCame) {
   ASSERT_TRUE(torus.ok()) << torus.error().message;
   EXPECT_EQ(torus->stats.triangles, 2u * 48 * 48) << "whatever the tolerance";
   EXPECT_EQ(torus->mesh.positions.size(), 48u * 48);
+}
+
+// What is off is the rounding of places, which is coarse far from the origin.
+TEST(PlacedTriangles, AreMeasuredByTheirRounding) {
+  const Shape far = translate(placed(boxOfTriangles()), Vec3E(1e4, 0.0, 0.0));
+  const auto box = meshed(far, {.tolerance = 0.05, .strict = false, .keepsFiles = true});
+  ASSERT_TRUE(box.ok()) << box.error().message;
+  EXPECT_GT(box->stats.maxDistance, 1e-5);
+  EXPECT_LT(box->stats.maxDistance, 5e-4) << "half of what floats are apart";
+  EXPECT_LE(box->stats.rmsDistance, box->stats.maxDistance);
+  const TapePtr distance = Function(far.distance).at();
+  double most = 0.0;
+  for (const glm::vec3& p : box->mesh.positions) most = std::max(most, std::abs(evaluate(*distance, p)));
+  EXPECT_LE(most, box->stats.maxDistance + 1e-6);
+  EXPECT_GT(most, 0.1 * box->stats.maxDistance);
 }
 
 TEST(PlacedTriangles, AreTakenForAToleranceWhereOthersAreNoFewer) {

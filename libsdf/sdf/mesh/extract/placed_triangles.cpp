@@ -35,7 +35,7 @@ struct Placing {
     turn = glm::inverse(back);
     shift = -(turn * zero);
   }
-  glm::vec3 operator()(const glm::vec3& p) const { return turn * glm::dvec3(p) + shift; }
+  glm::dvec3 operator()(const glm::vec3& p) const { return turn * glm::dvec3(p) + shift; }
   bool mirrors() const { return glm::determinant(turn) < 0.0; }
 };
 
@@ -67,21 +67,22 @@ std::vector<std::array<std::uint32_t, 2>> sharpEdges(const FeatureMesh& mesh) {
 
 }  // namespace
 
-std::optional<FeatureMesh> placedTriangles(const Shape& shape, const Values& values) {
+std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values) {
   const auto placed = placedMesh(withoutClaims(std::array{shape.distance}).front());
   if (!placed) return {};
   auto surface = placed->field->distance().surface();
   if (!surface) return {};
   const Placing placing(*placed, values);
-  FeatureMesh mesh;
-  for (const glm::vec3& p : placed->field->distance().triangles().points)
-    mesh.positions.push_back(placing(p));
+  PlacedTriangles made;
+  FeatureMesh& mesh = made.mesh;
+  mesh.positions = placed->field->distance().triangles().points;
   mesh.triangles = std::move(*surface);
+  dropUnused(mesh);
+  for (glm::vec3& p : mesh.positions) p = made.places.emplace_back(placing(p));
   if (placing.mirrors())
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-  dropUnused(mesh);
   mesh.creases = sharpEdges(mesh);
-  return mesh;
+  return made;
 }
 
 }  // namespace sdf

@@ -1,6 +1,8 @@
 // The triangles of meshes from files that are nothing but moved.
 #pragma once
+#include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "sdf/eval/function.h"
 #include "sdf/mesh/edit/feature_mesh.h"
@@ -8,10 +10,17 @@
 
 namespace sdf {
 
+/// Triangles, and where their vertices are before they are rounded to floats. A point of a triangle is as far
+/// from its place as the farthest of the corners, at most.
+struct PlacedTriangles {
+  FeatureMesh mesh;
+  std::vector<glm::dvec3> places;  ///< by vertex
+};
+
 /// The surface of a shape that is a mesh from a file, only moved, turned and scaled: its triangles, at their
 /// places for these values of inputs. Creases are the edges where two of them meet at more than 30 degrees.
 /// Where triangles touch, edges may have more of them. Nothing where the shape is something else, or its
 /// triangles cross one another. Cost: n log n.
-std::optional<FeatureMesh> placedTriangles(const Shape& shape, const Values& values);
+std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values);
 
 }  // namespace sdf
