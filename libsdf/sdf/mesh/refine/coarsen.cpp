@@ -11,6 +11,7 @@
 #include "sdf/mesh/refine/tints.h"
 #include "sdf/mesh/surface/project.h"
 #include "sdf/mesh/surface/surface_paint.h"
+#include "sdf/mesh/surface/surface_points.h"
 #include "sdf/triangles/tree.h"
 
 namespace sdf {
@@ -88,12 +89,18 @@ class Coarsener {
         progress_(progress),
         blurs_(mesh.triangles.size(), 0.0f),
         bends_(mesh_.halfEdges(), 0.0f) {
-    std::vector<glm::vec3> normals;
-    gradientNormals(mesh.positions, field, progress, normals);
+    std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f, 1.0f, 0.0f));
+    std::vector<float> distances(mesh.positions.size());
+    forEachGradient(mesh.positions, field, progress,
+                    [&](std::size_t v, const RunGradients& g, std::size_t i) {
+                      normals[v] = g.normal(i, normals[v]), distances[v] = g.distance(i);
+                    });
     edge_ = meanEdge();
     stays_ = crowdedVertices(mesh_, normals, edge_ + kApart * limit_);
     for (Index v = 0; v < mesh.held.size(); ++v)
       if (mesh.held[v] == Hold::Tip) keepAround(v, kTipRings);
+    for (Index v = 0; v < mesh_.vertices(); ++v)
+      if (std::abs(distances[v]) > limit_) keepAround(v, kTipRings);
     corners_ = readCorners(mesh_, field, painted_, normals, progress);
   }
 

@@ -15,8 +15,9 @@ struct CoarsenOptions {
 /// their chords as the normals at both ends say, and the vertex is as far from the triangles that it leaves.
 /// All other vertices stay where they are, on the surface, and edges of creases only become longer along
 /// them. The field is read once for each vertex, for its normal, and once for its colours: what the surface
-/// does between vertices is not seen. Preconditions: the vertices lie on the surface, and edges are about as
-/// long everywhere. Cost: linear; about a microsecond a triangle, twice that with colours.
+/// does between vertices is not seen. Vertices that are farther from the surface than `off`, and those
+/// around, stay: where a lattice does not resolve a crevice normals foretell nothing. Precondition: edges are
+/// about as long everywhere. Cost: linear; about a microsecond a triangle, twice that with colours.
 void coarsen(FeatureMesh& mesh, const LocalField& field, const CoarsenOptions& options, Progress& progress);
 
 }  // namespace sdf

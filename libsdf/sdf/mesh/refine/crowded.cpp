@@ -75,28 +75,63 @@ struct CellHash {
   }
 };
 
-// The vertices of each cell of a grid, and where their normals go.
-class CellVertices {
+// A vertex seen from one side of the surface.
+struct Facing {
+  Index vertex;
+  glm::vec3 at, normal;
+};
+
+// Do the triangles of some crease at the vertex face one another?
+bool isInCrevice(const HalfEdgeMesh& mesh, Index v) {
+  if (mesh.creasesAt(v) == 0) return false;
+  Index e = mesh.outgoing(v);
+  do {
+    const Corners t = mesh.corners(e - e % 3);
+    const glm::vec3 beyond = mesh.positions[mesh.apex(mesh.twin(e))] - t[0];
+    if (mesh.isCrease(e) && glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), beyond) > 0.0f) return true;
+    e = mesh.turned(e);
+  } while (e != mesh.outgoing(v));
+  return false;
+}
+
+// One for each vertex, in crevices one for each triangle.
+std::vector<Facing> facings(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals) {
+  std::vector<Facing> all;
+  for (Index v = 0; v < mesh.vertices(); ++v)
+    if (mesh.vertexAlive(v) && !isInCrevice(mesh, v)) all.push_back({v, mesh.positions[v], normals[v]});
+  for (Index h = 0; h < mesh.halfEdges(); ++h) {
+    const Index v = mesh.alive(h) ? mesh.from(h) : HalfEdgeMesh::kNone;
+    if (v == HalfEdgeMesh::kNone || !isInCrevice(mesh, v)) continue;
+    const Corners t = mesh.corners(h - h % 3);
+    const glm::vec3 area = glm::cross(t[1] - t[0], t[2] - t[0]);
+    if (area != glm::vec3(0.0f)) all.push_back({v, mesh.positions[v], glm::normalize(area)});
+  }
+  return all;
+}
+
+// The facings of each cell of a grid, and where their normals go.
+class CellFacings {
  public:
-  CellVertices(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals, float size)
-      : mesh_(mesh), normals_(normals), size_(size), next_(mesh.vertices(), HalfEdgeMesh::kNone) {
-    for (Index v = 0; v < mesh.vertices(); ++v) {
-      if (!mesh.vertexAlive(v)) continue;
-      Cell& cell = cells_[cellOf(v)];
-      next_[v] = std::exchange(cell.first, v);
-      cell.directions |= std::uint64_t{1} << Directions::of(normals[v]);
+  CellFacings(const HalfEdgeMesh& mesh, const std::vector<Facing>& all, float size)
+      : mesh_(mesh), all_(all), size_(size), next_(all.size()) {
+    for (Index i = 0; i < all.size(); ++i) {
+      Cell& cell = cells_[cellOf(all[i])];
+      next_[i] = std::exchange(cell.first, i);
+      cell.directions |= std::uint64_t{1} << Directions::of(all[i].normal);
     }
   }
 
-  /// Is there a vertex within a cell's length of v whose normal is opposite to v's?
-  bool hasOpposite(Index v) const {
-    const glm::ivec3 at = cellOf(v);
-    const std::uint64_t opposite = directions_.oppositeOf(Directions::of(normals_[v]));
+  /// Is there one within a cell's length whose normal is opposite, of another vertex than those around?
+  bool hasOpposite(const Facing& one) const {
+    const glm::ivec3 at = cellOf(one);
+    const std::uint64_t opposite = directions_.oppositeOf(Directions::of(one.normal));
     for (int i = 0; i < 27; ++i) {
       const auto found = cells_.find(at + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
       if (found == cells_.end() || (found->second.directions & opposite) == 0) continue;
-      for (Index u = found->second.first; u != SampledMesh::kNone; u = next_[u])
-        if (isOpposite(u, v)) return true;
+      for (Index k = found->second.first; k != SampledMesh::kNone; k = next_[k])
+        if (isOpposite(one, all_[k]) && one.vertex != all_[k].vertex &&
+            !mesh_.adjacent(one.vertex, all_[k].vertex))
+          return true;
     }
     return false;
   }
@@ -106,14 +141,14 @@ class CellVertices {
     Index first = SampledMesh::kNone;
     std::uint64_t directions = 0;
   };
-  glm::ivec3 cellOf(Index v) const { return glm::ivec3(glm::floor(mesh_.positions[v] / size_)); }
-  bool isOpposite(Index u, Index v) const {
-    const glm::vec3 between = mesh_.positions[u] - mesh_.positions[v];
-    return glm::dot(between, between) <= size_ * size_ && glm::dot(normals_[u], normals_[v]) < kOpposite;
+  glm::ivec3 cellOf(const Facing& one) const { return glm::ivec3(glm::floor(one.at / size_)); }
+  bool isOpposite(const Facing& a, const Facing& b) const {
+    const glm::vec3 between = a.at - b.at;
+    return glm::dot(between, between) <= size_ * size_ && glm::dot(a.normal, b.normal) < kOpposite;
   }
 
   const HalfEdgeMesh& mesh_;
-  const std::vector<glm::vec3>& normals_;
+  const std::vector<Facing>& all_;
   float size_;
   Directions directions_;
   std::unordered_map<glm::ivec3, Cell, CellHash> cells_;
@@ -124,9 +159,10 @@ class CellVertices {
 
 std::vector<char> crowdedVertices(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals,
                                   float reach) {
-  const CellVertices cells(mesh, normals, reach);
+  const std::vector<Facing> all = facings(mesh, normals);
+  const CellFacings cells(mesh, all, reach);
   std::vector<char> crowded(mesh.vertices(), 0);
-  for (Index v = 0; v < mesh.vertices(); ++v) crowded[v] = mesh.vertexAlive(v) && cells.hasOpposite(v);
+  for (const Facing& one : all) crowded[one.vertex] |= cells.hasOpposite(one) ? 1 : 0;
   return crowded;
 }
 

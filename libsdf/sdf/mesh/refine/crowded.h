@@ -11,8 +11,9 @@
 
 namespace sdf {
 
-/// By vertex: is there one within the reach whose normal is 120 degrees or more from its own? `normals` are
-/// unit, by vertex. Cost: linear.
+/// By vertex: is there one within the reach, and not next to it, whose normal is 120 degrees or more from its
+/// own? `normals` are unit, by vertex; in a crevice, where that is any side's, those of all triangles count.
+/// Cost: linear.
 std::vector<char> crowdedVertices(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals,
                                   float reach);
 

@@ -45,7 +45,8 @@ constexpr float kFlat = 0.01f;
 constexpr float kRounded = 1.0f + 1e-5f;
 // Of the tolerance: what coarsening may cost.
 constexpr double kCoarse = 0.25;
-// Where two sheets cross each is within a tolerance of its surface, and a vertex of each within two voxels.
+// Where two sheets cross each is within a tolerance of its surface, or what it is off at the start, and a
+// vertex of each within two voxels.
 constexpr float kBesides = 2.0f;
 
 float voxelAt(const LocalField& field, const glm::vec3& p) {
@@ -76,7 +77,7 @@ class Simplifier {
         tolerance_(static_cast<float>(tolerance)),
         missed_(sampled_, field, surface, tolerance_, progress),
         ring_(sampled_, tolerance_),
-        reach_(kBesides * (tolerance_ + voxelAt(field, mesh.positions[0]))),
+        reach_(kBesides * (std::max(tolerance_, farthest()) + voxelAt(field, mesh.positions[0]))),
         blocks_(mesh_, reach_),
         crowded_(sampled_, blocks_, reach_),
         limit_(tolerance_),
@@ -155,6 +156,13 @@ class Simplifier {
     }
     ring_.mayBend(false), keeps_ = false;
     return all;
+  }
+
+  float farthest() const {
+    float most = 0.0f;
+    for (Index h = 0; h < mesh_.halfEdges(); h += 3)
+      most = std::max(most, sampled_.farthestOf(h / 3).distance);
+    return most;
   }
 
   // What is too far off from the start is not split.
