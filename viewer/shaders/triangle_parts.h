@@ -145,14 +145,15 @@ void takeLook(Hit hit, inout float s[ATTRIBUTES]) {
   float rough = max(look.a, 0.05), shininess = 0.5 * (1.0 / (rough * rough * rough * rough) - 1.0);
   float mirror = glow.a * (1.0 - look.a);
   vec3 color = (1.0 - mirror) * look.rgb, straight = mix(vec3(0.04), look.rgb, glow.a);
-  vec3 specular = min(straight * (4.0 * shininess + 2.0) / 8.0, 1.0);
+  float most = max(straight.r, max(straight.g, straight.b));
+  vec3 specular = straight * min((4.0 * shininess + 2.0) / 8.0, 1.0 / max(most, 1e-9));
   s[RED] = color.r, s[GREEN] = color.g, s[BLUE] = color.b;
   s[AMBIENT_RED] = color.r, s[AMBIENT_GREEN] = color.g, s[AMBIENT_BLUE] = color.b;
   s[SPECULAR_RED] = specular.r, s[SPECULAR_GREEN] = specular.g, s[SPECULAR_BLUE] = specular.b;
   s[SHININESS] = shininess;
-  s[REFLECTIVITY] = mirror * (1.0 - look.a);
+  s[REFLECTIVITY] = mirror;
   s[FRESNEL_POWER] = 5.0;
-  s[FRESNEL_BIAS] = 1.0;
+  s[FRESNEL_BIAS] = most;
   s[EMISSION_RED] = glow.r, s[EMISSION_GREEN] = glow.g, s[EMISSION_BLUE] = glow.b;
 }
 )";

@@ -158,6 +158,28 @@ TEST(DrawnMesh, LooksAsItsFileSays) {
   expectNear(at(off * options.height / options.width, -off), {half, half, half});
 }
 
+// Straight on a metal mirrors in its own colour, the less the rougher it is; drawn and marched alike.
+TEST(DrawnMesh, OfMetalMirrorsInItsColour) {
+  const glm::dvec3 gold(0.8, 0.4, 0.2);
+  for (const float roughness : {0.0f, 0.25f}) {
+    TriangleMesh mesh = boxOf(-kHalf, kHalf);
+    mesh.materials = {{.color = glm::vec3(gold), .metallic = 1.0f, .roughness = roughness}};
+    Scene scene;
+    scene.add("", meshOf(mesh));
+    scene.camera.from = Vec3E(Expr(0.0), Expr(0.0), Expr(4.0));
+    scene.ambient = Vec3E(0.0);
+    scene.background = Vec3E(1.0);
+    scene.gamma = 1.0;
+    for (const bool drawing : {true, false}) {
+      GpuRenderOptions options = views(View::Picture);
+      options.shader.drawing = drawing;
+      const auto shown = renderOnGpu(scene, options);
+      const glm::dvec3 middle(shown[(options.height / 2) * options.width + options.width / 2]);
+      EXPECT_LE(glm::distance(middle, (1.0 - roughness) * gold), 0.01) << roughness << " " << drawing;
+    }
+  }
+}
+
 TEST(DrawnMesh, PaintTakesThePlaceOfItsOwnLook) {
   TriangleMesh mesh = boxOf(-kHalf, kHalf);
   mesh.materials = {{.color = glm::vec3(0.9f, 0.1f, 0.1f)}};

@@ -59,14 +59,16 @@ Material meanMaterial(const TriangleMesh& mesh) {
   constexpr double kDielectric = 0.04, kSmoothest = 0.05, kBlinn = 4.0;  // exponents by Phong's
   const double exponent = 0.5 * (1.0 / std::pow(std::max(roughness, kSmoothest), 4.0) - 1.0);
   const glm::dvec3 straight = glm::mix(glm::dvec3(kDielectric), color, metallic);
-  const glm::dvec3 specular = glm::min(straight * (kBlinn * exponent + 2.0) / 8.0, glm::dvec3(1.0));
+  const double most = std::max({straight.x, straight.y, straight.z});
+  const glm::dvec3 specular =
+      straight * std::min((kBlinn * exponent + 2.0) / 8.0, 1.0 / std::max(most, 1e-9));
   const double mirror = metallic * (1.0 - roughness);
   return {.color = constant(color * (1.0 - mirror)),
           .specular = constant(specular),
           .shininess = exponent,
-          .reflectivity = mirror * (1.0 - roughness),
+          .reflectivity = mirror,
           .fresnelPower = 5.0,
-          .fresnelBias = 1.0,
+          .fresnelBias = most,
           .emission = constant(emission / sum)};
 }
 

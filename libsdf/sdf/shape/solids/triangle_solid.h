@@ -11,7 +11,8 @@ namespace sdf {
 
 /// The mesh's colour, the mean over its area, with colours of vertices and textures; and the like of its
 /// other numbers. Highlights are those of glTF's rough surfaces in Phong's terms: exponent (1 / roughness^4 -
-/// 1) / 2, as bright as energy allows.
+/// 1) / 2, as bright as energy allows. A metal mirrors in its colour, by Schlick; the share that is its
+/// roughness it scatters.
 Material meanMaterial(const TriangleMesh& mesh);
 
 /// A mesh that is only moved, turned and scaled.
