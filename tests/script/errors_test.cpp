@@ -160,6 +160,8 @@ TEST(Errors, CountsOfArgumentsAreChecked) {
        "scene.lua:1: translate: 'offset' is missing; write translate(shape, offset)"},
       {"return sphere(1):translate(1, 2)",
        "scene.lua:1: translate: 'offset' takes three numbers, got two; the third is missing"},
+      {"return circle(1):rotate(1, 2):extrude(1)",
+       "scene.lua:1: rotate: 'angles' takes one number, for a flat shape turns about z only"},
       {"return box(1, 2)",
        "scene.lua:1: box: 'half' takes three numbers or one for all, got two; the third is missing"},
       {"return box{1, 2}",

@@ -54,6 +54,26 @@ TEST(Language, VectorsMayNameTheirComponents) {
   EXPECT_EQ(scene.bounds->min, glm::dvec3(-1.0));
 }
 
+// z says nothing of them.
+TEST(Language, VectorsOfFlatShapesMayLeaveOutZ) {
+  const Shape flat = rectangle(2.0, 1.0);
+  const Shape moved = extrude(translate(flat, {1.0, 0.5, 0.0}), 1.0);
+  for (const char* offset :
+       {"(1, 0.5)", "({1, 0.5})", "{1, 0.5}", "{x = 1, y = 0.5}", "{offset = {1, 0.5}}", "(1, 0.5, 0)"})
+    expectSame("rectangle(2, 1):translate" + std::string(offset) + ":extrude(1)", moved);
+  const Shape scaled = extrude(scale(flat, {2.0, -3.0, 1.0}), 1.0);
+  for (const char* factor : {"(2, -3)", "({2, -3})", "{factor = {x = 2, y = -3}}", "(2, -3, 1)"})
+    expectSame("rectangle(2, 1):scale" + std::string(factor) + ":extrude(1)", scaled);
+  const Expr turned = distanceOf("rectangle(2, 1):rotate(0, 0, 30):extrude(1)");
+  for (const char* angle : {"(30)", "{angles = 30}", "{30}"})
+    EXPECT_TRUE(distanceOf("rectangle(2, 1):rotate" + std::string(angle) + ":extrude(1)") == turned) << angle;
+  expectSame("rectangle(2, 1):mirror{normal = {1, 1}}:extrude(1)",
+             extrude(mirror(flat, Vec3E(1.0, 1.0, 0.0)), 1.0));
+  expectSame("rectangle(2, 1):elongate(1, 2):extrude(1)", extrude(elongate(flat, {1.0, 2.0, 0.0}), 1.0));
+  expectSame("rectangle(2, 1):repeat_grid({5, 3}, {3, 2}):extrude(1)",
+             extrude(repeatGrid(flat, Vec3E(5.0, 3.0, 1.0), glm::ivec3(3, 2, 1)), 1.0));
+}
+
 TEST(Language, VectorsComeAsTablesAsNumbersInARowAndSizesAsOneNumber) {
   const Shape expected = roundBox({1.0, 2.0, 3.0}, 0.5);
   for (const char* way : {"round_box({1, 2, 3}, 0.5)", "round_box(1, 2, 3, 0.5)", "round_box{1, 2, 3, 0.5}",

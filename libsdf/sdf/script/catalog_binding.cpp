@@ -161,6 +161,7 @@ class Call {
         return readChoice(L_, at, what(p), p.choices);
       case ArgumentKind::Vector2:
       case ArgumentKind::Vector3:
+        if (flat_ && sizeOf(p) == 3) return readInPlane(p, at);
         return (isSize(p) ? readSize : readVector)(L_, at, what(p), sizeOf(p), dependsOf(p));
       case ArgumentKind::Shape:
         return shapeAt(p, at);
@@ -193,6 +194,17 @@ class Call {
     return readOne(p, next_++);
   }
 
+  // What a flat shape, of which z says nothing, has in the place of z that is left out.
+  static Vec3E raised(const Parameter& p, const Vec3E& v) { return {v.x, v.y, isSize(p) ? 1.0 : 0.0}; }
+
+  // A vector of a flat shape: z may be left out.
+  Vec3E readInPlane(const Parameter& p, int at) {
+    if (p.isTurn && isNumeric(L_, at)) return {0.0, 0.0, readNumber(L_, at, what(p), dependsOf(p))};
+    if (p.isTurn || vectorSize(L_, at) == 3)
+      return (isSize(p) ? readSize : readVector)(L_, at, what(p), 3, dependsOf(p));
+    return raised(p, readVector(L_, at, what(p), 2, dependsOf(p)));
+  }
+
   const Shape& shapeAt(const Parameter& p, int at) {
     if (!testShape(L_, at) && at == 1)
       raise(L_, what(p) + " must be a shape, got " + describe(L_, at) + "; write " + usageOf(entry_) +
@@ -201,6 +213,7 @@ class Call {
     if (!shape.formulaAt.empty() && slopeOf(shape) > steepest_)
       formulaAt_ = shape.formulaAt, steepest_ = slopeOf(shape);
     if (shape.claim.kind > weakest_) weakest_ = shape.claim.kind, inexactSince_ = shape.inexactSince;
+    flat_ = flat_ || shape.dimension == 2;
     return shape;
   }
 
@@ -256,10 +269,17 @@ class Call {
       possible += numbersOf(*q);
     }
     const bool spread = run >= size && (!isSize(p) || run >= size + needed);
-    if (!spread && run > 1 && (!isSize(p) || run - 1 > possible))
+    const bool tooMany = !spread && run > 1 && (!isSize(p) || run - 1 > possible);
+    if (tooMany && run == 2 && flat_ && !p.isTurn) return raised(p, readSpread(p, 2));
+    if (tooMany && flat_ && p.isTurn)
+      raise(L_, what(p) + " takes one number, for a flat shape turns about z only");
+    if (tooMany)
       raise(L_, what(p) + " takes three numbers" + (isSize(p) ? " or one for all" : "") +
                     ", got two; the third is missing");
-    if (!spread) return readOne(p, next_++);
+    return spread ? readSpread(p, size) : readOne(p, next_++);
+  }
+
+  Vec3E readSpread(const Parameter& p, int size) {
     Vec3E v;
     Expr* components[] = {&v.x, &v.y, &v.z};
     for (int i = 0; i < size; ++i) *components[i] = readNumber(L_, next_++, what(p), dependsOf(p));
@@ -274,6 +294,7 @@ class Call {
   int last_ = 0;           // the last argument in place
   std::string formulaAt_;  // of the steepest formula among the arguments
   double steepest_ = 0.0;
+  bool flat_ = false;  // is one of the shapes that were read flat?
   // The weakest claim that a shape among the arguments makes, and what made it.
   ClaimKind weakest_ = ClaimKind::Exact;
   std::string inexactSince_;

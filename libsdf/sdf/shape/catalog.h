@@ -50,6 +50,7 @@ struct Parameter {
   std::string fallback;
   bool required = true;
   std::vector<std::string> choices;  ///< for Choice
+  bool isTurn = false;               ///< angles about the axes: of a flat shape one, about z
 };
 
 /// A checked argument. monostate: optional and not given. Vector2 comes as Vec3E with z = 0, Choice as its

@@ -74,6 +74,12 @@ inline Parameter size(std::string name, std::string doc, std::string fallback) {
 inline Parameter halfHeight(std::string fallback) {
   return size("half_height", "from the centre to the top and to the bottom", std::move(fallback));
 }
+/// Angles about x, y and z.
+inline Parameter turn(std::string name, std::string doc) {
+  Parameter p = vector3(std::move(name), std::move(doc));
+  p.isTurn = true;
+  return p;
+}
 /// The first choice is the fallback.
 inline Parameter choice(std::string name, std::string doc, std::vector<std::string> choices) {
   std::string first = choices.front();

@@ -11,7 +11,8 @@ std::vector<CatalogEntry> placeEntries() {
       entry(
           "rotate",
           "Turned about the x axis, then about y, then about z, by the right-hand rule; the axes stay fixed.",
-          "as the shape", {operand, vector3("angles", "degrees about x, y and z")},
+          "as the shape",
+          {operand, turn("angles", "degrees about x, y and z; of a flat shape one number, about z")},
           [](const Shape& s, const Vec3E& angles) {
             return rotate(s, {radians(angles.x), radians(angles.y), radians(angles.z)});
           }),
