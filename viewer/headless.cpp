@@ -51,7 +51,9 @@ std::string steepestFormula(const Scene& scene) {
       look(part.shape);
   if (!steepest) return "";
   return "the formula in " + steepest->formulaAt + " has a slope of up to " + sdf::shown(slopeOf(*steepest)) +
-         ", for which rays go in short steps: give its field() the lipschitz that it has, if that is less; ";
+         ", for which rays go in short steps" +
+         (steepest->takesLipschitz ? ": give its field() the lipschitz that it has, if that is less; "
+                                   : "; ");
 }
 
 class Headless {

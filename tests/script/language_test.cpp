@@ -5,6 +5,7 @@
 #include <random>
 
 #include "script/run.h"
+#include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/catalog.h"
 #include "sdf/shape/operators/operators.h"
 #include "sdf/shape/solids/flats.h"
@@ -72,6 +73,27 @@ TEST(Language, VectorsOfFlatShapesMayLeaveOutZ) {
   expectSame("rectangle(2, 1):elongate(1, 2):extrude(1)", extrude(elongate(flat, {1.0, 2.0, 0.0}), 1.0));
   expectSame("rectangle(2, 1):repeat_grid({5, 3}, {3, 2}):extrude(1)",
              extrude(repeatGrid(flat, Vec3E(5.0, 3.0, 1.0), glm::ivec3(3, 2, 1)), 1.0));
+}
+
+// Else a factor of 1 - 0.9 smoothstep(...) could be 0.
+TEST(Language, SmoothstepKeepsWithinItsEnds) {
+  const Scene scene =
+      sceneOf("return sphere(1):paint{color = function(x, y, z) return smoothstep(0, 2, x), 0, 0 end}");
+  const Expr red = scene.parts.at(0).shape.surface[static_cast<int>(Attribute::Red)];
+  EXPECT_GE(red.range().lo, 0.0);
+  EXPECT_LE(red.range().hi, 1.0);
+  const auto value = [](double x) { return 0.25 * x * x * (3.0 - x); };
+  for (const double x : {0.0, 0.1, 0.5, 1.0, 1.3, 1.9, 2.0})
+    EXPECT_NEAR(at(red, x, 0.0, 0.0), value(x), 1e-15) << x;
+  EXPECT_EQ(at(red, -1.0, 0.0, 0.0), 0.0);
+  EXPECT_EQ(at(red, 2.0, 0.0, 0.0), 1.0);
+  EXPECT_EQ(at(red, 7.0, 0.0, 0.0), 1.0);
+  const Tape tape(red);
+  for (const double lo : {0.2, 0.6, 1.0}) {
+    const Interval range = evaluate(tape, Box{{lo, 0.0, 0.0}, {lo + 0.4, 0.0, 0.0}});
+    EXPECT_NEAR(range.lo, value(lo), 1e-12);
+    EXPECT_NEAR(range.hi, value(lo + 0.4), 1e-12);
+  }
 }
 
 TEST(Language, VectorsComeAsTablesAsNumbersInARowAndSizesAsOneNumber) {

@@ -305,13 +305,26 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAScene) {
            {"part('a', sphere(1) | (\nfield(function(x)" + cube + ") - sphere(1)))", 2},
            {"local good = field(function(x)" + cube + box + ")\nreturn good |\nfield(function(x)" + cube +
                 ")",
-            3},
-           {"return sphere(1):displace(\nfunction(x) return x * x end)", 1}})
+            3}})
     refuse(text, ("scene.lua:" + std::to_string(line) + ": " + unknown).c_str());
+  const std::string displaced =
+      "scene.lua:1: the slope of this distance is not known, so rays cannot be marched to it; let the "
+      "formula at " +
+      at("scene.lua:1") + " have one for all places and all values of parameters: ";
+  refuse("return sphere(1):displace(function(x) return x * x end)", displaced.c_str());
   refuse(kBall, "-D size: the scene has no parameter 'size'", {"-D", "size=2"});
   refuse(kMoving, "-D time: set the scene's clock with --time", {"-D", "time=2"});
   expectRefused(kFiles, "nowhere.lua: cannot be read", {at("nowhere.lua"), "--render", png});
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
+}
+
+// A blink: between 0.1 and 1, for all times.
+TEST_F(Sdfview, DrawsWhatIsScaledBySmoothstep) {
+  const Outcome outcome =
+      run({scene("return box(1):scale(1, 1 - 0.9 * smoothstep(0.93, 0.97, sin(2 * time)), 1)"), "--render",
+           at("a.png"), "--size", "16x16"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
 }
 
 TEST_F(Sdfview, ReadsMeshesFromFoldersThatAreAllowed) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sdf/expr/hoist.h"
+#include "sdf/expr/origin.h"
 #include "sdf/model/model.h"
 #include "sdf/shape/operators/booleans.h"
 #include "viewer/shaders/filter.h"
@@ -50,6 +51,22 @@ Split split(const Scene& scene, bool withPlanes, bool withDrawn) {
 
 bool hasSlope(const Shape& shape) { return marchable(shape).slope < kInfinity; }
 
+/// The innermost node without a known slope, of which all that it is made of has one.
+Expr innermostSteep(const Expr& e) {
+  for (int i = 0; isOperation(e.op()) && i < arity(e.op()); ++i)
+    if (e.arg(i).lipschitz() == kInfinity) return innermostSteep(e.arg(i));
+  return e;
+}
+
+/// What to do about a shape without a known slope.
+std::string cureOf(const Shape& shape) {
+  if (shape.takesLipschitz) return "give its field() a lipschitz, or bounds within which the formula has one";
+  const std::string origin = originOf(innermostSteep(shape.distance));
+  return (origin.empty() ? "let it" : "let " + origin) +
+         " have one for all places and all values of parameters: clamp what grows without end, and keep what "
+         "is divided by, and what roots are taken of, away from 0";
+}
+
 /// Names the first shape without a known slope: by the line of its formula if it has one, else by its part.
 Error withoutSlope(const Scene& scene) {
   const Part& part = *std::ranges::find_if_not(scene.parts, hasSlope, &Part::shape);
@@ -61,9 +78,8 @@ Error withoutSlope(const Scene& scene) {
   }
   const std::string subject = shape->formulaAt.empty() ? "part '" + part.name + "'" : shape->formulaAt;
   return {ErrorKind::Scene,
-          subject +
-              ": the slope of this distance is not known, so rays cannot be marched to it; give its "
-              "field() a lipschitz, or bounds within which the formula has one"};
+          subject + ": the slope of this distance is not known, so rays cannot be marched to it; " +
+              cureOf(*shape)};
 }
 
 Result<Marched> marched(const Shape& shape, const Scene& scene, const ShaderOptions& options) {

@@ -35,8 +35,8 @@ Result<MarchField> fieldOf(const Scene& scene, const std::optional<Box>& clip) {
   if (!field || field->hasSlope()) return field;
   return Error{
       ErrorKind::Scene,
-      "ambient occlusion: the slope of the scene's distance is not known; give its field() a lipschitz, or "
-      "bounds near which its formula has one, or leave the occlusion out"};
+      "ambient occlusion: the slope of the scene's distance is not known; give fields in it a lipschitz, or "
+      "bounds near which their formulas have one, or leave the occlusion out"};
 }
 
 /// A vertex without a normal sees all there is.

@@ -71,7 +71,7 @@ class Call {
     const std::vector<Argument> given = entry_.group == Group::Solid ? std::vector<Argument>() : values;
     Shape result = build(entry_, std::move(values));
     if (!result.ok()) raise(L_, *result.error);
-    if (result.formulaAt.empty()) result.formulaAt = formulaAt_;
+    if (result.formulaAt.empty()) result.formulaAt = formulaAt_, result.takesLipschitz = takesLipschitz_;
     const bool isWeaker = result.claim.kind > weakest_;
     result.inexactSince =
         isWeaker ? entry_.name + " in line " + std::to_string(currentLine(L_)) : inexactSince_;
@@ -211,7 +211,7 @@ class Call {
                     " or shape:" + entry_.name + "(…)");
     const Shape& shape = readShape(L_, at, what(p));
     if (!shape.formulaAt.empty() && slopeOf(shape) > steepest_)
-      formulaAt_ = shape.formulaAt, steepest_ = slopeOf(shape);
+      formulaAt_ = shape.formulaAt, takesLipschitz_ = shape.takesLipschitz, steepest_ = slopeOf(shape);
     if (shape.claim.kind > weakest_) weakest_ = shape.claim.kind, inexactSince_ = shape.inexactSince;
     flat_ = flat_ || shape.dimension == 2;
     return shape;
@@ -293,6 +293,7 @@ class Call {
   int next_ = 1;           // the first argument in place that no parameter has taken
   int last_ = 0;           // the last argument in place
   std::string formulaAt_;  // of the steepest formula among the arguments
+  bool takesLipschitz_ = false;
   double steepest_ = 0.0;
   bool flat_ = false;  // is one of the shapes that were read flat?
   // The weakest claim that a shape among the arguments makes, and what made it.
@@ -309,8 +310,10 @@ int pushGood(lua_State* L, Shape shape) {
 // A shape of the script's own formula.
 int pushFormulaShape(lua_State* L, const std::string& what, Shape shape) {
   shape.inexactSince = what + " in line " + std::to_string(currentLine(L));
-  if (slopeOf(shape) > 1.0 && shape.formulaAt.empty())
+  if (slopeOf(shape) > 1.0 && shape.formulaAt.empty()) {
     shape.formulaAt = contextOf(L).file + ":" + std::to_string(currentLine(L));
+    shape.takesLipschitz = what == "field";
+  }
   return pushGood(L, std::move(shape));
 }
 

@@ -112,6 +112,7 @@ struct Shape {
   /// Where a scene file gives the steepest formula in it whose slope is above 1 or not known, "scene.lua:3";
   /// else "".
   std::string formulaAt;
+  bool takesLipschitz = false;  ///< is that formula a field's, whose lipschitz may be stated?
   /// What in a scene file last weakened the claim, "field in line 3"; else "".
   std::string inexactSince;
   int dimension = 3;  ///< 2: a flat shape in x and y (its distance ignores z), to be extruded or revolved
