@@ -343,6 +343,18 @@ TEST(MeshShape, NamesAVoxelSizeThatSeesWhatIsTooThin) {
   EXPECT_TRUE(tryMesh(sheet, {.voxelSize = std::stod(message.substr(at + says.size()))}).ok()) << message;
 }
 
+// A maximum takes the box alone where the dome is no number: there it reaches beyond the dome's bounds.
+TEST(MeshShape, BlamesWhatIsNoNumberForWhatLeavesTheBounds) {
+  const Vec3E p = position();
+  const Box bounds{{-1.5, -0.5, -1.5}, {1.5, 1.5, 1.5}};
+  const Shape dome = field(p.y - sqrt(1.0 - p.x * p.x - p.z * p.z), bounds);
+  const Shape block = translate(box({2.0, 1.2, 2.0}), {0.0, 1.2, 0.0});
+  const auto refused = tryMesh(intersect(dome, block), {.voxelSize = 0.05});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message.find("part 'floor': the distance is no number at ("), 0u)
+      << refused.error().message;
+}
+
 // The unit ball by a formula that is steep near one point of its surface only: up to 21 there.
 Expr steepSomewhere() {
   const Vec3E p = position(), q = p - Vec3E(0.6, 0.6, 0.53);

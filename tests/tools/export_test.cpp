@@ -370,6 +370,19 @@ TEST_F(Export, WarnsOfADistanceThatIsNotANumber) {
       << outcome.err;
 }
 
+// Beyond the circle the dome's formula is no number, and a maximum takes the box alone.
+TEST_F(Export, RefusesAMeshOfWhatIsNoNumberByItsFormula) {
+  const std::string file = scene(
+      "local dome = field(function(x, y, z)\n"
+      "  return y - sqrt(1 - x * x - z * z) end, {bounds = {{-1.5, -0.5, -1.5}, {1.5, 1.5, 1.5}}})\n"
+      "return dome & box(2, 1.2, 2):translate(0, 1.2, 0)");
+  const Outcome outcome = run({file, "-o", out("a.glb")});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("the formula at " + file + ":2 is no number at ("), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.err.find("leaves the bounds"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
   const Json output = report({scene(kTwoParts), "-o", out("a.glb")})["outputs"][0];
   // Both together reach from -1 to 2.5.

@@ -318,6 +318,16 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAScene) {
   EXPECT_EQ(files(), std::vector<std::string>{"scene.lua"});
 }
 
+TEST_F(Sdfview, SaysWhichFormulaIsNoNumber) {
+  const Outcome outcome = run({scene("return field(function(x, y, z) return length(x, y, z) - sqrt(x)\n"
+                                     "end, {bounds = {{-1, -1, -1}, {1, 1, 1}}, lipschitz = 9})"),
+                               "--render", at("a.png"), "--size", "16x16"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("sdfview: warning: part 'part 1': the formula at " + at("scene.lua") +
+                                      ":1 is no number at (-"))
+      << outcome.err;
+}
+
 // A blink: between 0.1 and 1, for all times.
 TEST_F(Sdfview, DrawsWhatIsScaledBySmoothstep) {
   const Outcome outcome =

@@ -36,6 +36,7 @@
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/project.h"
 #include "sdf/model/float_range.h"
+#include "sdf/model/no_number.h"
 #include "sdf/proof/certify.h"
 #include "sdf/proof/obstacle.h"
 #include "sdf/shape/catalog.h"
@@ -186,7 +187,7 @@ class Mesher {
       result_.stats.notNumbers = lattice.band.notNumbers().count;
       result_.stats.firstNotNumber = lattice.band.notNumbers().first;
       FeatureMesh& mesh = lattice.mesh;
-      extract(lattice, !thins);
+      if (Status s = extract(lattice, !thins, *bounds); !s) return s.error();
       const bool last =
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
       const bool cheap = mesh.triangles.size() <= kMostToTry;
@@ -288,16 +289,17 @@ class Mesher {
 
   // The mesh at the voxels' resolution, with its creases; empty where there is none. Its vertices lie on the
   // surface, or are balanced.
-  void extract(Lattice& lattice, bool balanced) {
+  Status extract(Lattice& lattice, bool balanced, const Box& bounds) {
     const BandField& field = lattice.field;
     begin("extraction");
     RawSurface raw = lattice.band.extract();
-    if (raw.triangles.empty()) return;
+    if (raw.triangles.empty()) return okStatus();
     begin("projection");
     const std::vector<glm::vec3> extracted = raw.points;
     std::vector<glm::vec3> normals;
     refineVertices(raw.points, normals, field, progress_);
     leaveFilms(outwardNormals(extracted, raw.triangles), raw.points, normals, field, progress_);
+    if (Status s = checkBounds(raw, field, bounds, lattice.band.voxelSize()); !s) return s;
     begin("creases");
     auto [mesh, doubtful] =
         sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress_);
@@ -315,6 +317,7 @@ class Mesher {
       cutAtBorders(mesh, field, progress_);
     }
     lattice.mesh = std::move(mesh);
+    return okStatus();
   }
 
   enum class Simplified {
@@ -366,7 +369,7 @@ class Mesher {
       MeshStats stats;
       findUnresolved(coarse.band, coarse.field, progress_, stats);
       if (stats.unresolved > 0) continue;
-      extract(coarse, false);
+      if (!extract(coarse, false, bounds)) continue;
       FeatureMesh mesh = coarse.mesh;
       if (!isClosed(mesh) || !follows(mesh, coarse.field, witnesses)) continue;
       if (!blurred) {
@@ -428,7 +431,7 @@ class Mesher {
   bool blursColors(const Lattice& fine, const ModelTapes& model, const Box& bounds) {
     Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, kFinestPainted * fine.band.voxelSize());
     if (!sampled) return false;
-    extract(**sampled, false);
+    if (!extract(**sampled, false, bounds)) return false;
     const FeatureMesh& mesh = (*sampled)->mesh;
     return isClosed(mesh) && !keepsColors(mesh, options_.tolerance, fine.field, progress_);
   }
@@ -670,7 +673,37 @@ class Mesher {
   Status checkStated(const FeatureMesh& mesh, const Box& bounds, double voxel,
                      const std::vector<float>& distances, const ModelTapes& model) const {
     const auto fault = faultOf({mesh, distances, result_.stats, bounds, voxel, origin_}, model);
-    return fault ? Status(sceneError(name_, *fault)) : okStatus();
+    return fault ? Status(explained(*fault, voxel)) : okStatus();
+  }
+
+  // What is no number lies behind all other faults.
+  Error explained(const MeshFault& fault, double voxel) const {
+    const auto blamed = noNumberAround(fault.at, voxel);
+    return sceneError(name_, blamed ? *blamed : fault.what);
+  }
+
+  // Names what is no number near a place.
+  std::optional<std::string> noNumberAround(const glm::dvec3& p, double voxel) const {
+    constexpr int kPlaces = 256;
+    const auto found =
+        findNoNumber(distance_, Box{p, p}.grown(kFarthestVoxels * voxel), options_.values, kPlaces);
+    if (!found) return {};
+    return textOf(*found, placeOf(found->at));
+  }
+
+  // What leaves its bounds by more than finer voxels would change is refused before work is done on it.
+  Status checkBounds(const RawSurface& raw, const BandField& field, const Box& bounds, double voxel) {
+    const double allowed = 2.0 * std::max(voxel, options_.tolerance);
+    const auto outside = farthestOutside(raw.points, bounds, allowed);
+    if (!outside) return okStatus();
+    if (const auto blamed = noNumberAround(*outside, voxel)) return sceneError(name_, *blamed);
+    FeatureMesh mesh;
+    mesh.positions = raw.points;
+    mesh.triangles = raw.triangles;
+    MeshStats stats;
+    const std::vector<float>& distances = measured_.fromMesh(mesh, field, progress_, stats);
+    const auto fault = leavesBounds({mesh, distances, stats, bounds, voxel, origin_});
+    return fault && !progress_.stopped() ? Status(sceneError(name_, fault->what)) : okStatus();
   }
 
   // Proves the distance, if that is asked for.

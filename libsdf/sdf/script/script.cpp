@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "sdf/model/no_number.h"
 #include "sdf/script/context.h"
 
 namespace sdf {
@@ -63,6 +64,23 @@ void lookAtOffsets(ScriptContext& context) try {
   // A scene that takes all of its memory is not looked at.
 }
 
+// Says of which parts the distance is no number somewhere within their bounds.
+void lookForNoNumbers(ScriptContext& context) {
+  constexpr int kPlaces = 256;
+  Scene& scene = context.scene;
+  Values values(context.options.values.begin(), context.options.values.end());
+  values["time"] = context.options.time;
+  for (const Part& part : scene.parts) {
+    const Box box = scene.bounds ? intersect(part.shape.bounds, *scene.bounds) : part.shape.bounds;
+    if (box.empty() || !box.finite()) continue;
+    const auto found = findNoNumber(part.shape.distance, box, values, kPlaces);
+    if (!found) continue;
+    const glm::dvec3& p = found->at;
+    const std::string place = "(" + rounded(p.x) + ", " + rounded(p.y) + ", " + rounded(p.z) + ")";
+    scene.notes.push_back((part.name.empty() ? "" : "part '" + part.name + "': ") + textOf(*found, place));
+  }
+}
+
 }  // namespace
 
 Expr inputOf(const ScriptContext& context, ParameterInfo info) {
@@ -83,6 +101,7 @@ Result<Scene> runScene(const std::string& text, const std::string& name, const S
   ScriptContext context(name, options);
   if (const Status ran = runInSandbox(context, source); !ran) return ran.error();
   lookAtOffsets(context);
+  lookForNoNumbers(context);
   if (const Status known = checkOverrides(context.scene, options, name); !known) return known.error();
   if (context.scene.parts.empty() && !context.scene.missing.empty())
     return Error{ErrorKind::Scene, context.scene.missing.front()};

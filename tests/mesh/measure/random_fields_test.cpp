@@ -111,7 +111,7 @@ TEST(RandomFields, AreAsFarOffAsReported) {
     // of a formula far away.
     const auto says = [&](const char* words) { return outcome.message.find(words) != std::string::npos; };
     EXPECT_TRUE(outcome.meshed || says("no surface inside the bounds") || says("too thin to be seen") ||
-                says("leaves the bounds"))
+                says("leaves the bounds") || says("is no number at"))
         << outcome.message << ", seed " << seed;
   }
   EXPECT_GE(meshed, count * 9 / 10);

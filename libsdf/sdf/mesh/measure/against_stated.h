@@ -25,10 +25,23 @@ struct MeasuredMesh {
 /// "(1, 2, 3)"
 std::string shownPlace(const glm::dvec3& p);
 
-/// What is wrong with the mesh, and what to do: it leaves the bounds, is torn open, or farther from the
-/// surface than kFarthestVoxels and the tolerance. The slope that is stated of the distance is blamed only
-/// where a secant of it is steeper. Nothing where it is the shape's. Cost: linear in the vertices; where
-/// there is a fault that of steepestAround.
-std::optional<std::string> faultOf(const MeasuredMesh& m, const ModelTapes& model);
+/// What is wrong with a mesh, and what to do.
+struct MeshFault {
+  std::string what;
+  glm::dvec3 at;  ///< relative as the mesh is
+};
+
+/// The point that is farthest outside of the bounds, if that is farther than is allowed.
+std::optional<glm::vec3> farthestOutside(std::span<const glm::vec3> points, const Box& bounds,
+                                         double allowed);
+
+/// The surface leaves the bounds. Nothing where it does not.
+std::optional<MeshFault> leavesBounds(const MeasuredMesh& m);
+
+/// The mesh leaves the bounds, is torn open, or farther from the surface than kFarthestVoxels and the
+/// tolerance. The slope that is stated of the distance is blamed only where a secant of it is steeper.
+/// Nothing where the mesh is the shape's. Cost: linear in the vertices; where there is a fault that of
+/// steepestAround.
+std::optional<MeshFault> faultOf(const MeasuredMesh& m, const ModelTapes& model);
 
 }  // namespace sdf
