@@ -1,5 +1,7 @@
 #include "sdf/model/no_number.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 #include <vector>
@@ -34,6 +36,8 @@ class NodeReading {
     }
     return any ? innermost() : std::nullopt;
   }
+
+  int size() const { return static_cast<int>(nodes_.size()); }
 
  private:
   using Arguments = std::array<int, 3>;
@@ -98,6 +102,8 @@ std::string percent(double share) {
 std::optional<NoNumber> findNoNumber(const Expr& e, const Box& box, const Values& values, int places) {
   if (!mayBeNoNumber(e)) return std::nullopt;
   NodeReading reading(e, values);
+  constexpr int kMostReadings = 4'000'000, kLeast = 16;
+  places = std::min(places, std::max(kLeast, kMostReadings / reading.size()));
   std::mt19937 random(1);
   std::optional<NoNumber> found;
   int count = 0;

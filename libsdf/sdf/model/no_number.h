@@ -17,8 +17,8 @@ struct NoNumber {
 
 /// Looks for places of a finite box where the expression, or an argument on which it depends there, is no
 /// number: a minimum or maximum depends on both, a select on what it chooses. At these values of inputs.
-/// Places are the same every time. Nothing where there is none among them. Cost: that of reading all nodes at
-/// each place; none where intervals show that every node is a number everywhere.
+/// Places are the same every time, and fewer in large graphs. Nothing where there is none among them. Cost:
+/// some million readings of nodes at most; none where intervals show that every node is a number everywhere.
 std::optional<NoNumber> findNoNumber(const Expr& e, const Box& box, const Values& values, int places);
 
 /// What is wrong, and what to do: "the formula at scene.lua:2 is no number at (1, 2, 3) …".
