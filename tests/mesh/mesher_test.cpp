@@ -343,6 +343,15 @@ TEST(MeshShape, NamesAVoxelSizeThatSeesWhatIsTooThin) {
   EXPECT_TRUE(tryMesh(sheet, {.voxelSize = std::stod(message.substr(at + says.size()))}).ok()) << message;
 }
 
+// No voxels in reach would see it.
+TEST(MeshShape, HasWhatIsFarTooThinMadeThicker) {
+  const auto refused = tryMesh(translate(box({1.0, 1e-5, 1.0}), {0.0, 0.05, 0.0}), {.voxelSize = 0.1});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("at a voxel size of 0.1; make it thicker than 0.1"),
+            std::string::npos)
+      << refused.error().message;
+}
+
 // A maximum takes the box alone where the dome is no number: there it reaches beyond the dome's bounds.
 TEST(MeshShape, BlamesWhatIsNoNumberForWhatLeavesTheBounds) {
   const Vec3E p = position();

@@ -307,10 +307,11 @@ TEST_F(Export, WarnsOfWhatFallsBetweenTheSamples) {
   const std::vector<std::string> arguments{file, "-o", out("a.glb"), "--voxel-size", "0.1"};
   const std::string warned = run(arguments).err;
   EXPECT_NE(
-      warned.find("sdf2gltf: warning: part 'pair': solids or gaps thinner than a voxel were missed at "),
+      warned.find("sdf2gltf: warning: part 'pair': solids or gaps thinner than a voxel were missed, the "
+                  "first near ("),
       std::string::npos)
       << warned;
-  const std::string before = "take one of ";
+  const std::string before = "take --voxel-size ";
   ASSERT_NE(warned.find(before), std::string::npos) << warned;
   const std::string rest = warned.substr(warned.find(before) + before.size());
   EXPECT_EQ(rest.substr(rest.find(' ')), " to see them\n");
@@ -383,6 +384,14 @@ TEST_F(Export, RefusesAMeshOfWhatIsNoNumberByItsFormula) {
   EXPECT_EQ(outcome.err.find("leaves the bounds"), std::string::npos) << outcome.err;
 }
 
+// Between balls that touch there is a gap thinner than any voxel, of which nothing is lost.
+TEST_F(Export, DoesNotWarnOfWhatTouches) {
+  const std::string file = scene("return sphere(1) | sphere(1):translate(2, 0, 0)");
+  const Outcome outcome = run({file, "-o", out("a.glb"), "--report", out("report.json")});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Export, SamplesAllPartsAlikeUnlessToldOtherwise) {
   const Json output = report({scene(kTwoParts), "-o", out("a.glb")})["outputs"][0];
   // Both together reach from -1 to 2.5.
@@ -411,7 +420,7 @@ TEST_F(Export, SaysWhereTheToleranceOfItsOwnIsNotKept) {
   EXPECT_EQ(outcome.status, 0);
   for (const char* words :
        {"sdf2gltf: warning: part 'part 1': the tolerance of 0.00087 is not kept everywhere: ", " off near (",
-        "; a smaller voxel size may keep it there\n"})
+        "; --voxel-size 0.0025 may keep it there\n"})
     EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   const Json part = Json::parse(contents(out("report.json")))["outputs"][0]["parts"][0];
   EXPECT_TRUE(part["watertight"]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
 
 #include "command_line/text.h"
 #include "sdf/base/version.h"
@@ -83,6 +85,65 @@ Json json(const ReportLine& line) {
           {"ambient_error", line.ambientError ? Json(*line.ambientError) : Json(nullptr)}};
 }
 
+// Finer voxels than this share of the present ones take more than a thousand times as many samples: no
+// advice.
+constexpr double kFinest = 1.0 / 32.0;
+
+/// Both with two digits, or with as many as tell them apart.
+std::pair<std::string, std::string> shownApart(double a, double b) {
+  constexpr int kMost = 9;
+  for (int digits = 2;; ++digits) {
+    std::pair<std::string, std::string> texts{formatted("%.*g", digits, a), formatted("%.*g", digits, b)};
+    if (texts.first != texts.second || digits == kMost) return texts;
+  }
+}
+
+/// Does what was missed show in the distances? Where solids touch or cross, what is between them is thinner
+/// than any voxel, and nothing is lost.
+bool isLost(const MeshStats& stats) {
+  return stats.maxDistance > (stats.tolerance > 0.0 ? stats.tolerance : 0.5 * stats.voxelSize);
+}
+
+std::string finer(const MeshStats& stats) {
+  return "--voxel-size " + formatted("%.2g", 0.5 * stats.voxelSize);
+}
+
+std::string unresolvedWarning(const MeshStats& stats) {
+  const std::string what = "solids or gaps thinner than a voxel were missed, the first near " +
+                           place(stats.firstUnresolved) + "; ";
+  if (stats.resolvingVoxel == 0.0) return what + finer(stats) + " may see them";
+  if (stats.resolvingVoxel >= kFinest * stats.voxelSize)
+    return what + "take --voxel-size " + roundedDown(stats.resolvingVoxel) + " to see them";
+  return what + "make them thicker than " + formatted("%.2g", std::numbers::sqrt3 * stats.voxelSize) +
+         ", or let what touches there overlap";
+}
+
+std::vector<std::string> warningsOf(const ReportLine& line) {
+  const MeshStats& stats = line.stats;
+  std::vector<std::string> warnings;
+  if (stats.unresolved > 0 && isLost(stats)) warnings.push_back(unresolvedWarning(stats));
+  if (stats.tolerance > 0.0 && stats.maxDistance > stats.tolerance) {
+    const auto [tolerance, off] = shownApart(stats.tolerance, stats.maxDistance);
+    warnings.push_back("the tolerance of " + tolerance + " is not kept everywhere: " + off + " off near " +
+                       place(stats.farthest) + "; " + finer(stats) + " may keep it there");
+  }
+  if (stats.crossings > 0)
+    warnings.push_back("the mesh intersects itself in " + grouped(stats.crossings) +
+                       " pairs of triangles, the first near " + place(stats.firstCrossing) + "; " +
+                       finer(stats) + " may part them");
+  if (stats.notNumbers > 0)
+    warnings.push_back("the distance is not a number at " + grouped(stats.notNumbers) +
+                       " samples, the first near " + place(stats.firstNotNumber) +
+                       "; they were taken as outside. Check for divisions by zero, roots and logarithms of "
+                       "negative numbers");
+  if (line.ambientError.value_or(0.0f) > kSeenError)
+    warnings.push_back("the baked ambient light is off by up to " + formatted("%.2g", *line.ambientError) +
+                       ": a primitive's emission holds the blends of two colours, and this part's ambient "
+                       "colours are of more; give the colours materials of their own, or light them by "
+                       "ambient(color) in the place of background_light");
+  return warnings;
+}
+
 }  // namespace
 
 void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
@@ -97,33 +158,9 @@ void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
 
 void printWarnings(std::ostream& out, const FileReport& report) {
   for (const std::string& warning : report.warnings) out << "sdf2gltf: warning: " << warning << '\n';
-  for (const auto& [name, united, stats, stages, seconds, memory, ambientError] : report.parts) {
-    const std::string part = "sdf2gltf: warning: part '" + name + "': ";
-    if (stats.unresolved > 0)
-      out << part << "solids or gaps thinner than a voxel were missed at " << grouped(stats.unresolved)
-          << " places, the first near " << place(stats.firstUnresolved)
-          << "; how the mesh hangs together there depends on the voxel size, take "
-          << (stats.resolvingVoxel > 0.0 ? "one of " + roundedDown(stats.resolvingVoxel) : "a smaller one")
-          << " to see them\n";
-    if (stats.tolerance > 0.0 && stats.maxDistance > stats.tolerance)
-      out << part << "the tolerance of " << formatted("%.2g", stats.tolerance)
-          << " is not kept everywhere: " << formatted("%.2g", stats.maxDistance) << " off near "
-          << place(stats.farthest) << "; a smaller voxel size may keep it there\n";
-    if (stats.crossings > 0)
-      out << part << "the mesh intersects itself in " << grouped(stats.crossings)
-          << " pairs of triangles, the first near " << place(stats.firstCrossing)
-          << "; what is thinner than a voxel there needs a smaller one\n";
-    if (stats.notNumbers > 0)
-      out << part << "the distance is not a number at " << grouped(stats.notNumbers)
-          << " samples, the first near " << place(stats.firstNotNumber)
-          << "; they were taken as outside. Check for divisions by zero, roots and logarithms of negative "
-             "numbers\n";
-    if (ambientError.value_or(0.0f) > kSeenError)
-      out << part << "the baked ambient light is off by up to " << formatted("%.2g", *ambientError)
-          << ": a primitive's emission holds the blends of two colours, and this part's ambient colours are "
-             "of more; give the colours materials of their own, or light them by ambient(color) in the place "
-             "of background_light\n";
-  }
+  for (const ReportLine& line : report.parts)
+    for (const std::string& warning : warningsOf(line))
+      out << "sdf2gltf: warning: part '" << line.name << "': " << warning << '\n';
 }
 
 void printTable(std::ostream& out, const FileReport& report) {

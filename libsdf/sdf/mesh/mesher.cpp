@@ -660,10 +660,14 @@ class Mesher {
   Error noSurface(double voxel) const {
     const MeshStats& stats = result_.stats;
     const std::string size = " at a voxel size of " + shown(voxel);
+    // Beyond, samples would be a thousand times as many.
+    constexpr double kFinest = 1.0 / 32.0;
+    const double seeing = stats.resolvingVoxel;
     if (stats.unresolved > 0)
-      return sceneError(name_, "too thin to be seen" + size + "; take " +
-                                   (stats.resolvingVoxel > 0.0 ? "one of " + shown(stats.resolvingVoxel)
-                                                               : std::string("a smaller one")));
+      return sceneError(name_, "too thin to be seen" + size + "; " +
+                                   (seeing == 0.0              ? "take a smaller one"
+                                    : seeing < kFinest * voxel ? "make it thicker than " + shown(voxel)
+                                                               : "take one of " + shown(seeing)));
     return sceneError(name_, "no surface inside the bounds" + size +
                                  "; check the bounds and the shape's position, or take a smaller voxel size");
   }
