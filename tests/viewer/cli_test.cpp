@@ -309,8 +309,7 @@ TEST_F(Sdfview, NamesWhatIsWrongWithAScene) {
     refuse(text, ("scene.lua:" + std::to_string(line) + ": " + unknown).c_str());
   const std::string displaced =
       "scene.lua:1: the slope of this distance is not known, so rays cannot be marched to it; let the "
-      "formula at " +
-      at("scene.lua:1") + " have one for all places and all values of parameters: ";
+      "formula have one for all places and all values of parameters: ";
   refuse("return sphere(1):displace(function(x) return x * x end)", displaced.c_str());
   refuse(kBall, "-D size: the scene has no parameter 'size'", {"-D", "size=2"});
   refuse(kMoving, "-D time: set the scene's clock with --time", {"-D", "time=2"});

@@ -61,10 +61,11 @@ Expr innermostSteep(const Expr& e) {
 /// What to do about a shape without a known slope.
 std::string cureOf(const Shape& shape) {
   if (shape.takesLipschitz) return "give its field() a lipschitz, or bounds within which the formula has one";
-  const std::string origin = originOf(innermostSteep(shape.distance));
-  return (origin.empty() ? "let it" : "let " + origin) +
-         " have one for all places and all values of parameters: clamp what grows without end, and keep what "
-         "is divided by, and what roots are taken of, away from 0";
+  const std::string origin =
+      shape.formulaAt.empty() ? originOf(innermostSteep(shape.distance)) : "the formula";
+  return "let " + (origin.empty() ? "it" : origin) +
+         " have one for all places and all values of parameters: clamp what grows without end, keep what is "
+         "divided by, and what roots are taken of, away from 0, and leave out jumps, as of floor";
 }
 
 /// Names the first shape without a known slope: by the line of its formula if it has one, else by its part.
