@@ -21,6 +21,8 @@ constexpr float kWithin = 1.1f;
 // surface is then to be met in one of 26 directions, within twice the distance along each axis.
 constexpr float kRoundings = 8.0f * 0x1p-23f;
 constexpr double kSmall = 0.01;
+// Of the reach of those directions: how far into a tip one looks, which is narrow next to its end.
+constexpr float kTip = 4.0f;
 // Of a voxel: above it the surface may be nearer in another direction, and is looked for in all.
 constexpr double kNear = 0.5;
 // Elsewhere the surface is looked for along the gradient, up to so many voxels to either side, and at samples
@@ -67,28 +69,65 @@ class RunDistances {
     run_.batch.evaluate(*run_.tapes.distance, across.rows(), run_.count, values);
   }
 
+  /// A point that is about as near as rounding.
+  struct Small {
+    std::size_t point;
+    float reach;
+    glm::vec3 rise{0.0f};  // about the mean gradient around it
+    bool met = false;
+  };
+
   // Drops those that are as near as rounding, and have the surface around them.
   void takeSmall(std::vector<std::size_t>& unmet) {
-    std::vector<std::size_t> small;
-    std::vector<float> reach;
+    std::vector<Small> small;
     for (const std::size_t i : unmet) {
       const float first = distances_[i], rounding = kRoundings * largestCoordinate(run_.points.at(i));
-      if (!(first <= std::max(double{rounding}, kSmall * run_.voxel))) continue;
-      small.push_back(i);
-      reach.push_back(std::max(rounding, 2.0f * first));
+      if (first <= std::max(double{rounding}, kSmall * run_.voxel))
+        small.push_back({i, std::max(rounding, 2.0f * first)});
     }
+    meetNeighbours(small);
+    meetTips(small);
     std::vector<bool> met(run_.count);
+    for (const Small& s : small)
+      if (s.met) met[s.point] = true;
+    std::erase_if(unmet, [&](std::size_t i) { return met[i]; });
+  }
+
+  void meetNeighbours(std::vector<Small>& small) {
     readValues(
         run_.batch, *run_.tapes.distance, kNeighbourhood * small.size(),
         [&](std::size_t k) {
-          return run_.points.at(small[k / kNeighbourhood]) +
-                 reach[k / kNeighbourhood] * neighbour(static_cast<int>(k % kNeighbourhood));
+          const Small& s = small[k / kNeighbourhood];
+          return run_.points.at(s.point) + s.reach * neighbour(static_cast<int>(k % kNeighbourhood));
         },
         [&](std::size_t k, float value) {
-          const std::size_t i = small[k / kNeighbourhood];
-          if (isAcross(value, isInside(i))) met[i] = true;
+          Small& s = small[k / kNeighbourhood];
+          if (isAcross(value, isInside(s.point))) s.met = true;
+          s.rise += value * neighbour(static_cast<int>(k % kNeighbourhood));
         });
-    std::erase_if(unmet, [&](std::size_t i) { return met[i]; });
+  }
+
+  // A spike may pass between neighbours: it lies where the field falls, seen from all around.
+  void meetTips(std::vector<Small>& small) {
+    std::vector<Small> tips;
+    for (const Small& s : small)
+      if (!s.met)
+        tips.push_back({s.point, std::max(kTip * s.reach, static_cast<float>(kSmall * run_.voxel))});
+    meetNeighbours(tips);
+    constexpr float kTilt = 0.15f;  // of the direction, to all sides: neighbours see it askew
+    readValues(
+        run_.batch, *run_.tapes.distance, kNeighbourhood * tips.size(),
+        [&](std::size_t k) {
+          const Small& s = tips[k / kNeighbourhood];
+          const float size = glm::length(s.rise), way = isInside(s.point) ? s.reach : -s.reach;
+          const glm::vec3 tilt = kTilt * neighbour(static_cast<int>(k % kNeighbourhood));
+          return run_.points.at(s.point) + way * (tilt + (size > 0.0f ? s.rise / size : glm::vec3(0.0f)));
+        },
+        [&](std::size_t k, float value) {
+          Small& s = tips[k / kNeighbourhood];
+          if (isAcross(value, isInside(s.point))) s.met = true;
+        });
+    small.insert(small.end(), tips.begin(), tips.end());
   }
 
   void search(const std::vector<std::size_t>& unmet) {

@@ -19,11 +19,12 @@ enum class Look {
 
 /// The distance of each point of a run to where the sign changes, negative inside. It is the first-order one
 /// (Taubin 1994) where the sign changes along the gradient within a tenth of it, and, below a hundredth of a
-/// voxel, in any direction within twice of it. Elsewhere, and above half a voxel, the surface is looked for
-/// where the field's branches meet by first order (edges, corners), along the gradient, and at the samples of
-/// the lattice up to kFarthestVoxels away, and from what is found along its normal: an upper bound. Where
-/// nothing is found the first-order figure stays; it may be infinite, or no number. A reading of 0 is on the
-/// surface. Other looks do so from all that is above a hundredth of a voxel.
+/// voxel, in any direction within twice of it, or within eight times and such a hundredth inwards of a tip.
+/// Elsewhere, and above half a voxel, the surface is looked for where the field's branches meet by first
+/// order (edges, corners), along the gradient, and at the samples of the lattice up to kFarthestVoxels away,
+/// and from what is found along its normal: an upper bound. Where nothing is found the first-order figure
+/// stays; it may be infinite, or no number. A reading of 0 is on the surface. Other looks do so from all that
+/// is above a hundredth of a voxel.
 void findSurface(const PointRun& run, float* distances, Look look = Look::Near);
 
 }  // namespace sdf
