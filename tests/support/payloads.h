@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include "sdf/expr/expr.h"
 #include "sdf/expr/payload.h"
+#include "sdf/shape/solids/polygon_field.h"
 
 namespace sdf::test {
 
@@ -230,13 +232,23 @@ inline std::shared_ptr<const Points> fourPoints() {
       std::vector<glm::dvec3>{{0.5, 0.1, 0.0}, {-0.5, 0.3, 0.2}, {0.1, -0.6, -0.3}, {0.0, 0.2, 0.7}}, 0.35);
 }
 
+/// A star with 60 tips, in the plane of the first two arguments.
+inline std::shared_ptr<const Payload> starOfManySides() {
+  std::vector<glm::dvec2> corners;
+  for (int i = 0; i < 120; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 120.0, radius = i % 2 == 0 ? 1.0 : 0.8;
+    corners.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  return PolygonField::of(std::move(corners));
+}
+
 struct PayloadCase {
   std::string name;
   std::shared_ptr<const Payload> payload;
 };
 inline void PrintTo(const PayloadCase& c, std::ostream* out) { *out << c.name; }
 inline std::vector<PayloadCase> payloadCases() {
-  return {{"Grid", sampledBall(9)}, {"Points", fourPoints()}};
+  return {{"Grid", sampledBall(9)}, {"Points", fourPoints()}, {"Polygon", starOfManySides()}};
 }
 
 inline const std::array<Expr, 3>& coordinates() {

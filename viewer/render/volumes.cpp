@@ -29,11 +29,14 @@ Result<Handle> textureOf(const PayloadVolume& volume) {
   GLint bound = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_3D, &bound);
   glBindTexture(GL_TEXTURE_3D, texture.id());
-  const bool pairs = volume.channels == 2;
-  const GLint format = volume.halves ? (pairs ? GL_RG16F : GL_R16F) : (pairs ? GL_RG32F : GL_R32F);
+  const auto byChannels = [&](GLenum one, GLenum two, GLenum four) {
+    return volume.channels == 1 ? one : volume.channels == 2 ? two : four;
+  };
+  const GLenum format =
+      volume.halves ? byChannels(GL_R16F, GL_RG16F, GL_RGBA16F) : byChannels(GL_R32F, GL_RG32F, GL_RGBA32F);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexImage3D(GL_TEXTURE_3D, 0, format, volume.size.x, volume.size.y, volume.size.z, 0,
-               pairs ? GL_RG : GL_RED, GL_FLOAT, volume.values.data());
+  glTexImage3D(GL_TEXTURE_3D, 0, GLint(format), volume.size.x, volume.size.y, volume.size.z, 0,
+               byChannels(GL_RED, GL_RG, GL_RGBA), GL_FLOAT, volume.values.data());
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     glTexParameteri(GL_TEXTURE_3D, filter, GL_LINEAR);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})

@@ -27,7 +27,7 @@ using PayloadRows = std::array<const float*, 3>;
 struct PayloadVolume {
   std::string name;
   glm::ivec3 size{0};
-  int channels = 1;             ///< of each texel: 1 or 2
+  int channels = 1;             ///< of each texel: 1, 2 or 4
   bool halves = false;          ///< floats of 16 bits do
   std::vector<float> values{};  ///< by texel, x first, then y, then z
 };
@@ -46,6 +46,8 @@ class Payload {
   virtual Interval range(const std::array<Interval, 3>& box) const = 0;
   /// Proven L with |f(p) - f(q)| <= L |p - q| for all p and q; infinite where none is known.
   virtual double lipschitz() const = 0;
+  /// Are the kinks of f edges of the shapes that it gives? Those between samples are none.
+  virtual bool hasCreases() const { return false; }
 
   /// By how much a value in float may be off at p, in the batch reading (besides half an ulp) and, unless
   /// there are volumes(), in a shader. No less where the coordinates are larger. Derivatives in float may be

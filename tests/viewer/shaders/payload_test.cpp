@@ -3,9 +3,15 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+#include <random>
 
+#include "sdf/expr/gradient.h"
 #include "sdf/shape/operators/booleans.h"
+#include "sdf/shape/operators/deform.h"
 #include "sdf/shape/operators/place.h"
+#include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/polygon_field.h"
 #include "sdf/shape/solids/solids.h"
 #include "sdf/shape/solids/triangle_solid.h"
 #include "support/payloads.h"
@@ -190,6 +196,78 @@ TEST(MeshSamples, OfTooManyEdgesSayThatTheyAreWorse) {
   EXPECT_GT(bricks.worst, 0.1 * bricks.voxel);
   EXPECT_LE(bricks.count,
             2 * static_cast<std::size_t>(bricks.cells.x * bricks.cells.y * bricks.cells.z) + 16384);
+}
+
+/// A circle with waves, as a coast has them; some corners are convex, some are not.
+std::vector<glm::dvec2> coast(int n) {
+  std::vector<glm::dvec2> corners;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2.0 * std::numbers::pi * i / n,
+                 r = 1.0 + 0.15 * std::sin(9.0 * a) + 0.03 * std::sin(71.0 * a);
+    corners.push_back(r * glm::dvec2(std::cos(a), std::sin(a)));
+  }
+  return corners;
+}
+
+TEST(PayloadPicture, OfAPolygonOfManySidesIsTheCpus) {
+  expectTheCpusPicture(lit(extrude(polygon(coast(700)), 0.3)));
+}
+
+TEST(PayloadPicture, OfPolygonsAmongOthersIsTheCpus) {
+  const Shape plate = extrude(polygon(coast(300)), 0.2);
+  const Shape hole = extrude(scale(polygon(coast(400)), 0.6), 0.5);
+  expectTheCpusPicture(lit(unite({rotate(subtract({plate, hole}), {0.4, 0.3, 0.0}), sphere(0.3)})));
+}
+
+// Near the polygon shaders read the distance but for floats; elsewhere but for what patches are off; and
+// beyond the cells it is too small.
+TEST(PolygonCellsInShaders, AreAsGoodAsTheySay) {
+  const auto context = viewer::Context::headless();
+  ASSERT_TRUE(context.ok() && (*context)->makeCurrent().ok());
+  for (const int corners : {50, 2000}) {
+    const auto field = PolygonField::of(coast(corners));
+    const Vec3E p = position();
+    const Expr f = Expr::payload({field}, {p.x, p.y, p.z});
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> any(-3.0, 3.0), near(-3e-4, 3e-4);
+    std::vector<Place> points;
+    for (int i = 0; i < 5000; ++i) {
+      const PolygonSide& side = field->distance().sides()[random() % field->distance().sides().size()];
+      points.push_back({glm::vec3(any(random), any(random), any(random)), glm::vec3(0.0f)});
+      points.push_back({0.2f * points.back().p, glm::vec3(0.0f)});
+      points.push_back({glm::vec3(side.from + glm::dvec2(near(random), near(random)), 1.0), glm::vec3(0.0f)});
+    }
+    const auto read = readByShader({&f, 1}, points);
+    constexpr double kLongest = 2.4, kFloats = 1e-6;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const glm::dvec3 at(points[i].p);
+      const double truth = field->value(at), off = read[i][0] - truth;
+      EXPECT_LE(off, 2.0 * PolygonCells::kPatchError * kLongest) << i;
+      if (glm::any(glm::greaterThan(glm::abs(glm::dvec2(at)), glm::dvec2(2.2)))) continue;
+      EXPECT_GE(off, -2.0 * PolygonCells::kPatchError * kLongest) << i;
+      if (i % 3 == 2) worst = std::max(worst, std::abs(off));
+    }
+    EXPECT_LE(worst, kFloats) << corners;
+  }
+}
+
+// Patches round the kinks off that the distance has where two sides are as far.
+TEST(PolygonCellsInShaders, HaveItsGradients) {
+  const auto context = viewer::Context::headless();
+  ASSERT_TRUE(context.ok() && (*context)->makeCurrent().ok());
+  const auto field = PolygonField::of(coast(1000));
+  const Vec3E p = position(), g = gradientOf(Expr::payload({field}, {p.x, p.y, p.z}));
+  std::mt19937 random(5);
+  std::vector<Place> points;
+  for (int i = 0; i < 5000; ++i) points.push_back({glm::vec3(randomIn(random, 1.5)), glm::vec3(0.0f)});
+  const auto read = readByShader(std::array{g.x, g.y, g.z}, points);
+  int off = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 expected = field->gradient(glm::dvec3(points[i].p)).gradient;
+    off += glm::distance(expected, glm::dvec3(read[i][0], read[i][1], read[i][2])) > 0.05;
+  }
+  EXPECT_LE(off, 300);
 }
 
 }  // namespace payload_test

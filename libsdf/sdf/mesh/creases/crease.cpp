@@ -239,8 +239,9 @@ void placeRun(const PointRun& run, CreasePoint* points) {
 bool mayCrease(const Tape& tape) {
   bool kinks = false;
   for (const RegisterInstruction& i : tape.program()) {
-    if (i.op == Op::Payload) return false;
-    kinks = kinks || info(i.op).smoothness == Smoothness::MayKink;
+    const PayloadPart* const part = tape.payload(i);
+    if (part && !part->payload->hasCreases()) return false;
+    kinks = kinks || part || info(i.op).smoothness == Smoothness::MayKink;
   }
   return kinks;
 }

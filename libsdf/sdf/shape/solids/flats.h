@@ -23,7 +23,8 @@ Shape segment(const Vec3E& from, const Vec3E& to, const Expr& radius);
 Shape regularPolygon(int sides, const Expr& radius);
 /// Simple polygon through these points, in either direction; a last point equal to the first is left out. At
 /// least three finite points; no two neighbours equal, no two edges that touch or cross. Cost: some 20
-/// operations an edge, some 15 where the polygon is convex. Checking takes time of points squared.
+/// operations an edge, some 15 where the polygon is convex; of more than 64 edges a payload's, some log n
+/// (polygon_field.h). Checking takes n log n, up to n squared where long edges lie beside one another.
 Shape polygon(std::span<const glm::dvec2> points);
 /// Star with `points` >= 3 tips at radius `outer`, one on +y, and as many corners at radius `inner` between
 /// them. 0 < inner < outer.

@@ -7,12 +7,18 @@
 #include "sdf/shape/check.h"
 #include "sdf/shape/formula.h"
 #include "sdf/shape/solids/flats.h"
+#include "sdf/shape/solids/polygon_field.h"
+#include "sdf/shape/solids/polygon_tree.h"
 
 namespace sdf {
 
 namespace {
 
 using Points = std::vector<glm::dvec2>;
+
+// A formula up to here: of stars' halves with a ball cut out, meshes take as long either way from 64 corners
+// on and frames from 96, with 128 half as long by data. Formulas can be proven, and shaders compile them.
+constexpr std::size_t kMostSides = 64;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -43,15 +49,24 @@ std::string pointName(std::size_t i) { return std::to_string(i + 1); }
 void checkEdges(const Points& points, Check& c) {
   const std::size_t n = points.size();
   const auto at = [&](std::size_t i) { return points[i % n]; };
-  for (std::size_t i = 0; i < n && c.ok(); ++i)
-    c.that(at(i) != at(i + 1), "points " + pointName(i) + " and " + pointName((i + 1) % n) + " are the same");
-  for (std::size_t i = 0; i < n && c.ok(); ++i)
-    c.that(!foldsBack(at(i), at(i + 1), at(i + 2)),
-           "the edges at point " + pointName((i + 1) % n) + " lie on each other");
-  for (std::size_t i = 0; i < n && c.ok(); ++i)
-    for (std::size_t j = i + 2; j < n && c.ok(); ++j)
-      if (j + 1 - i != n && touch(at(i), at(i + 1), at(j), at(j + 1)))
-        c.that(false, "edges " + pointName(i) + " and " + pointName(j) + " touch or cross");
+  for (std::size_t i = 0; i < n; ++i)
+    if (at(i) == at(i + 1))
+      return void(
+          c.that(false, "points " + pointName(i) + " and " + pointName((i + 1) % n) + " are the same"));
+  for (std::size_t i = 0; i < n; ++i)
+    if (foldsBack(at(i), at(i + 1), at(i + 2)))
+      return void(c.that(false, "the edges at point " + pointName((i + 1) % n) + " lie on each other"));
+  const SideTree tree(points);
+  for (std::size_t i = 0; i < n; ++i) {
+    Rectangle box;
+    box.add(at(i)), box.add(at(i + 1));
+    const auto touches = [&](std::size_t j) {
+      if (j < i + 2 || j + 1 - i == n || !touch(at(i), at(i + 1), at(j), at(j + 1))) return false;
+      c.that(false, "edges " + pointName(i) + " and " + pointName(j) + " touch or cross");
+      return true;
+    };
+    if (tree.any([&](const Rectangle& other) { return other.meets(box); }, touches)) return;
+  }
 }
 
 // Counter-clockwise.
@@ -113,6 +128,28 @@ Expr windingDistance(const std::vector<Side>& sides, const Points& points) {
   return select(min(winding, less(0.0, distance)), -distance, distance);
 }
 
+Expr formulaOf(const Points& points) {
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sides.push_back(sideOf(points[i], points[(i + 1) % points.size()]));
+  return isConvex(points) ? convexDistance(sides) : windingDistance(sides, points);
+}
+
+// About the middle of the polygon, if that is far from the origin: floats are fine there.
+Expr fieldOf(Points points, const Rectangle& box) {
+  const glm::dvec2 size = box.hi - box.lo, middle = 0.5 * (box.lo + box.hi);
+  const bool isFar = std::max(std::abs(middle.x), std::abs(middle.y)) > std::max(size.x, size.y);
+  const glm::dvec2 origin = isFar ? middle : glm::dvec2(0.0);
+  for (glm::dvec2& p : points) p -= origin;
+  const Expr x = position().x, y = position().y;
+  return Expr::payload({PolygonField::of(std::move(points)), 0},
+                       {isFar ? x - origin.x : x, isFar ? y - origin.y : y, 0.0});
+}
+
+Expr distanceTo(Points points, const Rectangle& box) {
+  return points.size() > kMostSides ? fieldOf(std::move(points), box) : formulaOf(points);
+}
+
 }  // namespace
 
 Shape polygon(std::span<const glm::dvec2> given) {
@@ -120,21 +157,17 @@ Shape polygon(std::span<const glm::dvec2> given) {
   Points points(given.begin(), given.end());
   if (points.size() > 1 && points.front() == points.back()) points.pop_back();
   c.that(points.size() >= 3, "at least 3 points are needed, got " + std::to_string(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    c.that(std::isfinite(points[i].x) && std::isfinite(points[i].y),
-           "point " + pointName(i) + " must be finite, got {" + shown(points[i].x) + ", " +
-               shown(points[i].y) + "}");
+  for (std::size_t i = 0; i < points.size() && c.ok(); ++i)
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
+      c.that(false, "point " + pointName(i) + " must be finite, got {" + shown(points[i].x) + ", " +
+                        shown(points[i].y) + "}");
   if (c.ok()) checkEdges(points, c);
   if (!c.ok()) return c.failure();
 
   points = oriented(std::move(points));
-  std::vector<Side> sides;
-  glm::dvec2 lo = points[0], hi = points[0];
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sides.push_back(sideOf(points[i], points[(i + 1) % points.size()]));
-    lo = glm::min(lo, points[i]), hi = glm::max(hi, points[i]);
-  }
-  return flat(isConvex(points) ? convexDistance(sides) : windingDistance(sides, points), lo, hi);
+  Rectangle box;
+  for (const glm::dvec2& p : points) box.add(p);
+  return flat(distanceTo(std::move(points), box), box.lo, box.hi);
 }
 
 }  // namespace sdf

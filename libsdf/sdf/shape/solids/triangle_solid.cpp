@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "sdf/base/srgb.h"
-#include "sdf/expr/gradient.h"
+#include "sdf/shape/solids/placed.h"
 
 namespace sdf {
 namespace {
@@ -34,8 +34,6 @@ glm::dvec3 colorOf(const TriangleMesh& mesh, const glm::uvec3& t, const Triangle
     color *= texel(mesh.images[static_cast<std::size_t>(material.colorTexture)], at);
   return color;
 }
-
-bool isUniform(const Expr& e) { return !dependsOnSpace(e); }
 
 Vec3E constant(const glm::dvec3& v) { return {Expr(v.x), Expr(v.y), Expr(v.z)}; }
 
@@ -73,17 +71,13 @@ Material meanMaterial(const TriangleMesh& mesh) {
 }
 
 std::optional<PlacedMesh> placedMesh(Expr f) {
-  if (f.op() == Op::Mul && isUniform(f.arg(0))) f = f.arg(1);
-  if (f.op() == Op::Mul && isUniform(f.arg(1))) f = f.arg(0);
+  f = withoutFactor(f);
   const PayloadPart* part = f.payloadPart();
   if (!part || part->part != 0) return {};
   auto field = std::dynamic_pointer_cast<const MeshField>(part->payload);
   if (!field) return {};
   PlacedMesh placed{std::move(field), {f.arg(0), f.arg(1), f.arg(2)}};
-  for (const Expr& e : placed.at) {
-    const Vec3E g = gradientOf(e);
-    if (!isUniform(g.x) || !isUniform(g.y) || !isUniform(g.z)) return {};
-  }
+  if (!std::ranges::all_of(placed.at, isLinear)) return {};
   return placed;
 }
 

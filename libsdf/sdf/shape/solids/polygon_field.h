@@ -1,0 +1,47 @@
+// Polygons of many sides as functions of a point. Private to shape/.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "sdf/expr/payload.h"
+#include "sdf/shape/solids/polygon_cells.h"
+#include "sdf/shape/solids/polygon_tree.h"
+
+namespace sdf {
+
+/// The signed distance to a simple polygon in the plane of the first two arguments; the third one is not
+/// read. Its slope is 1; over a box it is the value in the middle, more or less half the diagonal; shaders
+/// read it from PolygonCells.
+class PolygonField : public Payload {
+ public:
+  /// The field of these corners (see PolygonDistance), the same one as long as there is one. Cost: n.
+  static std::shared_ptr<const PolygonField> of(std::vector<glm::dvec2> corners);
+
+  const PolygonDistance& distance() const { return distance_; }
+  /// What shaders read, made when it is first asked for.
+  const PolygonCells& cells() const;
+
+  double value(const glm::dvec3& p) const override;
+  ValueAndGradient gradient(const glm::dvec3& p) const override;
+  Interval range(const std::array<Interval, 3>& box) const override;
+  double lipschitz() const override { return 1.0; }
+  bool hasCreases() const override { return true; }
+  double rounding(const glm::dvec3& p) const override;
+  void values(const PayloadRows& p, std::size_t count, float* out) const override;
+  void gradients(const PayloadRows& p, std::size_t count, const std::array<float*, 4>& out) const override;
+  std::string glsl(const std::string& name) const override { return PolygonCells::glsl(name); }
+  std::span<const PayloadVolume> volumes() const override { return {&cells().volume, 1}; }
+  std::string_view kind() const override { return "polygon"; }
+
+ private:
+  explicit PolygonField(std::vector<glm::dvec2> corners)
+      : corners_(std::move(corners)), distance_(corners_) {}
+  std::vector<glm::dvec2> corners_;
+  PolygonDistance distance_;
+  mutable std::once_flag made_;
+  mutable std::optional<PolygonCells> cells_;
+};
+
+}  // namespace sdf
