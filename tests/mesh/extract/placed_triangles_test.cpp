@@ -1,14 +1,16 @@
-// Meshes from files that are only moved keep their triangles.
+// Meshes from files that are only moved keep their triangles, and extruded polygons their sides.
 #include "sdf/mesh/extract/placed_triangles.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/shape/operators/operators.h"
+#include "sdf/shape/solids/flats.h"
 #include "sdf/shape/solids/triangle_solid.h"
 #include "support/triangle_meshes.h"
 
@@ -60,6 +62,44 @@ TEST(PlacedTriangles, OfCurvesHaveNoEdges) {
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->mesh.triangles.size(), 2u * 48 * 48);
   EXPECT_TRUE(mesh->mesh.creases.empty());
+}
+
+std::vector<glm::dvec2> starCorners(int tips) {
+  std::vector<glm::dvec2> corners;
+  for (int i = 0; i < 2 * tips; ++i) {
+    const double angle = 3.14159265358979 * i / tips, radius = i % 2 == 0 ? 1.0 : 0.75;
+    corners.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  return corners;
+}
+
+// The sides of an extruded polygon, and its lids, wherever it is, and of a height by a slider.
+TEST(PlacedTriangles, AreThoseOfAPrism) {
+  const Expr height = Expr::parameter({"height", 0.5, 0.1, 1.0});
+  const Values values{{"height", 0.7}};
+  const Shape prism = extrude(polygon(starCorners(100)), height);
+  for (const Shape& shape : {prism, placed(prism), scale(prism, 3.0), translate(prism, Vec3E(3.0))}) {
+    const auto mesh = placedTriangles(shape, values);
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(mesh->mesh.positions.size(), 400u);
+    EXPECT_EQ(mesh->mesh.triangles.size(), 2u * 198 + 2u * 200);
+    EXPECT_EQ(mesh->mesh.creases.size(), 3u * 200);
+    const TapePtr distance = Function(shape.distance).at(values);
+    for (const glm::vec3& p : mesh->mesh.positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-4);
+    EXPECT_TRUE(std::ranges::is_sorted(mesh->mesh.creases));
+    const auto result =
+        meshed(shape, {.tolerance = 0.01, .strict = false, .keepsFiles = true, .values = values});
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    const MeshedShape& made = *result;
+    EXPECT_TRUE(made.stats.watertight && made.stats.manifold);
+    EXPECT_EQ(made.stats.crossings, 0u);
+    EXPECT_EQ(made.stats.triangles, 796u);
+    EXPECT_LE(made.stats.maxDistance, 1e-4);
+  }
+  EXPECT_FALSE(placedTriangles(round(prism, 0.1), values));
+  EXPECT_FALSE(placedTriangles(revolve(polygon(starCorners(100)), 3.0), values));
+  EXPECT_FALSE(placedTriangles(subtract({prism, sphere(0.2)}), values));
+  EXPECT_FALSE(placedTriangles(twist(prism, 0.5), values));
 }
 
 TEST(PlacedTriangles, AreOfNothingElse) {

@@ -5,21 +5,25 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/shape/solids/polygon_prism.h"
 #include "sdf/shape/solids/triangle_solid.h"
+#include "sdf/triangles/polygon.h"
 
 namespace sdf {
 namespace {
 
-// Takes places in the file to those in the scene.
+// Takes places in the shape's own coordinates to those in the scene.
 struct Placing {
   glm::dmat3 turn;
   glm::dvec3 shift;
 
-  Placing(const PlacedMesh& placed, const Values& values) {
-    const Function own({placed.at[0], placed.at[1], placed.at[2]});
+  Placing(const std::array<Expr, 3>& coordinates, const Values& values) {
+    const Function own({coordinates[0], coordinates[1], coordinates[2]});
     const TapePtr tape = own.at(values);
     const auto at = [&](const glm::dvec3& p) {
       const std::vector<double> all = evaluateAll(*tape, p);
@@ -35,7 +39,7 @@ struct Placing {
     turn = glm::inverse(back);
     shift = -(turn * zero);
   }
-  glm::dvec3 operator()(const glm::vec3& p) const { return turn * glm::dvec3(p) + shift; }
+  glm::dvec3 operator()(const glm::dvec3& p) const { return turn * p + shift; }
   bool mirrors() const { return glm::determinant(turn) < 0.0; }
 };
 
@@ -65,17 +69,13 @@ std::vector<std::array<std::uint32_t, 2>> sharpEdges(const FeatureMesh& mesh) {
   return sharp;
 }
 
-}  // namespace
-
-std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values) {
-  const auto placed = placedMesh(withoutClaims(std::array{shape.distance}).front());
-  if (!placed) return {};
-  auto surface = placed->field->distance().surface();
+std::optional<PlacedTriangles> trianglesOf(const PlacedMesh& placed, const Values& values) {
+  auto surface = placed.field->distance().surface();
   if (!surface) return {};
-  const Placing placing(*placed, values);
+  const Placing placing(placed.at, values);
   PlacedTriangles made;
   FeatureMesh& mesh = made.mesh;
-  mesh.positions = placed->field->distance().triangles().points;
+  mesh.positions = placed.field->distance().triangles().points;
   mesh.triangles = std::move(*surface);
   dropUnused(mesh);
   for (glm::vec3& p : mesh.positions) p = made.places.emplace_back(placing(p));
@@ -83,6 +83,52 @@ std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values&
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
   mesh.creases = sharpEdges(mesh);
   return made;
+}
+
+constexpr double kSmallestTurn = 5.0;  // degrees, of a crease: as kCreaseAngle is
+
+// Corner i of the polygon is vertex i below, and above the one that is as many farther as there are corners.
+std::optional<PlacedTriangles> trianglesOf(const PlacedPrism& prism, const Values& values) {
+  const std::vector<PolygonSide>& sides = prism.field->distance().sides();
+  const auto n = static_cast<std::uint32_t>(sides.size());
+  std::vector<glm::vec3> outline;
+  for (const PolygonSide& side : sides) outline.push_back(glm::vec3(side.from, 0.0));
+  std::vector<std::uint32_t> corners(n);
+  std::iota(corners.begin(), corners.end(), 0u);
+  PlacedTriangles made;
+  FeatureMesh& mesh = made.mesh;
+  if (!cutPolygon(outline, corners, mesh.triangles)) return {};
+  const std::size_t lid = mesh.triangles.size();
+  for (std::size_t i = 0; i < lid; ++i) {
+    mesh.triangles.push_back(mesh.triangles[i] + n);
+    std::swap(mesh.triangles[i].y, mesh.triangles[i].z);
+  }
+  const double tangent = std::tan(glm::radians(0.5 * kSmallestTurn));
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    mesh.triangles.insert(mesh.triangles.end(), {{i, next, n + next}, {i, n + next, n + i}});
+    const auto [low, high] = std::minmax(i, next);
+    mesh.creases.insert(mesh.creases.end(), {{low, high}, {n + low, n + high}});
+    if (std::abs(sides[i].atFrom) > tangent) mesh.creases.push_back({i, n + i});
+  }
+  std::ranges::sort(mesh.creases);
+  const Placing placing(prism.at, values);
+  const double half = evaluate(*Function(prism.halfHeight).at(values), glm::dvec3(0.0));
+  for (const double z : {-half, half})
+    for (const PolygonSide& side : sides) made.places.push_back(placing(glm::dvec3(side.from, z)));
+  mesh.positions.assign(made.places.begin(), made.places.end());
+  if (placing.mirrors())
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+  return made;
+}
+
+}  // namespace
+
+std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values) {
+  const Expr f = withoutClaims(std::array{shape.distance}).front();
+  if (const auto mesh = placedMesh(f)) return trianglesOf(*mesh, values);
+  if (const auto prism = placedPrism(f)) return trianglesOf(*prism, values);
+  return {};
 }
 
 }  // namespace sdf

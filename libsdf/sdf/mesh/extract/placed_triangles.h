@@ -1,4 +1,4 @@
-// The triangles of meshes from files that are nothing but moved.
+// The triangles of meshes from files, and of extruded polygons, that are nothing but moved.
 #pragma once
 #include <glm/vec3.hpp>
 #include <optional>
@@ -19,8 +19,10 @@ struct PlacedTriangles {
 
 /// The surface of a shape that is a mesh from a file, only moved, turned and scaled: its triangles, at their
 /// places for these values of inputs. Creases are the edges where two of them meet at more than 30 degrees.
-/// Where triangles touch, edges may have more of them. Nothing where the shape is something else, or its
-/// triangles cross one another. Cost: n log n.
+/// Where triangles touch, edges may have more of them. Or that of an extruded polygon of many sides
+/// (polygon_prism.h): its sides, and its lids cut into triangles; creases are its rims, and its edges where
+/// sides meet at more than 5 degrees. Nothing where the shape is something else, or its triangles cross one
+/// another. Cost: n log n.
 std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values);
 
 }  // namespace sdf
