@@ -468,7 +468,7 @@ const std::vector<FunctionInfo>& shapeLibrary() {
        freeForm},
       {"mesh",
        "mesh(\"bunny.glb\", {voxels = 128})",
-       "the solid that the triangles of a file enclose: .glb, .gltf, .obj, .stl or .ply, in the scene's folder or below it, or in one that `--allow-dir` names. Holes are closed. Its distance is exact; `sdfview` reads it from samples",
+       "the solid that the triangles of a file enclose: .glb, .gltf, .obj, .stl or .ply, in the scene's folder or below it, or in one that `--allow-dir` names. Holes are closed. An edge has at most 2,000 triangles. Its distance is exact; `sdfview` reads it from samples",
        {{"voxels", Integer, "how fine the samples of `sdfview` are: so many along the longest side, from 16 to 1024", Rule::Positive, {}, "128"}},
        importedMesh},
   };
