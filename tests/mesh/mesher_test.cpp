@@ -13,6 +13,7 @@
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/solids/flats.h"
 #include "support/payloads.h"
+#include "support/polygons.h"
 
 namespace sdf::test {
 namespace mesher_test {
@@ -250,20 +251,10 @@ TEST(MeshShape, MeshesPayloadsInAUnion) {
               signedVolume(expected.mesh.positions, expected.mesh.triangles), 1e-3);
 }
 
-/// A star, whose corners are alternately convex and concave.
-std::vector<glm::dvec2> starCorners(int tips) {
-  std::vector<glm::dvec2> corners;
-  for (int i = 0; i < 2 * tips; ++i) {
-    const double angle = 3.14159265358979 * i / tips, radius = i % 2 == 0 ? 1.0 : 0.9;
-    corners.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-  }
-  return corners;
-}
-
 // The edges of a polygon whose distance is data are as sharp as those of a formula: each corner of its upper
 // rim is met by a vertex, within a seventh of a voxel.
 TEST(MeshShape, KeepsTheEdgesOfAPolygonOfManySides) {
-  const auto corners = starCorners(40);
+  const auto corners = starCorners(40, 0.9);
   const Shape cut = subtract({extrude(polygon(corners), 0.3), sphere(0.5)});
   const MeshedShape m = meshed(cut, {.voxelSize = 1.0 / 50});
   EXPECT_TRUE(m.stats.watertight && m.stats.manifold);

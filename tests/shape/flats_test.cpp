@@ -9,6 +9,7 @@
 #include "sdf/eval/function.h"
 #include "sdf/eval/scalar_reading.h"
 #include "shape/cases.h"
+#include "support/polygons.h"
 
 namespace sdf {
 namespace flats_test {
@@ -66,27 +67,6 @@ TEST(Flats, HaveTheDistancesWorkedOutByHand) {
   }
 }
 
-// By the number of edges that a ray to the right crosses.
-bool inPolygon(const Points& corners, const dvec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const dvec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) inside = !inside;
-  }
-  return inside;
-}
-
-// Closest point of the outline by the usual projection onto each edge.
-double outlineDistance(const Points& corners, const dvec2& p) {
-  double best = kInfinity;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const dvec2 a = corners[i], e = corners[(i + 1) % corners.size()] - a;
-    const double t = glm::clamp(glm::dot(p - a, e) / glm::dot(e, e), 0.0, 1.0);
-    best = std::min(best, glm::distance(p, a + e * t));
-  }
-  return best;
-}
-
 Points regularCorners(int sides, double radius) {
   Points corners;
   for (int i = 0; i < sides; ++i)
@@ -134,11 +114,12 @@ TEST(Flats, WithCornersAgreeWithTheirOutline) {
       dvec3 p = sampler.orOnAnAxis();
       if (i % 5 == 0) p.y = corners[i % corners.size()].y;
       if (i % 7 == 0) p.x = corners[(i / 7) % corners.size()].x;
-      const double expected = outlineDistance(corners, p);
+      const double expected = test::outlineDistance(corners, p);
       ASSERT_NEAR(std::abs(f(p)), expected, kRounding)
           << name << " at " << test::text(p) << ", seed " << kSeed;
       if (expected < kRounding) continue;
-      ASSERT_EQ(f(p) < 0.0, inPolygon(corners, p)) << name << " at " << test::text(p) << ", seed " << kSeed;
+      ASSERT_EQ(f(p) < 0.0, test::inPolygon(corners, p))
+          << name << " at " << test::text(p) << ", seed " << kSeed;
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/solids/flats.h"
 #include "sdf/shape/solids/polygon_field.h"
+#include "support/polygons.h"
 
 namespace sdf {
 namespace polygon_test {
@@ -18,26 +19,6 @@ using glm::dvec2;
 using Points = std::vector<dvec2>;
 
 constexpr double kPi = std::numbers::pi;
-
-/// By the number of sides that a ray to the right crosses.
-bool isInside(const Points& corners, const dvec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const dvec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) inside = !inside;
-  }
-  return inside;
-}
-
-double outlineDistance(const Points& corners, const dvec2& p) {
-  double best = HUGE_VAL;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const dvec2 a = corners[i], e = corners[(i + 1) % corners.size()] - a;
-    const double t = std::clamp(glm::dot(p - a, e) / glm::dot(e, e), 0.0, 1.0);
-    best = std::min(best, glm::distance(p, a + e * t));
-  }
-  return best;
-}
 
 /// Counter-clockwise about the origin, with radii from 0.2 to 1: corners of all angles, of both kinds.
 Points jagged(int n, unsigned seed) {
@@ -117,13 +98,13 @@ TEST(PolygonOfManySides, HasTheDistanceToAllOfThem) {
     std::uint32_t hint = 0;
     for (const dvec2& p : placesAround(corners, 500, 5)) {
       const PolygonDistance::Read read = distance.read(p, hint);
-      const double expected = outlineDistance(corners, p);
+      const double expected = test::outlineDistance(corners, p);
       hint = read.side;
       ASSERT_NEAR(std::abs(read.distance), expected, 1e-14) << p.x << ", " << p.y;
       ASSERT_NEAR(glm::length(read.gradient), 1.0, 1e-12);
       if (expected < 1e-14) continue;
-      ASSERT_EQ(read.distance < 0.0, isInside(corners, p)) << p.x << ", " << p.y;
-      ASSERT_NEAR(outlineDistance(corners, p - read.distance * read.gradient), 0.0, 1e-13);
+      ASSERT_EQ(read.distance < 0.0, test::inPolygon(corners, p)) << p.x << ", " << p.y;
+      ASSERT_NEAR(test::outlineDistance(corners, p - read.distance * read.gradient), 0.0, 1e-13);
     }
   }
 }
@@ -196,7 +177,7 @@ TEST(PolygonOfManySides, IsAsExactFarAway) {
   const Shape shape = polygon(corners);
   const Tape tape(shape.distance);
   for (const dvec2& p : placesAround(jagged(200, 3), 50, 6))
-    ASSERT_NEAR(std::abs(evaluate(tape, {p + far, 0.0})), outlineDistance(corners, p + far), 2e-9);
+    ASSERT_NEAR(std::abs(evaluate(tape, {p + far, 0.0})), test::outlineDistance(corners, p + far), 2e-9);
   EXPECT_EQ(shape.bounds.min.x, std::ranges::min(corners, {}, &dvec2::x).x);
 }
 

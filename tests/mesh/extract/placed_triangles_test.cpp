@@ -12,6 +12,7 @@
 #include "sdf/shape/operators/operators.h"
 #include "sdf/shape/solids/flats.h"
 #include "sdf/shape/solids/triangle_solid.h"
+#include "support/polygons.h"
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
@@ -64,20 +65,11 @@ TEST(PlacedTriangles, OfCurvesHaveNoEdges) {
   EXPECT_TRUE(mesh->mesh.creases.empty());
 }
 
-std::vector<glm::dvec2> starCorners(int tips) {
-  std::vector<glm::dvec2> corners;
-  for (int i = 0; i < 2 * tips; ++i) {
-    const double angle = 3.14159265358979 * i / tips, radius = i % 2 == 0 ? 1.0 : 0.75;
-    corners.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-  }
-  return corners;
-}
-
 // The sides of an extruded polygon, and its lids, wherever it is, and of a height by a slider.
 TEST(PlacedTriangles, AreThoseOfAPrism) {
   const Expr height = Expr::parameter({"height", 0.5, 0.1, 1.0});
   const Values values{{"height", 0.7}};
-  const Shape prism = extrude(polygon(starCorners(100)), height);
+  const Shape prism = extrude(polygon(starCorners(100, 0.75)), height);
   for (const Shape& shape : {prism, placed(prism), scale(prism, 3.0), translate(prism, Vec3E(3.0))}) {
     const auto mesh = placedTriangles(shape, values);
     ASSERT_TRUE(mesh);
@@ -97,7 +89,7 @@ TEST(PlacedTriangles, AreThoseOfAPrism) {
     EXPECT_LE(made.stats.maxDistance, 1e-4);
   }
   EXPECT_FALSE(placedTriangles(round(prism, 0.1), values));
-  EXPECT_FALSE(placedTriangles(revolve(polygon(starCorners(100)), 3.0), values));
+  EXPECT_FALSE(placedTriangles(revolve(polygon(starCorners(100, 0.75)), 3.0), values));
   EXPECT_FALSE(placedTriangles(subtract({prism, sphere(0.2)}), values));
   EXPECT_FALSE(placedTriangles(twist(prism, 0.5), values));
 }
