@@ -85,10 +85,6 @@ Json json(const ReportLine& line) {
           {"ambient_error", line.ambientError ? Json(*line.ambientError) : Json(nullptr)}};
 }
 
-// Finer voxels than this share of the present ones take more than a thousand times as many samples: no
-// advice.
-constexpr double kFinest = 1.0 / 32.0;
-
 /// Both with two digits, or with as many as tell them apart.
 std::pair<std::string, std::string> shownApart(double a, double b) {
   constexpr int kMost = 9;
@@ -112,7 +108,7 @@ std::string unresolvedWarning(const MeshStats& stats) {
   const std::string what = "solids or gaps thinner than a voxel were missed, the first near " +
                            place(stats.firstUnresolved) + "; ";
   if (stats.resolvingVoxel == 0.0) return what + finer(stats) + " may see them";
-  if (stats.resolvingVoxel >= kFinest * stats.voxelSize)
+  if (stats.resolvingVoxel >= kFinestAdvised * stats.voxelSize)
     return what + "take --voxel-size " + roundedDown(stats.resolvingVoxel) + " to see them";
   return what + "make them thicker than " + formatted("%.2g", std::numbers::sqrt3 * stats.voxelSize) +
          ", or let what touches there overlap";

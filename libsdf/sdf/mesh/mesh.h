@@ -41,6 +41,9 @@ struct Mesh {
   }
 };
 
+/// Of a voxel: a finer one takes more than a thousand times as many samples, and is no advice.
+inline constexpr double kFinestAdvised = 1.0 / 32.0;
+
 /// What was measured of one mesh.
 struct MeshStats {
   std::uint64_t voxels = 0;    ///< distance samples taken

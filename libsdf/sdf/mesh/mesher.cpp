@@ -522,23 +522,10 @@ class Mesher {
     round(own.mesh);
     lattice.mesh = std::move(own.mesh);
     begin("measuring");
-    measureRounding(lattice.mesh.positions, own.places);
+    measureRounding(lattice.mesh.positions, own.places, result_.stats);
     measureTopology(lattice.mesh.triangles, lattice.mesh.positions.size(), result_.stats);
     measureCrossings(lattice.mesh.positions, lattice.mesh.triangles, result_.stats);
     return dress(shape, model, bounds, lattice);
-  }
-
-  // How far vertices are from their places; no other point is farther, either way.
-  void measureRounding(const std::vector<glm::vec3>& positions, const std::vector<glm::dvec3>& places) {
-    MeshStats& stats = result_.stats;
-    double squares = 0.0;
-    for (std::size_t v = 0; v < places.size(); ++v) {
-      const double off = glm::distance(glm::dvec3(positions[v]), places[v]);
-      squares += off * off;
-      if (off > stats.maxDistance) stats.maxDistance = off, stats.farthest = positions[v];
-    }
-    stats.rmsDistance = std::sqrt(squares / static_cast<double>(places.size()));
-    stats.surfacePoints = places.size();
   }
 
   // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are
@@ -660,14 +647,12 @@ class Mesher {
   Error noSurface(double voxel) const {
     const MeshStats& stats = result_.stats;
     const std::string size = " at a voxel size of " + shown(voxel);
-    // Beyond, samples would be a thousand times as many.
-    constexpr double kFinest = 1.0 / 32.0;
     const double seeing = stats.resolvingVoxel;
     if (stats.unresolved > 0)
       return sceneError(name_, "too thin to be seen" + size + "; " +
-                                   (seeing == 0.0              ? "take a smaller one"
-                                    : seeing < kFinest * voxel ? "make it thicker than " + shown(voxel)
-                                                               : "take one of " + shown(seeing)));
+                                   (seeing == 0.0                     ? "take a smaller one"
+                                    : seeing < kFinestAdvised * voxel ? "make it thicker than " + shown(voxel)
+                                                                      : "take one of " + shown(seeing)));
     return sceneError(name_, "no surface inside the bounds" + size +
                                  "; check the bounds and the shape's position, or take a smaller voxel size");
   }
@@ -688,9 +673,7 @@ class Mesher {
 
   // Names what is no number near a place.
   std::optional<std::string> noNumberAround(const glm::dvec3& p, double voxel) const {
-    constexpr int kPlaces = 256;
-    const auto found =
-        findNoNumber(distance_, Box{p, p}.grown(kFarthestVoxels * voxel), options_.values, kPlaces);
+    const auto found = findNoNumber(distance_, Box{p, p}.grown(kFarthestVoxels * voxel), options_.values);
     if (!found) return {};
     return textOf(*found, placeOf(found->at));
   }

@@ -66,14 +66,13 @@ void lookAtOffsets(ScriptContext& context) try {
 
 // Says of which parts the distance is no number somewhere within their bounds.
 void lookForNoNumbers(ScriptContext& context) {
-  constexpr int kPlaces = 256;
   Scene& scene = context.scene;
   Values values(context.options.values.begin(), context.options.values.end());
   values["time"] = context.options.time;
   for (const Part& part : scene.parts) {
     const Box box = scene.bounds ? intersect(part.shape.bounds, *scene.bounds) : part.shape.bounds;
     if (box.empty() || !box.finite()) continue;
-    const auto found = findNoNumber(part.shape.distance, box, values, kPlaces);
+    const auto found = findNoNumber(part.shape.distance, box, values);
     if (!found) continue;
     const glm::dvec3& p = found->at;
     const std::string place = "(" + rounded(p.x) + ", " + rounded(p.y) + ", " + rounded(p.z) + ")";

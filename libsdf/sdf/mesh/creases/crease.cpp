@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "sdf/mesh/edit/feature_mesh.h"
 #include "sdf/mesh/edit/indices-inl.h"
 #include "sdf/mesh/surface/surface_points.h"
 

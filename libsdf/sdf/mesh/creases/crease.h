@@ -12,9 +12,6 @@
 
 namespace sdf {
 
-/// Pieces that meet at less than this angle are one, in radians: 5 degrees.
-inline constexpr float kCreaseAngle = 0.08726646f;
-
 /// A point near a crease, and what is known of its two sides.
 struct CreasePoint {
   glm::vec3 at;                     ///< scene units

@@ -10,6 +10,9 @@
 
 namespace sdf {
 
+/// Pieces that meet at less than this angle are one, in radians: 5 degrees.
+inline constexpr float kCreaseAngle = 0.08726646f;
+
 /// What remeshing may do with a vertex; each value forbids what those before it do.
 enum class Hold : std::uint8_t {
   Free,   ///< anything

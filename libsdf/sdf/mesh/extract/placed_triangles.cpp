@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 #include <numeric>
 #include <utility>
 
@@ -85,8 +84,6 @@ std::optional<PlacedTriangles> trianglesOf(const PlacedMesh& placed, const Value
   return made;
 }
 
-constexpr double kSmallestTurn = 5.0;  // degrees, of a crease: as kCreaseAngle is
-
 // Corner i of the polygon is vertex i below, and above the one that is as many farther as there are corners.
 std::optional<PlacedTriangles> trianglesOf(const PlacedPrism& prism, const Values& values) {
   const std::vector<PolygonSide>& sides = prism.field->distance().sides();
@@ -103,7 +100,7 @@ std::optional<PlacedTriangles> trianglesOf(const PlacedPrism& prism, const Value
     mesh.triangles.push_back(mesh.triangles[i] + n);
     std::swap(mesh.triangles[i].y, mesh.triangles[i].z);
   }
-  const double tangent = std::tan(glm::radians(0.5 * kSmallestTurn));
+  const double tangent = std::tan(0.5 * kCreaseAngle);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t next = (i + 1) % n;
     mesh.triangles.insert(mesh.triangles.end(), {{i, next, n + next}, {i, n + next, n + i}});

@@ -209,4 +209,16 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
   return atVertices;
 }
 
+void measureRounding(const std::vector<glm::vec3>& positions, const std::vector<glm::dvec3>& places,
+                     MeshStats& stats) {
+  double squares = 0.0;
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    const double off = glm::distance(glm::dvec3(positions[v]), places[v]);
+    squares += off * off;
+    if (off > stats.maxDistance) stats.maxDistance = off, stats.farthest = positions[v];
+  }
+  stats.rmsDistance = std::sqrt(squares / static_cast<double>(places.size()));
+  stats.surfacePoints = places.size();
+}
+
 }  // namespace sdf

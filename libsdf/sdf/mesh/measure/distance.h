@@ -22,4 +22,10 @@ std::vector<float> measureDistance(const std::vector<glm::vec3>& positions,
                                    const std::vector<glm::uvec3>& triangles, const LocalField& field,
                                    Progress& progress, MeshStats& stats);
 
+/// The same where each vertex has its place on the surface, and triangles between places are the surface: how
+/// far the vertices are from them. No other point is farther, either way. Fills stats.surfacePoints, too.
+/// Precondition: at least one. Cost: linear.
+void measureRounding(const std::vector<glm::vec3>& positions, const std::vector<glm::dvec3>& places,
+                     MeshStats& stats);
+
 }  // namespace sdf

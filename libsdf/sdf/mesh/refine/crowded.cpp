@@ -81,14 +81,19 @@ struct Facing {
   glm::vec3 at, normal;
 };
 
+// Along the normal of the triangle that has h, twice its area.
+glm::vec3 areaOf(const HalfEdgeMesh& mesh, Index h) {
+  const Corners t = mesh.corners(h - h % 3);
+  return glm::cross(t[1] - t[0], t[2] - t[0]);
+}
+
 // Do the triangles of some crease at the vertex face one another?
 bool isInCrevice(const HalfEdgeMesh& mesh, Index v) {
   if (mesh.creasesAt(v) == 0) return false;
   Index e = mesh.outgoing(v);
   do {
-    const Corners t = mesh.corners(e - e % 3);
-    const glm::vec3 beyond = mesh.positions[mesh.apex(mesh.twin(e))] - t[0];
-    if (mesh.isCrease(e) && glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), beyond) > 0.0f) return true;
+    const glm::vec3 beyond = mesh.positions[mesh.apex(mesh.twin(e))] - mesh.positions[v];
+    if (mesh.isCrease(e) && glm::dot(areaOf(mesh, e), beyond) > 0.0f) return true;
     e = mesh.turned(e);
   } while (e != mesh.outgoing(v));
   return false;
@@ -97,14 +102,18 @@ bool isInCrevice(const HalfEdgeMesh& mesh, Index v) {
 // One for each vertex, in crevices one for each triangle.
 std::vector<Facing> facings(const HalfEdgeMesh& mesh, const std::vector<glm::vec3>& normals) {
   std::vector<Facing> all;
-  for (Index v = 0; v < mesh.vertices(); ++v)
-    if (mesh.vertexAlive(v) && !isInCrevice(mesh, v)) all.push_back({v, mesh.positions[v], normals[v]});
-  for (Index h = 0; h < mesh.halfEdges(); ++h) {
-    const Index v = mesh.alive(h) ? mesh.from(h) : HalfEdgeMesh::kNone;
-    if (v == HalfEdgeMesh::kNone || !isInCrevice(mesh, v)) continue;
-    const Corners t = mesh.corners(h - h % 3);
-    const glm::vec3 area = glm::cross(t[1] - t[0], t[2] - t[0]);
-    if (area != glm::vec3(0.0f)) all.push_back({v, mesh.positions[v], glm::normalize(area)});
+  for (Index v = 0; v < mesh.vertices(); ++v) {
+    if (!mesh.vertexAlive(v)) continue;
+    const auto add = [&](const glm::vec3& normal) { all.push_back({v, mesh.positions[v], normal}); };
+    if (!isInCrevice(mesh, v)) {
+      add(normals[v]);
+      continue;
+    }
+    Index e = mesh.outgoing(v);
+    do {
+      if (const glm::vec3 area = areaOf(mesh, e); area != glm::vec3(0.0f)) add(glm::normalize(area));
+      e = mesh.turned(e);
+    } while (e != mesh.outgoing(v));
   }
   return all;
 }
@@ -200,9 +209,8 @@ void CrowdedTriangles::findCrowded(float reach) {
   std::vector<glm::vec3> areas(crowded_.size(), glm::vec3(0.0f));
   for (Index t = 0; t < crowded_.size(); ++t) {
     if (!mesh_.alive(3 * t)) continue;
-    const Corners corners = mesh_.corners(3 * t);
-    areas[t] = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    entries.emplace_back(boxOf(corners), t);
+    areas[t] = areaOf(mesh_, 3 * t);
+    entries.emplace_back(boxOf(mesh_.corners(3 * t)), t);
   }
   const Trees::Tree tree(entries);
   tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
