@@ -34,6 +34,7 @@ TEST(Tips, AreVerticesAtAnyTurnOfTheShape) {
   // A lens turned about its own chord has curved sides: its tips are at 0.8, of 53 degrees.
   const Shape lemon = revolve(translate(circle(1.0), {-0.6, 0.0, 0.0}));
   const std::pair<Shape, std::vector<glm::dvec3>> shapes[] = {
+      {cone(0.1, 0.8), {{0.0, 0.8, 0.0}}},
       {cone(0.3, 0.8), {{0.0, 0.8, 0.0}}},
       {cone(0.5, 0.8), {{0.0, 0.8, 0.0}}},
       {cone(1.2, 0.6), {{0.0, 0.6, 0.0}}},

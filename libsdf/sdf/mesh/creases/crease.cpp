@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -25,6 +26,8 @@ constexpr double kCreaseReach = 2.0;
 // The same on the first step from an edge, which goes by the planes at its ends: the tip of a wedge of 15
 // degrees is this far from where it is a voxel thick.
 constexpr double kTip = 4.0;
+// Of 1 + cosine: the normals of a wedge of 1 degree.
+constexpr double kThinnest = 1.5e-4;
 // Voxels from a crease at which its sides are looked at, one reading after the other.
 constexpr double kCreaseProbes[] = {0.1, 0.01};
 // The same where that met another side. Beyond the tip of a thin wedge, whose place is uncertain by the bend
@@ -59,6 +62,25 @@ struct Reading {
     return {g / length, value[i] / length - glm::dot(g, p) / length};
   }
 };
+
+// Voxels from where two sides, with this cosine between their normals, are two voxels apart to where they
+// meet.
+double reachOf(double cosine) { return std::sqrt((1.0 - cosine) / std::max(1.0 + cosine, kThinnest)); }
+
+// Is the surface convex between two points, where it has these normals, with such a way from the second to
+// the first?
+bool isConvex(const glm::dvec3& first, const glm::dvec3& second, const glm::dvec3& way) {
+  return glm::dot(first - second, way) > 0.0;
+}
+
+// Is what lies between two points all inside, or all outside? So it is up to the edge of a thin wedge, or
+// groove, and not beyond a face that cuts that off.
+bool isAll(bool inside, const PointRun& run, const glm::dvec3& from, const glm::dvec3& to) {
+  Reading r;
+  for (int k = 0; k < 3; ++k) r.points.set(k, glm::vec3(glm::mix(from, to, 0.25 * (k + 1))));
+  r.read(run, 3);
+  return std::all_of(r.value, r.value + 3, [&](float value) { return (value < 0.0f) == inside; });
+}
 
 /// The step of least length from p to where two planes meet.
 glm::dvec3 toCommonLine(const Plane& a, const Plane& b, const glm::dvec3& p) {
@@ -106,6 +128,21 @@ std::array<glm::dvec3, 3> waysInto(const std::array<Plane, 3>& s, const CornerPo
   return ways;
 }
 
+// Does a corner, whose sides these are, lie where the body, or the gap, that ends in it can do?
+bool isWithinReach(const PointRun& run, const CornerPoint& c, const std::array<Plane, 3>& sides,
+                   const glm::dvec3& start, const glm::dvec3& at) {
+  const double far = glm::distance(at, start) / run.voxel;
+  if (far <= kCreaseReach) return true;
+  double sharpest = 1.0;
+  int convex = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    sharpest = std::min(sharpest, glm::dot(sides[k].normal, sides[next].normal));
+    if (isConvex(c.normal[k], c.normal[next], c.on[k] - c.on[next])) ++convex;
+  }
+  return far <= reachOf(sharpest) && convex % 3 == 0 && isAll(convex == 3, run, start, at);
+}
+
 void placeCornersOf(const PointRun& run, CornerPoint* corners) {
   for (std::size_t i = 0; i < run.count; ++i) {
     CornerPoint& c = corners[i];
@@ -115,7 +152,7 @@ void placeCornersOf(const PointRun& run, CornerPoint* corners) {
     for (int k = 0; k < 3; ++k)
       sides[k] = {glm::dvec3(c.normal[k]), -glm::dot(glm::dvec3(c.normal[k]), glm::dvec3(c.on[k]))};
     at += toCommonPoint(sides, at);
-    c.placed = glm::distance(at, start) <= kCreaseReach * run.voxel;
+    c.placed = isWithinReach(run, c, sides, start, at);
     Reading r;
     for (const double reach : kCreaseProbes) {
       if (!c.placed) break;
@@ -136,7 +173,7 @@ void placeCornersOf(const PointRun& run, CornerPoint* corners) {
       }
       if (!c.placed) break;
       at += toCommonPoint(sides, at);
-      c.placed = glm::distance(at, start) <= kCreaseReach * run.voxel;
+      c.placed = isWithinReach(run, c, sides, start, at);
     }
     if (c.placed) c.at = glm::vec3(at);
   }
@@ -146,7 +183,7 @@ void placeCornersOf(const PointRun& run, CornerPoint* corners) {
 std::array<glm::dvec3, 2> waysInto(const CreasePoint& p) {
   const glm::dvec3 a(p.normal[0]), b(p.normal[1]);
   const glm::dvec3 along = glm::normalize(glm::cross(a, b));
-  const double convex = glm::dot(a - b, glm::dvec3(p.toFirst)) > 0.0 ? 1.0 : -1.0;
+  const double convex = isConvex(a, b, glm::dvec3(p.toFirst)) ? 1.0 : -1.0;
   return {convex * glm::cross(a, along), -convex * glm::cross(b, along)};
 }
 
@@ -279,7 +316,9 @@ void halveRun(const PointRun& run, std::vector<Bend>& bends, Crossing* found) {
   for (const Bend& b : bends) {
     CreasePoint& p = found[b.candidate].point;
     const glm::dvec3 at(b.middle()), step = toCommonLine(b.plane[0], b.plane[1], at);
-    if (!(glm::length(step) <= kTip * run.voxel)) continue;
+    const double far = glm::length(step) / run.voxel;
+    const bool isInside = isConvex(b.normal[0], b.normal[1], glm::dvec3(p.toFirst));
+    if (!(far <= kTip) && !(far <= reachOf(b.cosine()) && isAll(isInside, run, at, at + step))) continue;
     p.at = glm::vec3(at + step);
     p.normal = {glm::vec3(b.normal[0]), glm::vec3(b.normal[1])};
     p.placed = true;

@@ -27,7 +27,7 @@ namespace {
 
 // Cosine of what normals turn by along an edge near a tip: 25 degrees.
 constexpr float kTurned = 0.9f;
-// Voxels that a vertex may be moved by.
+// Voxels that a vertex may be moved by; of a slim cone as many as it goes on for where it is two voxels wide.
 constexpr double kTipReach = 4.0;
 // Of that: what triangles around a tip are exchanged within.
 constexpr double kWidest = 2.0;
@@ -147,8 +147,11 @@ class Finder {
     const glm::dmat3 inverse = glm::inverse(planes.squares);
     const glm::dvec3 way = inverse * planes.toPoint;
     const double far = glm::length(way);
-    if (!(far <= kTipReach * locals_->at(mesh_.positions[v]).voxel)) return std::nullopt;
-    return Tip{v, origin + way, inverse * planes.sum, far};
+    const glm::dvec3 axis = inverse * planes.sum;
+    // Of a normal along the axis: the sine of the cone's half angle.
+    const double rise = std::min(1.0, 1.0 / glm::length(axis)), goesOn = std::sqrt(1.0 - rise * rise) / rise;
+    if (!(far <= std::max(kTipReach, goesOn) * locals_->at(mesh_.positions[v]).voxel)) return std::nullopt;
+    return Tip{v, origin + way, axis, far};
   }
 
   const FeatureMesh& mesh_;
@@ -240,7 +243,8 @@ class Crowner {
     const double least = std::max(1.01 * tip.far, kNarrowest * voxel);
     for (double reach = least; reach <= kFarForRound * voxel; reach *= kWider)
       if (find(tip, reach) && widest_ < kRound && !crosses(tip)) return close(tip);
-    for (double reach = least; reach <= kWidest * kTipReach * voxel; reach *= kWider)
+    const double most = kWidest * std::max(kTipReach * voxel, tip.far);
+    for (double reach = least; reach <= most; reach *= kWider)
       if (find(tip, reach) && !crosses(tip)) return close(tip);
   }
 

@@ -37,6 +37,15 @@ void closeCreases(FeatureMesh& mesh) {
   };
   while (std::erase_if(sharp, isLoose) > 0) {
   }
+  // What joins no crease is a bend: around the tip of a cone, and on small roundings.
+  std::vector<char> joined(mesh.positions.size(), 0);
+  for (const auto& [a, b] : mesh.creases) joined[a] = joined[b] = 1;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const auto& [a, b] : sharp)
+      if (joined[a] != joined[b]) joined[a] = joined[b] = 1, grows = true;
+  }
+  std::erase_if(sharp, [&](const auto& edge) { return !joined[edge[0]]; });
   mesh.creases.insert(mesh.creases.end(), sharp.begin(), sharp.end());
   std::sort(mesh.creases.begin(), mesh.creases.end());
 }

@@ -5,7 +5,8 @@
 namespace sdf {
 
 /// Closes gaps in creases, which would grow as vertices go: by edges, whose place was not found exactly,
-/// where facets that are no slivers meet at more than 45 degrees, and that do not end loosely. Cost: n log n.
+/// where facets that are no slivers meet at more than 45 degrees, that do not end loosely, and that join a
+/// crease. Cost: n log n, and as often a look at such edges as the longest gap has.
 void closeCreases(FeatureMesh& mesh);
 
 }  // namespace sdf
