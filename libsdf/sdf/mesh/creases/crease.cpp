@@ -128,55 +128,63 @@ std::array<glm::dvec3, 3> waysInto(const std::array<Plane, 3>& s, const CornerPo
   return ways;
 }
 
-// Does a corner, whose sides these are, lie where the body, or the gap, that ends in it can do?
-bool isWithinReach(const PointRun& run, const CornerPoint& c, const std::array<Plane, 3>& sides,
-                   const glm::dvec3& start, const glm::dvec3& at) {
-  const double far = glm::distance(at, start) / run.voxel;
-  if (far <= kCreaseReach) return true;
-  double sharpest = 1.0;
-  int convex = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    sharpest = std::min(sharpest, glm::dot(sides[k].normal, sides[next].normal));
-    if (isConvex(c.normal[k], c.normal[next], c.on[k] - c.on[next])) ++convex;
-  }
-  return far <= reachOf(sharpest) && convex % 3 == 0 && isAll(convex == 3, run, start, at);
+// As told by the normals at the points of its pieces.
+std::array<Plane, 3> sidesOf(const CornerPoint& c) {
+  std::array<Plane, 3> sides;
+  for (int k = 0; k < 3; ++k)
+    sides[k] = {glm::dvec3(c.normal[k]), -glm::dot(glm::dvec3(c.normal[k]), glm::dvec3(c.on[k]))};
+  return sides;
 }
 
-void placeCornersOf(const PointRun& run, CornerPoint* corners) {
-  for (std::size_t i = 0; i < run.count; ++i) {
-    CornerPoint& c = corners[i];
-    const glm::dvec3 start(c.at);
-    glm::dvec3 at = start;
-    std::array<Plane, 3> sides;
-    for (int k = 0; k < 3; ++k)
-      sides[k] = {glm::dvec3(c.normal[k]), -glm::dot(glm::dvec3(c.normal[k]), glm::dvec3(c.on[k]))};
-    at += toCommonPoint(sides, at);
-    c.placed = isWithinReach(run, c, sides, start, at);
-    Reading r;
-    for (const double reach : kCreaseProbes) {
-      if (!c.placed) break;
-      const auto middles = waysInto(sides, c, at);
-      for (int k = 0; k < 3; ++k) {
-        // Where more than three pieces meet a piece's middle is not between these creases: the way to its
-        // point is in it, unless it bends.
-        const glm::dvec3 toPoint = glm::normalize(glm::dvec3(c.on[k]) - at);
-        r.points.set(2 * k, glm::vec3(at + middles[k] * (reach * run.voxel)));
-        r.points.set(2 * k + 1, glm::vec3(at + toPoint * (reach * run.voxel)));
-      }
-      r.read(run, 6);
-      for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 expected(c.normal[k]);
-        const Plane middle = r.plane(2 * k);
-        sides[k] = glm::dot(middle.normal, expected) > kSameSide ? middle : r.plane(2 * k + 1);
-        c.placed = c.placed && glm::dot(sides[k].normal, expected) > kSameSide;
-      }
-      if (!c.placed) break;
-      at += toCommonPoint(sides, at);
-      c.placed = isWithinReach(run, c, sides, start, at);
+// Voxels that a corner may be moved by.
+double reachOf(const std::array<Plane, 3>& sides) {
+  double sharpest = 1.0;
+  for (int k = 0; k < 3; ++k)
+    sharpest = std::min(sharpest, glm::dot(sides[k].normal, sides[(k + 1) % 3].normal));
+  return std::max(kCreaseReach, reachOf(sharpest));
+}
+
+// Moves a corner to where its sides meet; far only where the body, or the gap, that ends in it goes on to
+// there.
+void startCorner(const PointRun& run, CornerPoint& c) {
+  const std::array<Plane, 3> sides = sidesOf(c);
+  const glm::dvec3 start(c.at), at = start + toCommonPoint(sides, start);
+  const double far = glm::distance(at, start) / run.voxel;
+  int convex = 0;
+  for (int k = 0; k < 3; ++k)
+    if (isConvex(c.normal[k], c.normal[(k + 1) % 3], c.on[k] - c.on[(k + 1) % 3])) ++convex;
+  c.placed =
+      far <= kCreaseReach || (far <= reachOf(sides) && convex % 3 == 0 && isAll(convex == 3, run, start, at));
+  if (c.placed) c.at = glm::vec3(at);
+}
+
+// From where it was moved to; `start` is where it was.
+void approachCorner(const PointRun& run, const glm::dvec3& start, CornerPoint& c) {
+  std::array<Plane, 3> sides = sidesOf(c);
+  glm::dvec3 at(c.at);
+  Reading r;
+  for (const double reach : kCreaseProbes) {
+    if (!c.placed) return;
+    const auto middles = waysInto(sides, c, at);
+    for (int k = 0; k < 3; ++k) {
+      // Where more than three pieces meet a piece's middle is not between these creases: the way to its
+      // point is in it, unless it bends.
+      const glm::dvec3 toPoint = glm::normalize(glm::dvec3(c.on[k]) - at);
+      r.points.set(2 * k, glm::vec3(at + middles[k] * (reach * run.voxel)));
+      r.points.set(2 * k + 1, glm::vec3(at + toPoint * (reach * run.voxel)));
     }
-    if (c.placed) c.at = glm::vec3(at);
+    r.read(run, 6);
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 expected(c.normal[k]);
+      const Plane middle = r.plane(2 * k);
+      sides[k] = glm::dot(middle.normal, expected) > kSameSide ? middle : r.plane(2 * k + 1);
+      c.placed = c.placed && glm::dot(sides[k].normal, expected) > kSameSide;
+    }
+    if (!c.placed) return;
+    at += toCommonPoint(sides, at);
+    c.placed = glm::distance(at, start) <= reachOf(sides) * run.voxel;
   }
+  if (c.placed) c.at = glm::vec3(at);
 }
 
 /// The ways into the two sides of a crease, square to it.
@@ -334,9 +342,22 @@ void placeOnCreases(std::span<CreasePoint> points, const LocalField& field, Prog
 }
 
 void placeCorners(std::span<CornerPoint> corners, const LocalField& field, Progress& progress) {
+  std::vector<glm::vec3> starts;
+  for (const CornerPoint& c : corners) starts.push_back(c.at);
+  const auto at = [&](std::size_t i) { return corners[i].at; };
+  // Each step with the tapes that hold where it is made.
+  const auto start = [&](const PointRun& run) {
+    for (std::size_t i = 0; i < run.count; ++i) startCorner(run, corners[run.first + i]);
+  };
   forEachRun(
-      corners.size(), [&](std::size_t i) { return corners[i].at; }, field, progress,
-      [&](const PointRun& run) { placeCornersOf(run, &corners[run.first]); });
+      corners.size(), [&](std::size_t i) { return starts[i]; }, field, progress, start);
+  const auto approach = [&](const PointRun& run) {
+    for (std::size_t i = 0; i < run.count; ++i)
+      approachCorner(run, starts[run.first + i], corners[run.first + i]);
+  };
+  forEachRun(corners.size(), at, field, progress, approach);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (!corners[i].placed) corners[i].at = starts[i];
 }
 
 namespace {

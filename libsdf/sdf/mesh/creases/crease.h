@@ -50,9 +50,8 @@ struct Crossing {
 /// Looks for a crease across each edge of a closed mesh whose ends have normals more than kCreaseAngle apart:
 /// a jump of the gradient along the edge is halved in until it is certain, which tells a crease from a bend
 /// with a radius of more than about half an edge. Payloads that kink between their samples count as
-/// smooth (Payload::hasCreases). A crossing lies within four voxels of its edge, or,
-/// at the end of a thin wedge, within what that goes on for where it is two voxels thick. Ordered by
-/// triangles.
+/// smooth (Payload::hasCreases). A crossing lies within four voxels of its edge, or, at the end of a thin
+/// wedge, within what that goes on for where it is two voxels thick. Ordered by triangles.
 std::vector<Crossing> findCrossings(const std::vector<glm::vec3>& positions,
                                     const std::vector<glm::vec3>& normals,
                                     const std::vector<glm::uvec3>& triangles, const LocalField& field,
