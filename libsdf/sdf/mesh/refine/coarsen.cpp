@@ -25,7 +25,8 @@ constexpr float kArc = 0.25f;
 constexpr float kBlur = 0.75f * kColorTolerance;
 // Twice a triangle's area over its longest side's square: none becomes slimmer.
 constexpr float kSlimmest = 0.1f;
-// Sheets that are nearer than so many times what they may come to be off, and an edge, are left as they are.
+// Sheets that are nearer than so many times what they may come to be off, and an edge, are left as they are,
+// with all their triangles: larger ones may reach into the other sheet.
 constexpr float kApart = 4.0f;
 // Rings of vertices around a tip that stay: however small they are normals turn as much along them.
 constexpr int kTipRings = 3;
@@ -96,7 +97,10 @@ class Coarsener {
                       normals[v] = g.normal(i, normals[v]), distances[v] = g.distance(i);
                     });
     edge_ = meanEdge();
-    stays_ = crowdedVertices(mesh_, normals, edge_ + kApart * limit_);
+    stays_.assign(mesh_.vertices(), 0);
+    const std::vector<char> crowded = crowdedVertices(mesh_, normals, edge_ + kApart * limit_);
+    for (Index v = 0; v < mesh_.vertices(); ++v)
+      if (crowded[v]) keepAround(v, 1);
     for (Index v = 0; v < mesh.held.size(); ++v)
       if (mesh.held[v] == Hold::Tip) keepAround(v, kTipRings);
     for (Index v = 0; v < mesh_.vertices(); ++v)
