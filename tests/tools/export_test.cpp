@@ -465,6 +465,54 @@ TEST_F(Export, GivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+// The second is done long before the first.
+constexpr const char* kSlowAndQuick =
+    "part('slow', union{sphere(1), sphere(0.8):translate(1, 0.4, 0), k = 0.3}) part('quick', box(0.3))\n";
+
+TEST_F(Export, KeepsTheOrderOfPartsThatAreMeshedBesideOneAnother) {
+  const Json parts =
+      report({scene(kSlowAndQuick), "-o", out("a.glb"), "--threads", "2"})["outputs"][0]["parts"];
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0]["name"], "slow");
+  EXPECT_EQ(parts[1]["name"], "quick");
+  EXPECT_EQ(parts[1]["triangles"], 12);
+  EXPECT_LT(parts[1]["seconds"].get<double>(), parts[0]["seconds"].get<double>());
+  EXPECT_EQ(glbJson(out("a.glb"))["meshes"][0]["name"], "slow");
+}
+
+TEST_F(Export, ShowsTheFirstPartThatIsNotDone) {
+  Command command = Export::command({scene(kSlowAndQuick), "-o", out("a.glb"), "--threads", "2"});
+  command.terminal = true;
+  const Outcome outcome = command.run();
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("part 'slow' (1 of 2): remeshing"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("part 'quick'"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Export, NamesTheFirstPartThatCannotBeMeshed) {
+  const std::string file = scene(std::string(kSlowAndQuick) +
+                                 "part('hollow', box(1) - box(1.2)) part('void', sphere(0.3) - sphere(0.4))");
+  for (const char* threads : {"1", "2", "7"}) {
+    const Outcome outcome = run({file, "-o", out("a.glb"), "--threads", threads});
+    EXPECT_EQ(outcome.status, 3) << outcome.err;
+    EXPECT_NE(outcome.err.find("part 'hollow': no surface inside"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("part 'void'"), std::string::npos) << outcome.err;
+  }
+  EXPECT_TRUE(written().empty());
+}
+
+TEST_F(Export, StopsAllPartsWhenInterrupted) {
+  Command command =
+      Export::command({scene("for i = 1, 3 do part('p' .. i, gyroid(0.2, 0.05) & sphere(2)) end"), "-o",
+                       out("a.glb"), "--threads", "2"});
+  command.signal = SIGINT;
+  command.signalAfter = 0.0;  // once there is a line
+  const Outcome outcome = command.run();
+  ASSERT_FALSE(outcome.endedBeforeSignal) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with("\nsdf2gltf: interrupted\n")) << outcome.err;
+  EXPECT_TRUE(written().empty());
+}
+
 TEST_F(Export, OnlyExportsThePartAskedFor) {
   expectSuccess(run({scene(kTwoParts), "-o", out("a.glb"), "--only", "block"}));
   const Json gltf = glbJson(out("a.glb"));

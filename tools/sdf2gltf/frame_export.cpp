@@ -1,12 +1,19 @@
 #include "frame_export.h"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <future>
 #include <limits>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "memory.h"
+#include "parts_progress.h"
 #include "sdf/base/file.h"
 #include "sdf/export/bake.h"
 #include "sdf/export/compress.h"
@@ -40,6 +47,25 @@ Result<Scene> selected(Scene scene, const Options& options) {
   }
   return Error{ErrorKind::Usage, "--only: " + options.scene.string() + " has no part '" + *options.only +
                                      "'; its parts are " + names};
+}
+
+/// Parts that are meshed at the same time at most. Simplifying is one thread's, for the most part. Uniform
+/// meshes take all threads, and voxels of a size that was asked for may take all of the memory.
+std::size_t mostBeside() {
+  constexpr std::size_t kMost = 4;
+  return std::min(kMost, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+/// Does the work in so many threads at the same time, of which this is one; in fewer where no more can be
+/// had.
+void inThreads(std::size_t threads, const std::function<void()>& work) {
+  std::vector<std::future<void>> others;
+  try {
+    while (others.size() + 1 < threads) others.push_back(std::async(std::launch::async, work));
+  } catch (const std::system_error&) {
+  }
+  work();
+  for (std::future<void>& other : others) other.get();
 }
 
 }  // namespace
@@ -135,32 +161,48 @@ Status FrameExport::meshWithin(std::size_t triangles, const std::vector<Part>& b
 Status FrameExport::meshAll(const std::vector<Part>& bodies, double voxelSize, double tolerance) {
   parts.clear();
   report.parts.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::string place = " (" + std::to_string(i + 1) + " of " + std::to_string(bodies.size()) + ")";
-    progress_.setSubject(subject_ + (subject_.empty() ? "" : ", ") + "part '" + bodies[i].name + "'" + place);
-    if (Status s = meshOne(bodies[i], voxelSize, tolerance); !s) return s;
+  const std::size_t count = bodies.size();
+  const bool isLight = tolerance > 0.0 && !options_.voxelSize;
+  const MeshOptions options = meshOptions(voxelSize, tolerance);
+  PartsProgress progress(progress_, count, [&](std::size_t i) {
+    return subject_ + (subject_.empty() ? "" : ", ") + "part '" + bodies[i].name + "' (" +
+           std::to_string(i + 1) + " of " + std::to_string(count) + ")";
+  });
+  std::vector<Made> made(count);
+  std::atomic<std::size_t> next{0};
+  const auto meshOthers = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      made[i].shape = timed(made[i].seconds, [&] {
+        return meshShape(bodies[i].shape, bodies[i].name, options, progress.of(i));
+      });
+      made[i].peakMemory = peakMemory();
+      releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
+      if (!*made[i].shape) progress.stopAfter(i);
+      progress.end(i);
+    }
+  };
+  timed(report.total.seconds,
+        [&] { return inThreads(isLight ? std::min(count, mostBeside()) : 1, meshOthers), 0; });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!*made[i].shape) return made[i].shape->error();
+    take(bodies[i], tolerance, std::move(made[i]));
   }
   return interrupted();
 }
 
-Status FrameExport::meshOne(const Part& body, double voxelSize, double tolerance) {
+void FrameExport::take(const Part& body, double tolerance, Made made) {
   ReportLine& line = report.parts.emplace_back();
   line.name = body.name;
   if (!isGltf(options_.output) && scene.parts.size() > 1)
     for (const Part& one : scene.parts) line.united.push_back(one.name);
-  Result<MeshedShape> meshed = timed(line.seconds, [&] {
-    return meshShape(body.shape, body.name, meshOptions(voxelSize, tolerance), progress_);
-  });
-  if (!meshed) return meshed.error();
-  if (tolerance > 0.0) meshed->stats.tolerance = tolerance;
-  line.stages = std::move(meshed->stageSeconds);
-  line.stats = meshed->stats;
-  line.peakMemory = peakMemory();
-  report.total.seconds += line.seconds;
+  MeshedShape& shape = **made.shape;
+  if (tolerance > 0.0) shape.stats.tolerance = tolerance;
+  line.seconds = made.seconds;
+  line.stages = std::move(shape.stageSeconds);
+  line.stats = shape.stats;
+  line.peakMemory = made.peakMemory;
   for (const auto& [name, seconds] : line.stages) addSeconds(report.total.stages, name, seconds);
-  parts.push_back({body.name, std::move(meshed->mesh), meshed->stats});
-  releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
-  return okStatus();
+  parts.push_back({body.name, std::move(shape.mesh), shape.stats});
 }
 
 Status FrameExport::bake() {

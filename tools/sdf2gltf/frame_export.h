@@ -37,11 +37,17 @@ class FrameExport {
   std::vector<ExportPart> parts;
 
  private:
+  /// What became of a part.
+  struct Made {
+    std::optional<Result<MeshedShape>> shape;
+    double seconds = 0.0;
+    double peakMemory = 0.0;
+  };
   Status loadParts(double time);
   Status chooseVoxelSize(std::optional<double>& voxelSize);
   Status meshAll(const std::vector<Part>& bodies, double voxelSize, double tolerance);
   Status meshWithin(std::size_t triangles, const std::vector<Part>& bodies, double voxelSize);
-  Status meshOne(const Part& body, double voxelSize, double tolerance);
+  void take(const Part& body, double tolerance, Made made);
   Status bake();
   void compressParts();
   MeshOptions meshOptions(double voxelSize, double tolerance) const;
