@@ -105,6 +105,7 @@ TEST_F(BadInput, FlagsSayWhichValuesTheyTake) {
   expectBadFlags({"--triangles", "0"}, {"--triangles needs a whole number from 1", "'0'"});
   expectBadFlags({"--triangles", "9", "--tolerance", "1"}, {"--triangles finds the tolerance"});
   expectBadFlags({"--triangles", "9", "--animate", "--frames", "2"}, {"--triangles counts", "--animate"});
+  expectBadFlags({"--keep-going"}, {"--keep-going", "say --tolerance", "leave --keep-going out"});
   expectBadFlags({"--lod", "17", "--tolerance", "1"}, {"--lod needs a whole number from 1 to 16", "'17'"});
   expectBadFlags({"--lod", "2", "--voxel-size", "0.1"},
                  {"--lod takes four times the tolerance", "say --tolerance", "leave --voxel-size out"});

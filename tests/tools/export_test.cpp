@@ -85,8 +85,9 @@ TEST_F(Export, AnswersQuestions) {
   const Outcome help = run({"--help"}), version = run({"--version"});
   expectSuccess(help);
   expectSuccess(version);
-  for (const char* flag : {"--output", "--voxel-size", "--bounds", "-D", "--time", "--frames", "--fps",
-                           "--only", "--report", "--threads", "--max-memory", "--compress", "--quiet"}) {
+  for (const char* flag :
+       {"--output", "--voxel-size", "--bounds", "-D", "--time", "--frames", "--fps", "--only", "--report",
+        "--threads", "--max-memory", "--compress", "--keep-going", "--quiet"}) {
     EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
   }
   EXPECT_EQ(version.out.substr(0, 9), "sdf2gltf ");
@@ -430,7 +431,24 @@ TEST_F(Export, SaysWhereTheToleranceOfItsOwnIsNotKept) {
   // that.
   EXPECT_GT(part["max_distance"].get<double>(), 0.03);
   EXPECT_LT(part["max_distance"].get<double>(), 0.07);
-  EXPECT_EQ(run({file, "-o", out("a.glb"), "--tolerance", "0.05%"}).status, 4);
+}
+
+TEST_F(Export, GoesOnWhereAToleranceIsNotKept) {
+  const std::string file = scene("return sphere(0.5) - sphere(0.5):translate(0.01, 0, 0)");
+  const Outcome refused = run({file, "-o", out("a.glb"), "--tolerance", "0.001"});
+  EXPECT_EQ(refused.status, 4);
+  EXPECT_NE(refused.err.find("(sdf2gltf: --keep-going)"), std::string::npos) << refused.err;
+  EXPECT_TRUE(written().empty());
+  const Outcome outcome = run({file, "-o", out("a.glb"), "--tolerance", "0.001", "--keep-going"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("the tolerance of 0.001 is not kept everywhere: "), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(written(), std::vector<std::string>{"a.glb"});
+  // Elsewhere nothing changes.
+  const std::string ball = scene("return sphere(0.5)");
+  expectSuccess(run({ball, "-o", out("a.glb"), "--tolerance", "0.001"}));
+  expectSuccess(run({ball, "-o", out("b.glb"), "--tolerance", "0.001", "--keep-going"}));
+  EXPECT_TRUE(contents(out("a.glb")) == contents(out("b.glb")));
 }
 
 TEST_F(Export, MeshesAnySizeAlike) {

@@ -239,7 +239,7 @@ Status FrameExport::write(const std::filesystem::path& target) {
 MeshOptions FrameExport::meshOptions(double voxelSize, double tolerance) const {
   return {.voxelSize = voxelSize,
           .tolerance = options_.compress ? kBeforeRounding * tolerance : tolerance,
-          .strict = options_.strict,
+          .strict = options_.strict && !options_.keepGoing,
           .keepsFiles = !options_.strict && !options_.levels,
           .bounds = clip,
           .certify = options_.certify,

@@ -24,7 +24,7 @@ struct Words {
   std::optional<std::string> voxelSize, tolerance, triangles, levels, bounds, time, frames, fps, only, report,
       threads, maxMemory;
   std::vector<std::string> parameters;
-  bool animate = false, bake = false, compress = false, certify = false, quiet = false;
+  bool animate = false, bake = false, compress = false, certify = false, keepGoing = false, quiet = false;
 };
 
 Status box(const std::optional<std::string>& text, std::optional<Box>& bounds) {
@@ -74,6 +74,11 @@ Status checkSequence(const Words& words) {
 }
 
 Status checkDetail(const Words& words) {
+  if (words.keepGoing && !words.tolerance)
+    return usage(
+        "--keep-going writes what keeps --tolerance in most places; the tolerance of its own is kept where "
+        "it "
+        "can be anyway: say --tolerance, or leave --keep-going out");
   if (words.triangles && words.tolerance)
     return usage("--triangles finds the tolerance that so many triangles keep; leave --tolerance out");
   if (words.triangles && words.animate)
@@ -109,6 +114,8 @@ void declare(CLI::App& app, Words& words) {
   add("--tolerance", words.tolerance, "E",
       "distance from the surface that meshes keep with few triangles, in scene units or, as E%, in "
       "hundredths of the diagonal of all that is exported [0.05%, where it can be kept]");
+  app.add_flag("--keep-going", words.keepGoing,
+               "write the file, with a warning, where --tolerance cannot be kept everywhere");
   add("--voxel-size", words.voxelSize, "H",
       "sampling distance in scene units [1/200 of the longest side of all that is exported]; without "
       "--tolerance, triangles are as large everywhere");
@@ -150,6 +157,7 @@ Result<Options> interpreted(const Words& words) {
   options.bake = words.bake;
   options.compress = words.compress;
   options.certify = words.certify;
+  options.keepGoing = words.keepGoing;
   options.quiet = words.quiet;
   options.maxMemory = 0.75 * physicalMemory();
   options.only = words.only;

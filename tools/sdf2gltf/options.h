@@ -20,7 +20,7 @@ struct Options {
   std::optional<double> voxelSize;
   double tolerance = 0.0;            ///< scene units; 0: triangles as large as voxels
   bool toleranceOfDiagonal = false;  ///< it is a share of the diagonal of all that is exported
-  bool strict = true;                ///< MeshOptions::strict: the tolerance was asked for
+  bool strict = true;                ///< the tolerance was asked for
   std::optional<int> triangles;      ///< of a file at most
   std::optional<int> levels;         ///< of detail: files, each of them with four times the tolerance
   std::optional<Box> bounds;
@@ -36,6 +36,7 @@ struct Options {
   bool bake = false;
   bool compress = false;
   bool certify = false;
+  bool keepGoing = false;  ///< where the tolerance cannot be kept
   bool quiet = false;
 };
 

@@ -633,7 +633,8 @@ class Mesher {
                  "part '" + name_ + "': a tolerance of " + shown(stats.tolerance) +
                      " could not be kept; the best that was reached is " + shown(stats.maxDistance) +
                      ", at " + placeOf(stats.farthest) +
-                     ". Take a larger tolerance, a smaller voxel size, or leave the tolerance out"};
+                     ". Take a larger tolerance or a smaller voxel size, or let it be kept where it can be "
+                     "(sdf2gltf: --keep-going)"};
   }
 
   // The finite box to mesh in; clips the shape where the options say so.
