@@ -76,8 +76,7 @@ Status checkSequence(const Words& words) {
 Status checkDetail(const Words& words) {
   if (words.keepGoing && !words.tolerance)
     return usage(
-        "--keep-going writes what keeps --tolerance in most places; the tolerance of its own is kept where "
-        "it "
+        "--keep-going is for a --tolerance that may not be kept; the tolerance of its own is kept where it "
         "can be anyway: say --tolerance, or leave --keep-going out");
   if (words.triangles && words.tolerance)
     return usage("--triangles finds the tolerance that so many triangles keep; leave --tolerance out");
