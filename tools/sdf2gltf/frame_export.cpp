@@ -3,18 +3,15 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <future>
 #include <limits>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "memory.h"
 #include "parts_progress.h"
 #include "sdf/base/file.h"
+#include "sdf/base/parallel.h"
 #include "sdf/export/bake.h"
 #include "sdf/export/compress.h"
 #include "sdf/mesh/mesher.h"
@@ -49,23 +46,12 @@ Result<Scene> selected(Scene scene, const Options& options) {
                                      "'; its parts are " + names};
 }
 
-/// Parts that are meshed at the same time at most. Simplifying is one thread's, for the most part. Uniform
-/// meshes take all threads, and voxels of a size that was asked for may take all of the memory.
+/// Parts that are meshed at the same time at most, which holds their bands of voxels together (the
+/// sunflower's three parts: 300 MiB for 224). Simplifying is one thread's, for the most part. Uniform meshes
+/// take all threads, and voxels of a size that was asked for may take all of the memory.
 std::size_t mostBeside() {
   constexpr std::size_t kMost = 4;
   return std::min(kMost, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-}
-
-/// Does the work in so many threads at the same time, of which this is one; in fewer where no more can be
-/// had.
-void inThreads(std::size_t threads, const std::function<void()>& work) {
-  std::vector<std::future<void>> others;
-  try {
-    while (others.size() + 1 < threads) others.push_back(std::async(std::launch::async, work));
-  } catch (const std::system_error&) {
-  }
-  work();
-  for (std::future<void>& other : others) other.get();
 }
 
 }  // namespace
@@ -169,20 +155,15 @@ Status FrameExport::meshAll(const std::vector<Part>& bodies, double voxelSize, d
            std::to_string(i + 1) + " of " + std::to_string(count) + ")";
   });
   std::vector<Made> made(count);
-  std::atomic<std::size_t> next{0};
-  const auto meshOthers = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      made[i].shape = timed(made[i].seconds, [&] {
-        return meshShape(bodies[i].shape, bodies[i].name, options, progress.of(i));
-      });
-      made[i].peakMemory = peakMemory();
-      releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
-      if (!*made[i].shape) progress.stopAfter(i);
-      progress.end(i);
-    }
+  const auto mesh = [&](std::size_t i) {
+    made[i].shape = timed(
+        made[i].seconds, [&] { return meshShape(bodies[i].shape, bodies[i].name, options, progress.of(i)); });
+    made[i].peakMemory = peakMemory();
+    releaseFreedMemory();  // a band of voxels is far larger than its mesh, and the next one comes on top
+    if (!*made[i].shape) progress.stopAfter(i);
+    progress.end(i);
   };
-  timed(report.total.seconds,
-        [&] { return inThreads(isLight ? std::min(count, mostBeside()) : 1, meshOthers), 0; });
+  timed(report.total.seconds, [&] { return inParallel(count, mesh, isLight ? mostBeside() : 1), 0; });
   for (std::size_t i = 0; i < count; ++i) {
     if (!*made[i].shape) return made[i].shape->error();
     take(bodies[i], tolerance, std::move(made[i]));
