@@ -289,6 +289,19 @@ TEST(MeshShape, StartsFromTheLargestVoxelsThatKeepTheTolerance) {
   }
 }
 
+// Edges that are rounded about as sharply as the tolerance leave slim triangles with few samples.
+TEST(MeshShape, NeedsNoFinerVoxelsForRoundedEdges) {
+  const Shape body = round(box({1.0, 0.5, 1.0}), 0.1), dome = translate(sphere(0.7), {0.0, 0.6, 0.0});
+  const Shape shape = unite(body, dome, {Blend::Kind::Quadratic, 0.2});
+  for (double tolerance = 2.51e-3; tolerance < 3.2e-3; tolerance *= 1.0215) {
+    SamplingCounter samplings;
+    const MeshStats stats =
+        meshShape(shape, "part", {.voxelSize = 0.0115, .tolerance = tolerance}, samplings).value().stats;
+    EXPECT_LE(stats.maxDistance, tolerance);
+    EXPECT_LE(samplings.count, 4) << tolerance;
+  }
+}
+
 // Each is three voxels wide.
 TEST(MeshShape, KeepsWhatOnlyTheSmallestVoxelsSee) {
   const Shape bores = infiniteCylinder(0.03);

@@ -33,8 +33,12 @@ bool flipIfBetter(SampledMesh& sampled, CrowdedTriangles& crowded, Index h, floa
   const glm::vec3 a = at(mesh.from(h)), b = at(mesh.to(h)), c = at(mesh.apex(h)), d = at(mesh.apex(g));
   const Corners before[2] = {{a, b, c}, {b, a, d}}, after[2] = {{d, c, a}, {c, d, b}};
   const glm::vec3 normal = glm::normalize(areaOf(before[0]) + areaOf(before[1]));
-  for (const Corners& t : after)
-    if (!(flatness(t) > 2.0f * kFlattest) || !isFacing(areaOf(t), normal)) return false;
+  for (int side = 0; side < 2; ++side) {
+    const glm::vec3 area = areaOf(after[side]),
+                    around = sampled.meanNormal({mesh.apex(h), mesh.apex(g), mesh.from(side ? g : h)});
+    if (!(flatness(after[side]) > 2.0f * kFlattest) || !isFacing(area, normal)) return false;
+    if (!isNone(around) && !isFacing(area, around)) return false;
+  }
   const Tints& tints = sampled.tints;
   Tint tint[4]{};  // of a, b, c, d
   if (tints.any())

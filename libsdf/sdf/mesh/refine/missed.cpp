@@ -94,12 +94,16 @@ void MissedSamples::addAt(const std::vector<Index>& triangles, int steps, std::v
   const std::size_t each = triangles.empty() ? 1 : places.size() / triangles.size();
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     float most = 0.0f;
+    const bool hasNone = sampled_.onTriangle.first(triangles[t] / 3) == Lists::kNone;
     for (std::size_t i = t * each; i < (t + 1) * each; ++i) {
       const float off = glm::distance(feet[i], places[i]);
       most = std::max(most, off);
-      if (off <= tolerance_) continue;
-      take(triangles[t], places[i], {feet[i], normals[i]});
-      looked_[triangles[t] / 3] = {};
+      if (off > tolerance_) {
+        take(triangles[t], places[i], {feet[i], normals[i]});
+        looked_[triangles[t] / 3] = {};
+      } else if (hasNone) {
+        sampled_.add(triangles[t] / 3, {feet[i], normals[i]});
+      }
     }
     if (close && most > kClose * tolerance_) close->push_back(triangles[t]);
   }

@@ -57,6 +57,8 @@ class Ring {
   /// May triangles be turned by more than 60 degrees from their sector's normal, as long as samples face
   /// them?
   void mayBend(bool may) { mayBend_ = may; }
+  /// Are triangles with samples to face the normals at their vertices, too, as those without do?
+  void faceNormals(bool face) { facesNormals_ = face; }
   std::size_t size() const { return spokes_.size(); }
   /// The vertex in the middle; of a split the one that is to be made.
   Index centre() const { return centreVertex_; }
@@ -161,7 +163,7 @@ class Ring {
   std::vector<Tint> centres_;  // of the centre, by spoke: as they were, and as they are chosen
   std::vector<Sector> sectors_;
   int creases_ = 0;
-  bool mayBend_ = false;
+  bool mayBend_ = false, facesNormals_ = true;
   bool isTip_ = false;  // a point in which a smooth piece ends
   // Triangles that a collapse takes away, the vertices opposite to what is collapsed, and whether they lie
   // after these spokes, if those are creases. kNone: nothing is taken away.

@@ -69,20 +69,18 @@ bool Ring::placeSector(std::size_t number, float limit) {
   return isFacingVertices(s);
 }
 
-// What has no samples is held to the normals at its vertices; what is bent has some, and is held to each.
+// What is bent has samples, and is held to the normal at each of its vertices.
 bool Ring::isFacingVertices(const Sector& s) const {
   const auto n = static_cast<Index>(spokes_.size());
   for (Index i = s.first; i < s.last && !isTip_; ++i) {
-    if (counts_[i] > 0 && !s.isBent) continue;
     if (counts_[i] == 0 && s.isBent) return false;
-    glm::vec3 around(0.0f);
-    for (const Index k : {i, i + 1}) {
-      const Index v = spokes_[k == n ? 0 : k].vertex;
-      if (!sampled_.isSmooth(v)) continue;
-      if (s.isBent && !isFacing(normals_[i - s.first], sampled_.normals[v])) return false;
-      around += sampled_.normals[v];
-    }
-    if (!isNone(around) && !isFacing(normals_[i - s.first], glm::normalize(around))) return false;
+    const glm::vec3& normal = normals_[i - s.first];
+    const Index ends[2] = {spokes_[i].vertex, spokes_[i + 1 == n ? 0 : i + 1].vertex};
+    for (const Index v : ends)
+      if (s.isBent && sampled_.isSmooth(v) && !isFacing(normal, sampled_.normals[v])) return false;
+    if (counts_[i] > 0 && !facesNormals_) continue;
+    const glm::vec3 around = sampled_.meanNormal({ends[0], ends[1]});
+    if (!isNone(around) && !isFacing(normal, around)) return false;
   }
   return true;
 }

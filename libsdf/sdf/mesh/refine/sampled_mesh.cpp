@@ -114,6 +114,13 @@ SampledMesh::Farthest SampledMesh::farthestOf(Index triangle) const {
   return farthest;
 }
 
+glm::vec3 SampledMesh::meanNormal(std::initializer_list<Index> vertices) const {
+  glm::vec3 sum(0.0f);
+  for (const Index v : vertices)
+    if (isSmooth(v)) sum += normals[v];
+  return isNone(sum) ? sum : glm::normalize(sum);
+}
+
 bool SampledMesh::isTip(Index v) const {
   if (mesh.creasesAt(v) < 3) return false;
   const Index first = mesh.outgoing(v);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <initializer_list>
 #include <vector>
 
 #include "sdf/base/progress.h"
@@ -52,6 +53,8 @@ struct SampledMesh {
   void paint(const LocalField& field, float tolerance, Progress& progress);
 
   bool isSmooth(Index v) const { return mesh.creasesAt(v) == 0; }
+  /// The surface's at those of these vertices that are smooth, unit; 0 where there is none.
+  glm::vec3 meanNormal(std::initializer_list<Index> vertices) const;
   /// A vertex that does not move and that no crease leads to.
   bool isTip(Index v) const;
   /// Adds a sample of a triangle, whose paint may be known.

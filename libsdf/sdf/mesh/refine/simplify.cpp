@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "sdf/mesh/refine/blocks.h"
 #include "sdf/mesh/refine/coarsen.h"
@@ -14,6 +15,7 @@
 #include "sdf/mesh/refine/missed.h"
 #include "sdf/mesh/refine/ring.h"
 #include "sdf/mesh/refine/sampled_mesh.h"
+#include "sdf/mesh/surface/project.h"
 
 namespace sdf {
 namespace {
@@ -87,6 +89,7 @@ class Simplifier {
         settled_(mesh.positions.size(), 0),
         near_(mesh.positions.size(), 0),
         left_(mesh.positions.size(), 0),
+        stale_(mesh.positions.size(), 0),
         failed_(mesh_.halfEdges(), 0),
         unflipped_(mesh_.halfEdges(), 0) {}
 
@@ -115,6 +118,7 @@ class Simplifier {
   void runUnresolved() {
     if (painted_) paint();
     leaveExceeding();
+    ring_.faceNormals(false);
     for (const float share : kShares) collapseTo(std::min(share, 1.0f) * tolerance_);
     if (mesh_.liveTriangles() > kMostToImprove) return;
     for (int i = 0; i < kImprovements && !progress_.stopped(); ++i) {
@@ -246,8 +250,24 @@ class Simplifier {
     collapse();
   }
 
+  // Reads the normals of vertices that have moved since. Those at what voxels do not resolve tell little: the
+  // mesh rounds it off (a mug's rims would keep a quarter more triangles).
+  void readNormals() {
+    if (!asItWas_.empty()) return;
+    std::vector<Index> vertices;
+    for (Index v = 0; v < mesh_.vertices(); ++v)
+      if (std::exchange(stale_[v], char{0}) && mesh_.vertexAlive(v) && sampled_.isSmooth(v))
+        vertices.push_back(v);
+    std::vector<glm::vec3> points, normals;
+    for (const Index v : vertices) points.push_back(mesh_.positions[v]);
+    refineVertices(points, normals, field_, progress_);
+    for (std::size_t i = 0; i < vertices.size() && !progress_.stopped(); ++i)
+      sampled_.normals[vertices[i]] = normals[i];
+  }
+
   void collapse() {
     for (;;) {
+      readNormals();
       const std::size_t before = mesh_.liveTriangles();
       ++pass_;
       inSides([&](Index h, const Work& work) { tryCollapse(h, work); });
@@ -280,6 +300,7 @@ class Simplifier {
     if (crowded_.wouldCross(ring, at, work.block)) return;
     ring.assign(limit_);
     sampled_.collapse(h, at);
+    stale_[v] = 1;
     replaced(work);
     taken_[v] = pass_;
     for (std::size_t i = 0; i < ring.size(); ++i) taken_[ring.vertex(i)] = pass_;
@@ -341,6 +362,7 @@ class Simplifier {
   }
 
   void moveAll() {
+    readNormals();
     ++pass_;
     const auto settle = [&](Index v, const Work& work) {
       if (settled_[v] >= changed_[v] || !isOf(v, work)) return;
@@ -397,6 +419,7 @@ class Simplifier {
     if (crowded_.wouldCross(work.ring, at, work.block)) return false;
     work.ring.assign(limit_);
     mesh_.positions[work.ring.centre()] = at;
+    stale_[work.ring.centre()] = 1;
     replaced(work);
     return true;
   }
@@ -413,6 +436,7 @@ class Simplifier {
   }
 
   void flipAll() {
+    readNormals();
     ++pass_;
     inSides([&](Index h, const Work& work) { tryFlip(h, work); });
     for (Index h = 0; h < mesh_.halfEdges() && !progress_.stopped(); ++h)
@@ -546,7 +570,7 @@ class Simplifier {
     sampled_.split(h, at);
     taken_.resize(mesh_.vertices(), 0), changed_.resize(mesh_.vertices(), pass_ + 1);
     settled_.resize(mesh_.vertices(), 0), near_.resize(mesh_.vertices(), 0);
-    left_.resize(mesh_.vertices(), 0);
+    left_.resize(mesh_.vertices(), 0), stale_.resize(mesh_.vertices(), 1);
     failed_.resize(mesh_.halfEdges(), 0), unflipped_.resize(mesh_.halfEdges(), 0);
     ring_.assign(limit_);
     replaced(whole_);
@@ -574,6 +598,7 @@ class Simplifier {
   std::vector<Index> settled_;    // by vertex: the last pass in which it was to be moved
   std::vector<Index> near_;       // by vertex: the last pass in which its distance was looked at
   std::vector<Index> left_;       // by vertex: the last pass in which it would have left its block
+  std::vector<char> stale_;       // by vertex: has it moved since its normal was read?
   std::vector<char> asItWas_;     // by vertex, of the first ones: is it of what is not split?
   std::vector<Index> failed_;     // by half-edge: the last pass in which its collapse failed
   std::vector<Index> unflipped_;  // by half-edge: the last pass in which it was to be flipped
