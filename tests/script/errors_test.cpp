@@ -67,6 +67,8 @@ TEST(Errors, UnknownNamesComeWithTheNearestOne) {
        "scene.lua:1: unknown name 'bal_size'; did you mean 'ball_size'?"},
       {"return qqqq", "scene.lua:1: unknown name 'qqqq'; define it above, or see the scene language"},
       {"return sphere(1):trnslate(1)", "scene.lua:1: a shape has no 'trnslate'; did you mean 'translate'?"},
+      {"return sphere(1):repeat_polar(3)",
+       "scene.lua:1: a shape has no 'repeat_polar'; did you mean 'polar_repeat'?"},
       {"return sphere(1).radius", "scene.lua:1: a shape has no 'radius'"},
       {"return math.flor(1)", "scene.lua:1: unknown name 'math.flor'; did you mean 'math.floor'?"},
       {"return ('x'):rep(3)", "scene.lua:1: unknown name 'string.rep'; scenes have no such function"},

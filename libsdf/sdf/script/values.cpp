@@ -95,20 +95,40 @@ int callGuarded(lua_State* L, LibraryFunction f) {
   }
 }
 
+namespace {
+
+// Edit distance with neighbours swapped counting once (Damerau 1964, Levenshtein 1966).
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+// Its words, which underscores part, by the alphabet.
+std::string sortedWords(const std::string& name) {
+  std::vector<std::string> words(1);
+  for (const char c : name) {
+    if (c == '_')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  std::ranges::sort(words);
+  std::string sorted;
+  for (const std::string& w : words) sorted += w + '_';
+  return sorted;
+}
+
+}  // namespace
+
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-  // Edit distance with neighbours swapped counting once (Damerau 1964, Levenshtein 1966).
-  const auto distance = [](const std::string& a, const std::string& b) {
-    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i)
-      for (std::size_t j = 1; j <= b.size(); ++j) {
-        d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-        if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-          d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-      }
-    return d[a.size()][b.size()];
-  };
   constexpr std::size_t kLongestName = 40;
   std::string best;
   if (word.size() > kLongestName) return best;
@@ -116,7 +136,10 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
       std::max<std::size_t>(1, word.size() / 3);  // a third of the letters may be wrong, not all
   allowed = std::min(allowed + 1, word.size());
   for (const std::string& candidate : known) {
-    const std::size_t d = candidate.size() > kLongestName ? kLongestName : distance(word, candidate);
+    if (candidate.size() > kLongestName) continue;
+    // Words in another order are one mistake.
+    const std::size_t d =
+        std::min(editDistance(word, candidate), 1 + editDistance(sortedWords(word), sortedWords(candidate)));
     if (d >= allowed) continue;
     best = candidate;
     allowed = d;
