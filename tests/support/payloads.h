@@ -242,13 +242,28 @@ inline std::shared_ptr<const Payload> starOfManySides() {
   return PolygonField::of(std::move(corners));
 }
 
+/// A ring of arcs, in the same plane.
+inline std::shared_ptr<const Payload> ringOfArcs() {
+  const auto circle = [](double r, double bulge) {
+    return ArcContour{{{r, 0.0}, bulge},
+                      {{0.0, r * (bulge < 0.0 ? -1.0 : 1.0)}, bulge},
+                      {{-r, 0.0}, bulge},
+                      {{0.0, r * (bulge < 0.0 ? 1.0 : -1.0)}, bulge}};
+  };
+  const double quarter = std::tan(std::numbers::pi / 8.0);
+  return PolygonField::of(std::vector<ArcContour>{circle(1.0, quarter), circle(0.5, -quarter)});
+}
+
 struct PayloadCase {
   std::string name;
   std::shared_ptr<const Payload> payload;
 };
 inline void PrintTo(const PayloadCase& c, std::ostream* out) { *out << c.name; }
 inline std::vector<PayloadCase> payloadCases() {
-  return {{"Grid", sampledBall(9)}, {"Points", fourPoints()}, {"Polygon", starOfManySides()}};
+  return {{"Grid", sampledBall(9)},
+          {"Points", fourPoints()},
+          {"Polygon", starOfManySides()},
+          {"Arcs", ringOfArcs()}};
 }
 
 inline const std::array<Expr, 3>& coordinates() {

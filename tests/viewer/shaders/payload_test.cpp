@@ -7,6 +7,8 @@
 #include <random>
 
 #include "sdf/expr/gradient.h"
+#include "sdf/outline/biarcs.h"
+#include "sdf/outline/boundary.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/operators/place.h"
@@ -219,13 +221,38 @@ TEST(PayloadPicture, OfPolygonsAmongOthersIsTheCpus) {
   expectTheCpusPicture(lit(unite({rotate(subtract({plate, hole}), {0.4, 0.3, 0.0}), sphere(0.3)})));
 }
 
+/// Waves of both kinds of curves about a hole.
+Outline curvedCoast(int n) {
+  Contour coast{{1.0, 0.0}}, hole{{0.4, 0.0}};
+  for (int i = 0; i < n; ++i) {
+    const auto at = [&](double k, double r) {
+      const double a = 2.0 * std::numbers::pi * (i + k) / n;
+      return r * glm::dvec2(std::cos(a), std::sin(a));
+    };
+    const glm::dvec2 to = i + 1 == n ? coast.from : at(1.0, 1.0);
+    if (i % 3 == 0)
+      coast.curves.push_back({0, {}, to});
+    else if (i % 3 == 1)
+      coast.curves.push_back({1, {at(0.5, 1.3)}, to});
+    else
+      coast.curves.push_back({2, {at(0.3, 1.2), at(0.7, 0.7)}, to});
+    hole.curves.push_back({1, {at(0.5, 0.5)}, i + 1 == n ? hole.from : at(1.0, 0.4)});
+  }
+  return {{coast, hole}, FillRule::EvenOdd};
+}
+
+TEST(PayloadPicture, OfAnOutlineOfCurvesIsTheCpus) {
+  expectTheCpusPicture(lit(extrude(outline(curvedCoast(12), 1e-6), 0.3)));
+}
+
 // Near the polygon shaders read the distance but for floats; elsewhere but for what patches are off; and
 // beyond the cells it is too small.
 TEST(PolygonCellsInShaders, AreAsGoodAsTheySay) {
   const auto context = viewer::Context::headless();
   ASSERT_TRUE(context.ok() && (*context)->makeCurrent().ok());
-  for (const int corners : {50, 2000}) {
-    const auto field = PolygonField::of(coast(corners));
+  const auto curves = boundaryOf(arcContours(curvedCoast(40), 1e-6), FillRule::EvenOdd);
+  for (const auto& field :
+       {PolygonField::of(coast(50)), PolygonField::of(coast(2000)), PolygonField::of(*curves)}) {
     const Vec3E p = position();
     const Expr f = Expr::payload({field}, {p.x, p.y, p.z});
     std::mt19937 random(4);
@@ -248,7 +275,7 @@ TEST(PolygonCellsInShaders, AreAsGoodAsTheySay) {
       EXPECT_GE(off, -2.0 * PolygonCells::kPatchError * kLongest) << i;
       if (i % 3 == 2) worst = std::max(worst, std::abs(off));
     }
-    EXPECT_LE(worst, kFloats) << corners;
+    EXPECT_LE(worst, kFloats) << field->distance().sides().size();
   }
 }
 

@@ -86,6 +86,7 @@ std::optional<PlacedTriangles> trianglesOf(const PlacedMesh& placed, const Value
 
 // Corner i of the polygon is vertex i below, and above the one that is as many farther as there are corners.
 std::optional<PlacedTriangles> trianglesOf(const PlacedPrism& prism, const Values& values) {
+  if (!prism.field->distance().isPolygon()) return {};
   const std::vector<PolygonSide>& sides = prism.field->distance().sides();
   const auto n = static_cast<std::uint32_t>(sides.size());
   std::vector<glm::vec3> outline;

@@ -3,9 +3,11 @@
 // along +y. Units, rules and claims are as in solids.h; all are exact.
 #pragma once
 #include <span>
+#include <string>
 
 #include <glm/vec2.hpp>
 
+#include "sdf/outline/outline.h"
 #include "sdf/shape/shape.h"
 
 namespace sdf {
@@ -26,6 +28,12 @@ Shape regularPolygon(int sides, const Expr& radius);
 /// operations an edge, some 15 where the polygon is convex; of more than 64 edges a payload's, some log n
 /// (polygon_field.h). Checking takes n log n, up to n squared where long edges lie beside one another.
 Shape polygon(std::span<const glm::dvec2> points);
+/// What contours of lines and Bézier curves enclose, which may lie in one another, cross and overlap. Exact
+/// to arcs of circles that are nowhere farther from the curves than `tolerance` > 0 and have their directions
+/// (arcContours); so smooth curves have no edges. `name` is whose points must be finite and enclose some
+/// area. Cost: that of a polygon of more than 64 edges, with as many sides as there are arcs: of a letter
+/// some 150 for a tolerance of 1e-6 of its size.
+Shape outline(const Outline& curves, double tolerance, const std::string& name = "outline");
 /// Star with `points` >= 3 tips at radius `outer`, one on +y, and as many corners at radius `inner` between
 /// them. 0 < inner < outer.
 Shape star(int points, const Expr& outer, const Expr& inner);

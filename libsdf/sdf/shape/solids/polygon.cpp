@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "sdf/outline/biarcs.h"
+#include "sdf/outline/boundary.h"
 #include "sdf/shape/check.h"
 #include "sdf/shape/formula.h"
 #include "sdf/shape/solids/flats.h"
@@ -20,10 +22,8 @@ using Points = std::vector<glm::dvec2>;
 // on and frames from 96, with 128 half as long by data. Formulas can be proven, and shaders compile them.
 constexpr std::size_t kMostSides = 64;
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-
 // Twice the signed area of a, b, c: positive where they turn left.
-double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) { return cross(b - a, c - a); }
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) { return crossOf(b - a, c - a); }
 
 bool between(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
   return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
@@ -41,7 +41,7 @@ bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const 
 // Does the edge into `corner` come straight back out of it?
 bool foldsBack(const glm::dvec2& before, const glm::dvec2& corner, const glm::dvec2& after) {
   const glm::dvec2 in = corner - before, out = after - corner;
-  return cross(in, out) == 0.0 && in.x * out.x + in.y * out.y < 0.0;
+  return crossOf(in, out) == 0.0 && in.x * out.x + in.y * out.y < 0.0;
 }
 
 std::string pointName(std::size_t i) { return std::to_string(i + 1); }
@@ -56,10 +56,11 @@ void checkEdges(const Points& points, Check& c) {
   for (std::size_t i = 0; i < n; ++i)
     if (foldsBack(at(i), at(i + 1), at(i + 2)))
       return void(c.that(false, "the edges at point " + pointName((i + 1) % n) + " lie on each other"));
-  const SideTree tree(points);
+  std::vector<Rectangle> boxes(n);
+  for (std::size_t i = 0; i < n; ++i) boxes[i].add(at(i)), boxes[i].add(at(i + 1));
+  const SideTree tree(boxes);
   for (std::size_t i = 0; i < n; ++i) {
-    Rectangle box;
-    box.add(at(i)), box.add(at(i + 1));
+    const Rectangle& box = boxes[i];
     const auto touches = [&](std::size_t j) {
       if (j < i + 2 || j + 1 - i == n || !touch(at(i), at(i + 1), at(j), at(j + 1))) return false;
       c.that(false, "edges " + pointName(i) + " and " + pointName(j) + " touch or cross");
@@ -73,7 +74,7 @@ void checkEdges(const Points& points, Check& c) {
 Points oriented(Points points) {
   double area = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
-    area += cross(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
+    area += crossOf(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
   if (area < 0.0) std::reverse(points.begin(), points.end());
   return points;
 }
@@ -104,7 +105,7 @@ Expr convexDistance(const std::vector<Side>& sides) {
   std::optional<Expr> most;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side &a = sides[i], &b = sides[(i + 1) % sides.size()];
-    const double sine = cross(a.along, b.along);
+    const double sine = crossOf(a.along, b.along);
     if (sine == 0.0) continue;  // one straight line
     const Expr corner = cornerDistance(a.out, b.out, glm::dot(a.along, b.along), sine);
     most = most ? max(*most, corner) : corner;
@@ -135,19 +136,23 @@ Expr formulaOf(const Points& points) {
   return isConvex(points) ? convexDistance(sides) : windingDistance(sides, points);
 }
 
-// About the middle of the polygon, if that is far from the origin: floats are fine there.
-Expr fieldOf(Points points, const Rectangle& box) {
+// About the middle of the contours, if that is far from the origin: floats are fine there.
+Expr fieldOf(std::vector<ArcContour> contours, const Rectangle& box) {
   const glm::dvec2 size = box.hi - box.lo, middle = 0.5 * (box.lo + box.hi);
   const bool isFar = std::max(std::abs(middle.x), std::abs(middle.y)) > std::max(size.x, size.y);
   const glm::dvec2 origin = isFar ? middle : glm::dvec2(0.0);
-  for (glm::dvec2& p : points) p -= origin;
+  for (ArcContour& contour : contours)
+    for (ArcCorner& corner : contour) corner.at -= origin;
   const Expr x = position().x, y = position().y;
-  return Expr::payload({PolygonField::of(std::move(points)), 0},
+  return Expr::payload({PolygonField::of(std::move(contours)), 0},
                        {isFar ? x - origin.x : x, isFar ? y - origin.y : y, 0.0});
 }
 
-Expr distanceTo(Points points, const Rectangle& box) {
-  return points.size() > kMostSides ? fieldOf(std::move(points), box) : formulaOf(points);
+Expr distanceTo(const Points& points, const Rectangle& box) {
+  if (points.size() <= kMostSides) return formulaOf(points);
+  ArcContour contour;
+  for (const glm::dvec2& p : points) contour.push_back({p, 0.0});
+  return fieldOf({std::move(contour)}, box);
 }
 
 }  // namespace
@@ -167,7 +172,35 @@ Shape polygon(std::span<const glm::dvec2> given) {
   points = oriented(std::move(points));
   Rectangle box;
   for (const glm::dvec2& p : points) box.add(p);
-  return flat(distanceTo(std::move(points), box), box.lo, box.hi);
+  return flat(distanceTo(points, box), box.lo, box.hi);
+}
+
+namespace {
+
+bool isFinite(const Outline& outline) {
+  const auto good = [](const glm::dvec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+  return std::ranges::all_of(outline.contours, [&](const Contour& contour) {
+    return good(contour.from) && std::ranges::all_of(contour.curves, [&](const Curve& c) {
+             return good(c.control[0]) && good(c.control[1]) && good(c.to);
+           });
+  });
+}
+
+}  // namespace
+
+Shape outline(const Outline& curves, double tolerance, const std::string& name) {
+  Check c(name);
+  c.that(isFinite(curves), "its points must be finite");
+  c.that(std::isfinite(tolerance) && tolerance > 0.0,
+         "its tolerance must be positive, got " + shown(tolerance));
+  if (!c.ok()) return c.failure();
+  const auto border = boundaryOf(arcContours(curves, tolerance), curves.rule);
+  c.that(border.ok(), border ? "" : border.error().message);
+  c.that(!border || !border->empty(), "it encloses no area");
+  if (!c.ok()) return c.failure();
+  Rectangle box;
+  for (const Arc& arc : arcsOf(*border)) box.add(arc.box());
+  return flat(fieldOf(*border, box), box.lo, box.hi);
 }
 
 }  // namespace sdf

@@ -52,14 +52,9 @@ struct Content {
   bool isGood(double patchError) const { return isPatch ? error <= patchError : sides.size() <= kLongList; }
 };
 
-double squaredTo(const PolygonSide& side, const glm::dvec2& p) { return side.placeOf(p).squared(); }
-
 // Does a segment pass through a box? By where it lies along the axes, and then across itself.
-bool passes(const PolygonSide& s, const Rectangle& box) {
-  Rectangle own;
-  own.add(s.from);
-  own.add(s.from + s.size * s.along);
-  if (!own.meets(box)) return false;
+bool passes(const Arc& s, const Rectangle& box) {
+  if (!s.box().meets(box)) return false;
   const glm::dvec2 middle = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
   const double reach = std::abs(s.along.y) * half.x + std::abs(s.along.x) * half.y;
   return std::abs(s.placeOf(middle).out) <= reach;
@@ -69,20 +64,32 @@ std::array<glm::dvec2, 4> cornersOf(const Rectangle& box) {
   return {box.lo, {box.hi.x, box.lo.y}, {box.lo.x, box.hi.y}, box.hi};
 }
 
-// The least squared distance: at a corner of the box or an end of the side, unless they meet.
-double leastSquared(const PolygonSide& s, const Rectangle& box) {
-  if (passes(s, box)) return 0.0;
-  const glm::dvec2 to = s.from + s.size * s.along;
-  double least = std::min(box.squaredTo({s.from, s.from}), box.squaredTo({to, to}));
-  for (const glm::dvec2& corner : cornersOf(box)) least = std::min(least, squaredTo(s, corner));
-  return least;
+/// What all distances between a side and the points of a box are at least, and at most, squared.
+struct Bounds {
+  double least, most;
+};
+
+// The least is at a corner of the box or an end of the segment, unless they meet. The greatest is at a
+// corner, for the distance to a segment is convex.
+Bounds segmentBounds(const Arc& s, const Rectangle& box) {
+  double most = 0.0, least = std::min(box.squaredTo({s.from, s.from}), box.squaredTo({s.to, s.to}));
+  for (const glm::dvec2& corner : cornersOf(box)) {
+    const double squared = s.placeOf(corner).squared();
+    least = std::min(least, squared), most = std::max(most, squared);
+  }
+  return {passes(s, box) ? 0.0 : least, most};
 }
 
-// The greatest: the distance to a side is convex, so it is at a corner.
-double greatestSquared(const PolygonSide& s, const Rectangle& box) {
-  double most = 0.0;
-  for (const glm::dvec2& corner : cornersOf(box)) most = std::max(most, squaredTo(s, corner));
-  return most;
+// An arc is no farther from its chord than its sagitta; and nowhere in the box is it nearer or farther than
+// from its middle by more than half the diagonal.
+Bounds boundsOf(const PolygonSide& s, const Rectangle& box) {
+  if (s.curvature == 0.0) return segmentBounds(s, box);
+  const Bounds chord = segmentBounds(Arc::through({s.from, 0.0}, s.to), box);
+  const glm::dvec2 middle = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
+  const double far = std::sqrt(s.placeOf(middle).squared()), reach = std::hypot(half.x, half.y);
+  const double least = std::max({0.0, far - reach, std::sqrt(chord.least) - s.sagitta()});
+  const double most = std::min(far + reach, std::sqrt(chord.most) + s.sagitta());
+  return {least * least, most * most};
 }
 
 // The sides that may be nearest to a point of the box, one of which is `near`; more than `limit` may be any.
@@ -90,17 +97,22 @@ std::vector<std::uint32_t> sidesFor(const PolygonDistance& distance, const Recta
                                     std::size_t limit) {
   constexpr double kSlack = 1.0 + 1e-6;  // of floats that come to lie beside the box
   const std::vector<PolygonSide>& sides = distance.sides();
-  double most = greatestSquared(sides[near], box);
+  double most = boundsOf(sides[near], box).most;
   const auto mayBeNearest = [&](const Rectangle& other) { return box.squaredTo(other) <= kSlack * most; };
   std::vector<std::uint32_t> found;
+  std::vector<double> least;
   distance.tree().any(mayBeNearest, [&](std::size_t i) {
-    if (leastSquared(sides[i], box) > kSlack * most) return false;
+    const Bounds bounds = boundsOf(sides[i], box);
+    if (bounds.least > kSlack * most) return false;
     found.push_back(static_cast<std::uint32_t>(i));
-    most = std::min(most, greatestSquared(sides[i], box));
+    least.push_back(bounds.least);
+    most = std::min(most, bounds.most);
     return found.size() > limit;
   });
-  std::erase_if(found, [&](std::uint32_t i) { return leastSquared(sides[i], box) > kSlack * most; });
-  return found;
+  std::vector<std::uint32_t> nearest;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (least[i] <= kSlack * most) nearest.push_back(found[i]);
+  return nearest;
 }
 
 // Hermite's polynomials over [0, 1] of the values and of the slopes at both ends.
@@ -236,7 +248,12 @@ class CellWriter {
     for (const std::uint32_t i : sides) {
       const PolygonSide& s = distance_.sides()[i];
       texels_.push_back(texelOf(s.from.x, s.from.y, s.along.x, s.along.y));
-      texels_.push_back(texelOf(s.size, -s.atFrom, s.atTo, 0.0));
+      if (distance_.hasArcs()) {
+        texels_.push_back(texelOf(s.to.x, s.to.y, s.alongTo.x, s.alongTo.y));
+        texels_.push_back(texelOf(-s.atFrom, s.atTo, s.curvature, 0.0));
+      } else {
+        texels_.push_back(texelOf(s.size, -s.atFrom, s.atTo, 0.0));
+      }
     }
   }
 
@@ -261,14 +278,10 @@ class CellWriter {
 
 PolygonCells::PolygonCells(const PolygonDistance& distance) { CellWriter(distance, *this).run(); }
 
-// A cell's texel names the first texel of what it holds, and then how many sides: 0 where it is divided, -1
-// where it has a patch.
-std::string PolygonCells::glsl(const std::string& name) {
-  std::string text = R"(
-uniform sampler3D NAMECells;
-vec4 NAMETexel(int i) { return texelFetch(NAMECells, ivec3(i & 255, (i >> 8) & 255, i >> 16), 0); }
+namespace {
 
-vec3 NAMENearest(vec2 p, int first, int count) {
+// Of the sides in a list, which are segments: each has two texels.
+constexpr const char* kNearestSegment = R"(vec3 NAMENearest(vec2 p, int first, int count) {
   float least = 3e38, turn = 0.0;
   vec2 along = vec2(1.0, 0.0), place = vec2(0.0);
   for (int i = 0; i < count; ++i) {
@@ -289,7 +302,51 @@ vec3 NAMENearest(vec2 p, int first, int count) {
   float far = (place.x + turn * place.y > 0.0 ? 1.0 : -1.0) * sqrt(least);
   return vec3(far, (place.x * normal + place.y * along) / far);
 }
+)";
 
+// Of arcs, which have three; of a segment the circle's equation leaves the distance to its line.
+constexpr const char* kNearestArc = R"(vec3 NAMENearest(vec2 p, int first, int count) {
+  float least = 3e38, turn = 0.0;
+  vec2 along = vec2(1.0, 0.0), place = vec2(0.0), radius = vec2(1.0, 0.0);
+  for (int i = 0; i < count; ++i) {
+    vec4 start = NAMETexel(first + 3 * i), end = NAMETexel(first + 3 * i + 1);
+    vec3 more = NAMETexel(first + 3 * i + 2).xyz;
+    vec2 r = p - start.xy, q = p - end.xy, towards = vec2(1.0, 0.0);
+    vec2 at = vec2(r.x * start.w - r.y * start.z, dot(r, start.zw));
+    float past = dot(q, end.zw);
+    bool isAtEnd = past > 0.0 && (at.y >= 0.0 || dot(q, q) < dot(r, r));
+    if (isAtEnd) {
+      at = vec2(q.x * end.w - q.y * end.z, past);
+    } else if (at.y >= 0.0) {
+      towards = vec2(1.0 + more.z * at.x, more.z * at.y);
+      at = vec2((more.z * dot(r, r) + 2.0 * at.x) / (1.0 + length(towards)), 0.0);
+    }
+    float squared = dot(at, at);
+    if (squared < least) {
+      least = squared;
+      place = at;
+      along = isAtEnd ? end.zw : start.zw;
+      radius = towards;
+      turn = at.y < 0.0 ? more.x : more.y;
+    }
+  }
+  vec2 normal = vec2(along.y, -along.x);
+  if (place.y == 0.0) return vec3(place.x, (radius.x * normal + radius.y * along) / max(length(radius), 1e-30));
+  float far = (place.x + turn * place.y > 0.0 ? 1.0 : -1.0) * sqrt(least);
+  return vec3(far, (place.x * normal + place.y * along) / far);
+}
+)";
+
+}  // namespace
+
+// A cell's texel names the first texel of what it holds, and then how many sides: 0 where it is divided, -1
+// where it has a patch.
+std::string PolygonCells::glsl(const std::string& name, bool hasArcs) {
+  std::string text = R"(
+uniform sampler3D NAMECells;
+vec4 NAMETexel(int i) { return texelFetch(NAMECells, ivec3(i & 255, (i >> 8) & 255, i >> 16), 0); }
+
+NEAREST
 vec3 NAMEPatch(vec2 t, int first, float side) {
   vec4 f = NAMETexel(first), fx = NAMETexel(first + 1), fy = NAMETexel(first + 2);
   vec2 s = 1.0 - t, v = t * t * (3.0 - 2.0 * t), u = 1.0 - v, a = t * s * s, b = -t * t * s;
@@ -324,8 +381,10 @@ vec3 NAMERead(vec2 p) {
 float NAME(vec3 p) { return NAMERead(p.xy).x; }
 vec3 NAMESlopes(vec3 p) { return vec3(NAMERead(p.xy).yz, 0.0); }
 )";
-  const std::pair<std::string, std::string> words[] = {
-      {"NAME", name}, {"LEVELS", std::to_string(kMostLevels)}, {"PARTS", std::to_string(kParts) + ".0"}};
+  const std::pair<std::string, std::string> words[] = {{"NEAREST", hasArcs ? kNearestArc : kNearestSegment},
+                                                       {"NAME", name},
+                                                       {"LEVELS", std::to_string(kMostLevels)},
+                                                       {"PARTS", std::to_string(kParts) + ".0"}};
   for (const auto& [word, with] : words)
     for (std::size_t at; (at = text.find(word)) != std::string::npos;) text.replace(at, word.size(), with);
   return text;

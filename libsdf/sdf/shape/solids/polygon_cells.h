@@ -1,4 +1,4 @@
-// The distance to a polygon as a texture for shaders. Private to shape/.
+// The distance to a polygon, or to contours of arcs, as a texture for shaders. Private to shape/.
 #pragma once
 #include <string>
 
@@ -26,9 +26,9 @@ struct PolygonCells {
   /// most.
   explicit PolygonCells(const PolygonDistance& distance);
 
-  /// GLSL of `float NAME(vec3 p)` and `vec3 NAMESlopes(vec3 p)`, the same for all polygons; see
-  /// Payload::glsl.
-  static std::string glsl(const std::string& name);
+  /// GLSL of `float NAME(vec3 p)` and `vec3 NAMESlopes(vec3 p)`, the same for all polygons, and for all
+  /// outlines that have arcs; see Payload::glsl.
+  static std::string glsl(const std::string& name, bool hasArcs);
 };
 
 }  // namespace sdf

@@ -18,14 +18,20 @@ double sizeOf(const PolygonDistance& distance, const glm::dvec2& p) {
 
 }  // namespace
 
-std::shared_ptr<const PolygonField> PolygonField::of(std::vector<glm::dvec2> corners) {
+std::shared_ptr<const PolygonField> PolygonField::of(std::span<const glm::dvec2> corners) {
+  ArcContour contour;
+  for (const glm::dvec2& p : corners) contour.push_back({p, 0.0});
+  return of(std::vector<ArcContour>{std::move(contour)});
+}
+
+std::shared_ptr<const PolygonField> PolygonField::of(std::vector<ArcContour> contours) {
   static std::mutex lock;
   static std::vector<std::weak_ptr<const PolygonField>> all;
   const std::lock_guard guard(lock);
   std::erase_if(all, [](const auto& field) { return field.expired(); });
   for (const auto& known : all)
-    if (auto field = known.lock(); field && field->corners_ == corners) return field;
-  const std::shared_ptr<const PolygonField> field(new PolygonField(std::move(corners)));
+    if (auto field = known.lock(); field && field->contours_ == contours) return field;
+  const std::shared_ptr<const PolygonField> field(new PolygonField(std::move(contours)));
   all.push_back(field);
   return field;
 }

@@ -1,8 +1,9 @@
-// Polygons of many sides as functions of a point. Private to shape/.
+// Polygons of many sides, and outlines of arcs, as functions of a point. Private to shape/.
 #pragma once
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sdf/expr/payload.h"
@@ -11,13 +12,15 @@
 
 namespace sdf {
 
-/// The signed distance to a simple polygon in the plane of the first two arguments; the third one is not
-/// read. Its slope is 1; over a box it is the value in the middle, more or less half the diagonal; shaders
-/// read it from PolygonCells.
+/// The signed distance to contours in the plane of the first two arguments; the third one is not read. Its
+/// slope is 1; over a box it is the value in the middle, more or less half the diagonal; shaders read it from
+/// PolygonCells.
 class PolygonField : public Payload {
  public:
-  /// The field of these corners (see PolygonDistance), the same one as long as there is one. Cost: n.
-  static std::shared_ptr<const PolygonField> of(std::vector<glm::dvec2> corners);
+  /// The field of these contours (see PolygonDistance), the same one as long as there is one. Cost: n.
+  static std::shared_ptr<const PolygonField> of(std::vector<ArcContour> contours);
+  /// That of a polygon's corners.
+  static std::shared_ptr<const PolygonField> of(std::span<const glm::dvec2> corners);
 
   const PolygonDistance& distance() const { return distance_; }
   /// What shaders read, made when it is first asked for.
@@ -31,14 +34,16 @@ class PolygonField : public Payload {
   double rounding(const glm::dvec3& p) const override;
   void values(const PayloadRows& p, std::size_t count, float* out) const override;
   void gradients(const PayloadRows& p, std::size_t count, const std::array<float*, 4>& out) const override;
-  std::string glsl(const std::string& name) const override { return PolygonCells::glsl(name); }
+  std::string glsl(const std::string& name) const override {
+    return PolygonCells::glsl(name, distance_.hasArcs());
+  }
   std::span<const PayloadVolume> volumes() const override { return {&cells().volume, 1}; }
-  std::string_view kind() const override { return "polygon"; }
+  std::string_view kind() const override { return distance_.hasArcs() ? "outline" : "polygon"; }
 
  private:
-  explicit PolygonField(std::vector<glm::dvec2> corners)
-      : corners_(std::move(corners)), distance_(corners_) {}
-  std::vector<glm::dvec2> corners_;
+  explicit PolygonField(std::vector<ArcContour> contours)
+      : contours_(std::move(contours)), distance_(contours_) {}
+  std::vector<ArcContour> contours_;
   PolygonDistance distance_;
   mutable std::once_flag made_;
   mutable std::optional<PolygonCells> cells_;

@@ -1,55 +1,58 @@
 #include "sdf/shape/solids/polygon_tree.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sdf {
 namespace {
 
-double crossOf(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-
-// The tangent of half the angle from one direction to another one, counter-clockwise.
-double tangentOfHalf(const glm::dvec2& from, const glm::dvec2& to) {
-  const double sine = crossOf(from, to), cosine = from.x * to.x + from.y * to.y;
-  return cosine >= 0.0 ? sine / (1.0 + cosine) : (1.0 - cosine) / sine;
+// The tangent of half the angle by which an outline turns to the left at a corner. Where it comes straight
+// back there is hardly any inside or hardly any outside between the two, as they bend.
+double tangentOfHalf(const Arc& in, const Arc& out) {
+  constexpr double kStraightBack = 1e-9;
+  const double sine = crossOf(in.alongTo, out.along), cosine = dotOf(in.alongTo, out.along);
+  if (cosine >= 0.0) return sine / (1.0 + cosine);
+  if (std::abs(sine) < kStraightBack && in.curvature + out.curvature != 0.0)
+    return in.curvature + out.curvature < 0.0 ? 1.0 / kStraightBack : -1.0 / kStraightBack;
+  return (1.0 - cosine) / sine;
 }
 
-std::vector<PolygonSide> sidesOf(std::span<const glm::dvec2> corners) {
-  const std::size_t n = corners.size();
-  std::vector<PolygonSide> sides(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const glm::dvec2 way = corners[(i + 1) % n] - corners[i];
-    const double size = std::hypot(way.x, way.y);
-    sides[i] = {corners[i], way / size, size, 0.0, 0.0};
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    PolygonSide& next = sides[(i + 1) % n];
-    sides[i].atTo = next.atFrom = tangentOfHalf(sides[i].along, next.along);
+std::vector<PolygonSide> sidesOf(const std::vector<ArcContour>& contours) {
+  std::vector<PolygonSide> sides;
+  for (const Arc& arc : arcsOf(contours)) sides.push_back({arc, 0.0, 0.0});
+  std::size_t first = 0;
+  for (const ArcContour& c : contours) {
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      PolygonSide &side = sides[first + i], &next = sides[first + (i + 1) % c.size()];
+      side.atTo = next.atFrom = tangentOfHalf(side, next);
+    }
+    first += c.size();
   }
   return sides;
 }
 
-}  // namespace
-
-SideTree::SideTree(std::span<const glm::dvec2> points) : size_(points.size()) {
-  std::vector<Rectangle> boxes((size_ + kLeaf - 1) / kLeaf);
-  for (std::size_t i = 0; i < size_; ++i) {
-    boxes[i / kLeaf].add(points[i]);
-    boxes[i / kLeaf].add(points[(i + 1) % size_]);
-  }
-  levels_.push_back(std::move(boxes));
-  while (levels_.back().size() > 1) {
-    const std::vector<Rectangle>& below = levels_.back();
-    std::vector<Rectangle> level((below.size() + 1) / 2);
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      level[i / 2].add(below[i].lo);
-      level[i / 2].add(below[i].hi);
-    }
-    levels_.push_back(std::move(level));
-  }
+std::vector<ArcContour> contoursOf(std::span<const glm::dvec2> corners) {
+  std::vector<ArcContour> contours(1);
+  for (const glm::dvec2& p : corners) contours[0].push_back({p, 0.0});
+  return contours;
 }
 
+SideTree treeOver(const std::vector<PolygonSide>& sides) {
+  std::vector<Rectangle> boxes;
+  for (const PolygonSide& side : sides) boxes.push_back(side.box());
+  return SideTree(boxes);
+}
+
+}  // namespace
+
 PolygonDistance::PolygonDistance(std::span<const glm::dvec2> corners)
-    : tree_(corners), sides_(sidesOf(corners)) {}
+    : PolygonDistance(contoursOf(corners)) {}
+
+PolygonDistance::PolygonDistance(const std::vector<ArcContour>& contours)
+    : contours_(contours.size()), sides_(sidesOf(contours)), tree_(treeOver(sides_)) {
+  hasArcs_ = std::ranges::any_of(sides_, [](const PolygonSide& s) { return s.curvature != 0.0; });
+}
 
 PolygonDistance::Read PolygonDistance::read(const glm::dvec2& p, std::uint32_t hint) const {
   std::uint32_t nearest = hint;
@@ -61,11 +64,12 @@ PolygonDistance::Read PolygonDistance::read(const glm::dvec2& p, std::uint32_t h
     nearest = static_cast<std::uint32_t>(i), place = other, least = other.squared();
   });
   const PolygonSide& side = sides_[nearest];
-  const glm::dvec2 normal(side.along.y, -side.along.x);
+  if (place.past == 0.0) return {place.out, side.normalAt(p), nearest};
+  const glm::dvec2& along = place.past < 0.0 ? side.along : side.alongTo;
+  const glm::dvec2 normal(along.y, -along.x);
   const double sign = side.isOutside(place) ? 1.0 : -1.0;
   const double far = std::hypot(place.out, place.past);
-  if (place.past == 0.0) return {place.out, normal, nearest};
-  return {sign * far, (place.out * normal + place.past * side.along) * (sign / far), nearest};
+  return {sign * far, (place.out * normal + place.past * along) * (sign / far), nearest};
 }
 
 }  // namespace sdf
