@@ -1,10 +1,9 @@
 #include "sdf/meshfile/mesh_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <system_error>
 
+#include "sdf/base/read_file.h"
 #include "sdf/base/utf8.h"
 #include "sdf/meshfile/read_mesh.h"
 
@@ -13,29 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error noReading(const fs::path& file, int reason) {
-  const char* advice = reason == ENOENT || reason == ENOTDIR ? "check its name" : "check who may read it";
-  return unreadable(file, std::generic_category().message(reason) + "; " + advice);
-}
-
-Error tooLarge(const fs::path& file, std::uintmax_t bytes) {
-  const auto megabytes = [](std::uintmax_t b) { return std::to_string(b / 1'000'000) + " MB"; };
-  return {ErrorKind::Limits,
-          unreadable(file, "it has " + megabytes(bytes) + ", and files of up to " +
-                               megabytes(kMostReadBytes) + " are read; simplify it or split it up")
-              .message};
-}
-
 /// Is `inner` below `folder`? Both are canonical.
 bool isBelow(const fs::path& folder, const fs::path& inner) {
   return std::mismatch(folder.begin(), folder.end(), inner.begin(), inner.end()).first == folder.end();
 }
 
 }  // namespace
-
-Error unreadable(const fs::path& file, const std::string& why) {
-  return {ErrorKind::Files, "cannot read '" + file.string() + "': " + why};
-}
 
 Error tooManyTriangles(const fs::path& file) {
   return {ErrorKind::Limits, unreadable(file, "it has more than " + std::to_string(kMostReadTriangles) +
@@ -60,24 +42,9 @@ void warn(std::vector<std::string>& warnings, const std::string& warning) {
 }
 
 Result<MeshFile> readWhole(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::directory) return unreadable(file, "it is a folder; name a file in it");
-  if (!fs::exists(status)) return noReading(file, error ? error.value() : ENOENT);
-  if (!fs::is_regular_file(status)) return unreadable(file, "it is no ordinary file; name another");
-
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return noReading(file, errno != 0 ? errno : EACCES);
-  MeshFile whole{file, {}};
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error) return noReading(file, error.value());
-  if (size == 0) return unreadable(file, "it is empty");
-  if (size > kMostReadBytes) return tooLarge(file, size);
-  whole.bytes.resize(size);
-  in.read(whole.bytes.data(), static_cast<std::streamsize>(size));
-  if (in.gcount() != static_cast<std::streamsize>(size)) return noReading(file, EIO);
-  return whole;
+  Result<std::string> bytes = readFile(file, kMostReadBytes, "simplify it or split it up");
+  if (!bytes) return bytes.error();
+  return MeshFile{file, std::move(*bytes)};
 }
 
 Result<MeshFile> readBeside(const fs::path& from, const std::string& name) {
@@ -91,7 +58,7 @@ Result<MeshFile> readBeside(const fs::path& from, const std::string& name) {
   if (relative.is_absolute() || *relative.lexically_normal().begin() == "..") return outside();
   std::error_code error;
   const fs::path folder = fs::canonical(from.has_parent_path() ? from.parent_path() : fs::path("."), error);
-  if (error) return noReading(from, error.value());
+  if (error) return unreadable(from, error.value());
   const fs::path target = fs::canonical(folder / relative, error);
   if (error) {
     return unreadable(from, "the file " + inQuotes(name) + " that it names: " +

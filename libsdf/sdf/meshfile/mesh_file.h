@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sdf/base/read_file.h"
 #include "sdf/base/result.h"
 
 namespace sdf {
@@ -14,8 +15,6 @@ struct MeshFile {
   std::string bytes;
 };
 
-/// "cannot read 'path': why".
-Error unreadable(const std::filesystem::path& file, const std::string& why);
 /// The error for a file with more triangles than readMesh takes.
 Error tooManyTriangles(const std::filesystem::path& file);
 
