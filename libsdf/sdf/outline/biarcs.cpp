@@ -48,30 +48,28 @@ ArcCorner arcTo(const glm::dvec2& from, const glm::dvec2& along, const glm::dvec
   return {from, crossOf(along, chord) / (lengthOf(chord) + dotOf(along, chord))};
 }
 
-// Where the two arcs meet that go from the curve's first end to its last one in its directions, those from
-// the ends to the tangents' crossing being as long as one another. Nothing where they would turn by much.
-std::optional<glm::dvec2> jointOf(const Bezier& b, const glm::dvec2& start, const glm::dvec2& end) {
-  const glm::dvec2 way = b.last() - b.first(), sum = start + end;
-  if (dotOf(way, start) <= 0.5 * lengthOf(way) || dotOf(way, end) <= 0.5 * lengthOf(way)) return {};
-  const double along = dotOf(way, sum), squared = dotOf(way, way);
-  const double d = squared / (along + std::sqrt(along * along + 2.0 * (1.0 - dotOf(start, end)) * squared));
-  return 0.5 * (b.first() + b.last() + d * (start - end));
+// A direction, mirrored in a chord: that of an arc at the chord's other end.
+glm::dvec2 acrossArc(const glm::dvec2& direction, const glm::dvec2& chord) {
+  return chord * (2.0 * dotOf(direction, chord) / dotOf(chord, chord)) - direction;
 }
 
-// Where the curve, which begins before the line through a point across a direction, comes to it.
-double parameterAt(const Bezier& b, const glm::dvec2& point, const glm::dvec2& across) {
-  double lo = 0.0, hi = 1.0, t = 0.5;
-  double low = dotOf(b.first() - point, across), high = dotOf(b.last() - point, across);
-  for (int i = 0; i < 40 && hi - lo > 1e-15; ++i) {
-    // Halving now and then keeps the secant from leaving one end where it is.
-    t = i % 3 == 2 || !(high > low) ? 0.5 * (lo + hi) : lo + (hi - lo) * (-low / (high - low));
-    t = std::clamp(t, lo, hi);
-    const double f = dotOf(b.at(t) - point, across);
-    if (std::abs(f) < 1e-15 * (high - low)) break;
-    (f < 0.0 ? lo : hi) = t;
-    (f < 0.0 ? low : high) = f;
+// Where on the curve two arcs may meet that leave its ends in its directions, having one direction there: by
+// the secant method. Nothing where they would turn by much, or it is too close to an end.
+std::optional<double> jointOf(const Bezier& b, const glm::dvec2& start, const glm::dvec2& end) {
+  const glm::dvec2 way = b.last() - b.first();
+  if (dotOf(way, start) <= 0.5 * lengthOf(way) || dotOf(way, end) <= 0.5 * lengthOf(way)) return {};
+  constexpr double kStraight = 1e-11, kMargin = 0.1;
+  const auto turnAt = [&](double t) {
+    const glm::dvec2 joint = b.at(t);
+    return crossOf(acrossArc(start, joint - b.first()), acrossArc(end, b.last() - joint));
+  };
+  double t = 0.5, before = 0.45, turn = turnAt(t), turnBefore = turnAt(before);
+  for (int i = 0; i < 12 && !(std::abs(turn) <= kStraight); ++i) {
+    const double next = t - turn * (t - before) / (turn - turnBefore);
+    before = t, turnBefore = turn;
+    t = std::clamp(next, kMargin, 1.0 - kMargin), turn = turnAt(t);
   }
-  return t;
+  return std::abs(turn) <= kStraight ? std::optional(t) : std::nullopt;
 }
 
 // Is the curve, whose ends are those of the arc, nowhere farther from it than that? Along it the circle's
@@ -152,13 +150,14 @@ class ContourWriter {
   bool writeArcs(const Bezier& b) {
     const glm::dvec2 start = directionAtStart(b), end = directionAtEnd(b);
     const auto joint = jointOf(b, start, end);
-    if (!joint || *joint == b.first() || *joint == b.last()) return false;
-    const ArcCorner first = arcTo(b.first(), start, *joint);
+    if (!joint) return false;
+    const auto parts = b.cut(*joint);
+    const glm::dvec2& middle = parts.second.first();
+    const ArcCorner first = arcTo(b.first(), start, middle);
     // The second one as it comes back from the end.
-    const ArcCorner second{*joint, -arcTo(b.last(), -end, *joint).bulge};
-    const Arc a = Arc::through(first, *joint), c = Arc::through(second, b.last());
-    const auto parts = b.cut(parameterAt(b, *joint, a.alongTo));
-    if (!isNear(parts.first, a, tolerance_) || !isNear(parts.second, c, tolerance_)) return false;
+    const ArcCorner second{middle, -arcTo(b.last(), -end, middle).bulge};
+    if (!isNear(parts.first, Arc::through(first, middle), tolerance_)) return false;
+    if (!isNear(parts.second, Arc::through(second, b.last()), tolerance_)) return false;
     corners_.push_back(first);
     corners_.push_back(second);
     return true;

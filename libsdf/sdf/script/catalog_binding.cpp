@@ -8,6 +8,7 @@
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/script/meshes.h"
+#include "sdf/script/outlines.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/solids/solids.h"
@@ -401,22 +402,14 @@ int importedMesh(lua_State* L) {
   const FieldValues given = readFields(L, 2, f);
   const int voxels = valueOr(given, "voxels", 128);
   if (const Status s = MeshField::checkVoxels(voxels); !s) raise(L, f.name + ": " + s.error().message);
-  const auto addOnce = [](std::vector<std::string>& all, const std::string& one) {
-    if (std::ranges::find(all, one) == all.end()) all.push_back(one);
-  };
-  const auto goOnWithout = [&](const std::string& why) {
-    if (!c.options.withoutMissing) raise(L, why);
-    addOnce(c.scene.missing, c.file + ":" + std::to_string(currentLine(L)) + ": " + why);
-    return pushShape(L, Shape::failed(why)), 1;
-  };
-  const auto file = permitted(name, c.file, c.options);
-  if (!file) return goOnWithout(file.error().message);
+  const auto file = permitted(name, c.file, c.options, f.name);
+  if (!file) return pushMissing(L, file.error().message);
   addOnce(c.scene.files, file->string());
   const auto began = std::chrono::steady_clock::now();
   const auto read = meshField(*file, voxels, c.options.meshCache);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   if (took > c.slowestRead) c.slowestRead = took, c.slowestMesh = name;
-  if (!read) return goOnWithout(read.error().message);
+  if (!read) return pushMissing(L, read.error().message);
   if (!read->note.empty()) addOnce(c.scene.notes, name + ": " + read->note);
   return pushGood(L, triangleSolid(read->field));
 }
@@ -471,6 +464,15 @@ const std::vector<FunctionInfo>& shapeLibrary() {
        "the solid that the triangles of a file enclose: .glb, .gltf, .obj, .stl or .ply, in the scene's folder or below it, or in one that `--allow-dir` names. Holes are closed. An edge has at most 2,000 triangles. Its distance is exact; `sdfview` reads it from samples",
        {{"voxels", Integer, "how fine the samples of `sdfview` are: so many along the longest side, from 16 to 1024", Rule::Positive, {}, "128"}},
        importedMesh},
+      {"text",
+       "text(\"SDF\", {font = \"DejaVu Sans\", size = 1, align = \"left\"})",
+       "flat letters, to be extruded; `\\n` begins a line. The first line stands on y = 0. Kerning, ligatures and the direction of a line are those of its script. Exact to the letters' outlines within 1e-5 of their size; letters that overlap are one",
+       {{"font", Text, "a font's file (.ttf, .otf, .ttc, .otc, .woff, .woff2) in the scene's folder or below it, or in one that `--allow-dir` names; or a family that the machine has, as `\"DejaVu Serif:bold\"`: another machine may have another font of that name, or none", Rule::Any, {}, "\"DejaVu Sans\""},
+        {"size", SettingKind::Number, "the font's size, its em; capitals have some 0.7 of it", Rule::Positive, {}, "1"},
+        {"align", Choice, "of the lines, at x = 0", Rule::Any, {"left", "center", "right"}, "\"left\""},
+        {"spacing", PlainNumber, "more room between letters, in sizes of the font; there are no ligatures then", Rule::Any, {}, "0"},
+        {"line_spacing", PlainNumber, "from one line to the next, in what the font says", Rule::Any, {}, "1"}},
+       textShape},
   };
   return library;
 }

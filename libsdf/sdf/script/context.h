@@ -64,6 +64,12 @@ ScriptContext& contextOf(lua_State* L);
 /// error names file and line. Shapes that the script returns become unnamed parts.
 Status runInSandbox(ScriptContext& context, const std::string& text);
 
+/// Adds a text to a list that lacks it.
+void addOnce(std::vector<std::string>& all, const std::string& one);
+/// Pushes a shape that stands for what a file would have given, and notes that it is missing; or ends the
+/// script with the reason, unless ScriptOptions::withoutMissing. Returns 1, the number of results.
+int pushMissing(lua_State* L, const std::string& why);
+
 /// Ends the run if it has taken too long; collects garbage when dropped graphs have piled up. Every library
 /// function calls it, for one call can do the work of many instructions.
 void checkLimits(lua_State* L);

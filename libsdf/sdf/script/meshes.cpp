@@ -53,7 +53,8 @@ std::string noteOf(const MeshField& field, const std::vector<std::string>& warni
 
 }  // namespace
 
-Result<fs::path> permitted(const std::string& name, const fs::path& scene, const ScriptOptions& options) {
+Result<fs::path> permitted(const std::string& name, const fs::path& scene, const ScriptOptions& options,
+                           const std::string& function) {
   std::error_code code;
   const fs::path own = fs::weakly_canonical(fs::absolute(scene), code).parent_path();
   const fs::path file = fs::weakly_canonical(own / name, code);
@@ -61,7 +62,7 @@ Result<fs::path> permitted(const std::string& name, const fs::path& scene, const
   for (const fs::path& folder : options.folders) folders.push_back(fs::weakly_canonical(folder, code));
   if (std::ranges::any_of(folders, [&](const fs::path& folder) { return isWithin(file, folder); }))
     return file;
-  return Error{ErrorKind::Scene, "mesh: '" + name +
+  return Error{ErrorKind::Scene, function + ": '" + name +
                                      "' lies outside of the scene's folder; move it there, or allow " +
                                      "its folder with --allow-dir " + file.parent_path().string()};
 }

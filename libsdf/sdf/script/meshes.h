@@ -1,4 +1,4 @@
-// Triangle meshes that scripts name. Private to script/.
+// Files that scripts name, and the triangle meshes among them. Private to script/.
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace sdf {
 
-/// The file that a scene names, if it may read it: one in the scene's folder or below it, or in a folder that
-/// the options allow. Links are followed before. Errors: Scene.
+/// The file that a scene names in a call of `function`, if it may read it: one in the scene's folder or below
+/// it, or in a folder that the options allow. Links are followed before. Errors: Scene.
 Result<std::filesystem::path> permitted(const std::string& name, const std::filesystem::path& scene,
-                                        const ScriptOptions& options);
+                                        const ScriptOptions& options, const std::string& function);
 
 /// A mesh as a field, and what a scene's author should know of it: what the reader warned of, holes that were
 /// closed, surfaces that cross; or "".
