@@ -53,7 +53,7 @@ struct Reference {
 // Borders of what overlaps are the union's; the reference has points 5e-3 apart.
 void expectTheBorder(const Outline& outline, unsigned seed) {
   const Reference reference(outline, 300);
-  const Shape shape = sdf::outline(outline, 1e-6);
+  const Shape shape = sdf::outline(outline, {1e-6, 1e-4});
   ASSERT_TRUE(shape.ok()) << *shape.error;
   const Tape tape(shape.distance);
   std::mt19937 random(seed);
@@ -139,7 +139,7 @@ TEST(Outline, IsTheDistanceToTheArcsInDouble) {
 TEST(Outline, IsAsNearToTheCurveAsItsTolerance) {
   const Contour contour{{-1, 0}, {{1, {{0, 2}}, {1, 0}}, {0, {}, {-1, 0}}}};
   for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
-    const Shape shape = outline({{contour}}, tolerance);
+    const Shape shape = outline({{contour}}, {tolerance, 1e-4});
     ASSERT_TRUE(shape.ok());
     const Tape tape(shape.distance);
     double worst = 0.0;
@@ -155,17 +155,17 @@ TEST(Outline, IsAsNearToTheCurveAsItsTolerance) {
 }
 
 TEST(Outline, SaysWhatIsWrong) {
-  EXPECT_EQ(outline({}, 1e-6).error.value_or(""), "outline: it encloses no area");
+  EXPECT_EQ(outline({}, {1e-6, 1e-4}).error.value_or(""), "outline: it encloses no area");
   const Contour line{{0, 0}, {{0, {}, {1, 0}}}};
-  EXPECT_EQ(outline({{line}}, 1e-6, "text").error.value_or(""), "text: it encloses no area");
+  EXPECT_EQ(outline({{line}}, {1e-6, 1e-4}, "text").error.value_or(""), "text: it encloses no area");
   const Contour bad{{0, 0}, {{0, {}, {NAN, 0}}, {0, {}, {1, 1}}}};
-  EXPECT_EQ(outline({{bad}}, 1e-6).error.value_or(""), "outline: its points must be finite");
-  EXPECT_EQ(outline({{test::roundContour({}, 1.0)}}, 0.0).error.value_or(""),
-            "outline: its tolerance must be positive, got 0");
+  EXPECT_EQ(outline({{bad}}, {1e-6, 1e-4}).error.value_or(""), "outline: its points must be finite");
+  EXPECT_EQ(outline({{test::roundContour({}, 1.0)}}, {1e-6, 0.0}).error.value_or(""),
+            "outline: its tolerances must be positive, got 0");
 }
 
 TEST(Outline, HasTightBounds) {
-  const Shape shape = outline({{test::roundContour({2.0, 1.0}, 0.5)}}, 1e-7);
+  const Shape shape = outline({{test::roundContour({2.0, 1.0}, 0.5)}}, {1e-7, 1e-4});
   EXPECT_NEAR(shape.bounds.min.x, 1.5, 1e-6);
   EXPECT_NEAR(shape.bounds.max.x, 2.5, 1e-6);
   EXPECT_NEAR(shape.bounds.min.y, 0.5, 1e-6);

@@ -139,10 +139,13 @@ bool isPainted(const Shape& shape) {
   return false;
 }
 
-// The triangles of what is a mesh from a file alone, where a tolerance is to be kept.
+// Rounded vertices take the rest.
+constexpr double kHeldToByChords = 0.95;
+
+// The triangles of what is a mesh from a file alone, or an extruded outline, where a tolerance is to be kept.
 std::optional<PlacedTriangles> ownTriangles(const Shape& shape, const MeshOptions& options) {
   if (!(options.tolerance > 0.0) || isPainted(shape)) return {};
-  return placedTriangles(shape, options.values);
+  return placedTriangles(shape, options.values, kHeldToByChords * options.tolerance);
 }
 
 // A shape's samples at one resolution, and the mesh that is made of them.
@@ -179,8 +182,8 @@ class Mesher {
     const double finest = thins ? std::ldexp(h, -kHalvings) : h;
     const ModelTapes model = Model(shape).at(options_.values, Accuracy{*bounds, kReadWithin * finest});
     distance_ = shape.distance;
-    if (options_.keepsFiles)
-      if (auto own = ownTriangles(shape, options_))
+    if (auto own = ownTriangles(shape, options_))
+      if (options_.keepsFiles || own->offBy > 0.0)
         return takeTriangles(std::move(*own), shape, model, *bounds, h);
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
@@ -520,7 +523,8 @@ class Mesher {
     return kept;
   }
 
-  // A mesh from a file has its surface, but for the rounding of its vertices. The lattice is for normals.
+  // A mesh from a file has its surface, but for the rounding of its vertices; that of an outline is measured.
+  // The lattice is for normals.
   Result<MeshedShape> takeTriangles(PlacedTriangles own, const Shape& shape, const ModelTapes& model,
                                     const Box& bounds, double voxel) {
     Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, kCoarsest * voxel);
@@ -530,6 +534,7 @@ class Mesher {
     result_.stats.tolerance = options_.tolerance;
     round(own.mesh);
     lattice.mesh = std::move(own.mesh);
+    if (own.offBy > 0.0) return finish(shape, model, bounds, lattice);
     begin("measuring");
     measureRounding(lattice.mesh.positions, own.places, result_.stats);
     measureTopology(lattice.mesh.triangles, lattice.mesh.positions.size(), result_.stats);
@@ -787,7 +792,7 @@ Result<MeshedShape> meshOne(const Shape& shape, const std::string& name, const M
   Result<MeshedShape> made = Mesher(name, options, progress, isPiece).run(shape);
   if (options.keepsFiles || progress.stopped()) return made;
   const auto own = ownTriangles(shape, options);
-  if (!own || (made && made->stats.triangles < own->mesh.triangles.size())) return made;
+  if (!own || own->offBy > 0.0 || (made && made->stats.triangles < own->mesh.triangles.size())) return made;
   MeshOptions kept = options;
   kept.keepsFiles = true;
   return Mesher(name, kept, progress, isPiece).run(shape);

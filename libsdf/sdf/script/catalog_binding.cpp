@@ -466,7 +466,7 @@ const std::vector<FunctionInfo>& shapeLibrary() {
        importedMesh},
       {"text",
        "text(\"SDF\", {font = \"DejaVu Sans\", size = 1, align = \"left\"})",
-       "flat letters, to be extruded; `\\n` begins a line. The first line stands on y = 0. Kerning, ligatures and the direction of a line are those of its script. Exact to the letters' outlines within 1e-5 of their size; letters that overlap are one",
+       "flat letters, to be extruded; `\\n` begins a line. The first line stands on y = 0. Kerning, ligatures and the direction of a line are those of its script. Exact to the letters' outlines within 1e-6 of the font's size, and drawn by `sdfview` within 1e-4; letters that overlap are one",
        {{"font", Text, "a font's file (.ttf, .otf, .ttc, .otc, .woff, .woff2) in the scene's folder or below it, or in one that `--allow-dir` names; or a family that the machine has, as `\"DejaVu Serif:bold\"`: another machine may have another font of that name, or none", Rule::Any, {}, "\"DejaVu Sans\""},
         {"size", SettingKind::Number, "the font's size, its em; capitals have some 0.7 of it", Rule::Positive, {}, "1"},
         {"align", Choice, "of the lines, at x = 0", Rule::Any, {"left", "center", "right"}, "\"left\""},

@@ -25,7 +25,7 @@ int pushMissing(lua_State* L, const std::string& why) {
 
 namespace {
 
-constexpr double kCurveTolerance = 1e-5;  // of the font's size
+constexpr CurveTolerance kCurveTolerance{1e-6, 1e-4};  // of the font's size
 constexpr const char* kUsualFont = "DejaVu Sans";
 
 // The font of this name, a file or a family.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "outline/curves.h"
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/mesh/mesher.h"
 #include "sdf/shape/operators/operators.h"
@@ -34,7 +35,7 @@ Result<MeshedShape> meshed(const Shape& shape, MeshOptions options) {
 
 TEST(PlacedTriangles, AreTheFilesWithItsEdges) {
   const Shape shape = placed(boxOfTriangles());
-  const auto mesh = placedTriangles(shape, {});
+  const auto mesh = placedTriangles(shape, {}, 1e-3);
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->mesh.triangles.size(), 12u);
   EXPECT_EQ(mesh->mesh.positions.size(), 8u);
@@ -52,14 +53,14 @@ TEST(PlacedTriangles, FollowInputs) {
   const Expr turn = Expr::parameter({"turn", 0.0, -1.0, 1.0});
   const Shape shape = translate(rotate(boxOfTriangles(), Vec3E(0.0, turn, 0.0)), Vec3E(turn, 0.0, 0.0));
   const Values values{{"turn", 0.7}};
-  const auto mesh = placedTriangles(shape, values);
+  const auto mesh = placedTriangles(shape, values, 1e-3);
   ASSERT_TRUE(mesh);
   const TapePtr distance = Function(shape.distance).at(values);
   for (const glm::vec3& p : mesh->mesh.positions) EXPECT_NEAR(evaluate(*distance, p), 0.0, 1e-6);
 }
 
 TEST(PlacedTriangles, OfCurvesHaveNoEdges) {
-  const auto mesh = placedTriangles(meshOf(bumpyTorus(48)), {});
+  const auto mesh = placedTriangles(meshOf(bumpyTorus(48)), {}, 1e-3);
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->mesh.triangles.size(), 2u * 48 * 48);
   EXPECT_TRUE(mesh->mesh.creases.empty());
@@ -70,8 +71,9 @@ TEST(PlacedTriangles, AreThoseOfAPrism) {
   const Expr height = Expr::parameter({"height", 0.5, 0.1, 1.0});
   const Values values{{"height", 0.7}};
   const Shape prism = extrude(polygon(starCorners(100, 0.75)), height);
-  for (const Shape& shape : {prism, placed(prism), scale(prism, 3.0), translate(prism, Vec3E(3.0))}) {
-    const auto mesh = placedTriangles(shape, values);
+  for (const Shape& shape : {prism, placed(prism), scale(prism, 3.0), translate(prism, Vec3E(3.0)),
+                             extrude(scale(polygon(starCorners(100, 0.75)), 2.0), height)}) {
+    const auto mesh = placedTriangles(shape, values, 1e-3);
     ASSERT_TRUE(mesh);
     EXPECT_EQ(mesh->mesh.positions.size(), 400u);
     EXPECT_EQ(mesh->mesh.triangles.size(), 2u * 198 + 2u * 200);
@@ -88,26 +90,63 @@ TEST(PlacedTriangles, AreThoseOfAPrism) {
     EXPECT_EQ(made.stats.triangles, 796u);
     EXPECT_LE(made.stats.maxDistance, 1e-4);
   }
-  EXPECT_FALSE(placedTriangles(round(prism, 0.1), values));
-  EXPECT_FALSE(placedTriangles(revolve(polygon(starCorners(100, 0.75)), 3.0), values));
-  EXPECT_FALSE(placedTriangles(subtract({prism, sphere(0.2)}), values));
-  EXPECT_FALSE(placedTriangles(twist(prism, 0.5), values));
+  EXPECT_FALSE(placedTriangles(round(prism, 0.1), values, 1e-3));
+  EXPECT_FALSE(placedTriangles(revolve(polygon(starCorners(100, 0.75)), 3.0), values, 1e-3));
+  EXPECT_FALSE(placedTriangles(subtract({prism, sphere(0.2)}), values, 1e-3));
+  EXPECT_FALSE(placedTriangles(twist(prism, 0.5), values, 1e-3));
+}
+
+// Two rings, one in the other, and a drop with a corner: chords keep the tolerance, and are few.
+TEST(PlacedTriangles, AreThoseOfAnOutlineWithHoles) {
+  const auto ring = [](double radius, bool counterClockwise) {
+    return roundContour({0.2, -0.1}, radius, counterClockwise);
+  };
+  const Contour drop{{2.0, 0.0}, {{2, {{2.6, 0.8}, {1.4, 0.8}}, {2.0, 0.0}}}};
+  const Outline curves{{ring(1.0, true), ring(0.8, false), ring(0.6, true), ring(0.3, false), drop}};
+  const Shape prism = extrude(outline(curves, {1e-6, 1e-4}), 0.25);
+  for (const double tolerance : {3e-2, 1e-3, 1e-4})
+    for (const Shape& shape : {prism, placed(prism), scale(prism, -0.5),
+                               extrude(scale(outline(curves, {1e-6, 1e-4}), 2.0), 0.3)}) {
+      const auto made = meshed(shape, {.tolerance = tolerance});
+      ASSERT_TRUE(made.ok()) << made.error().message;
+      EXPECT_TRUE(made->stats.watertight && made->stats.manifold);
+      EXPECT_EQ(made->stats.crossings, 0u);
+      EXPECT_LE(made->stats.maxDistance, tolerance);
+      EXPECT_GE(made->stats.maxDistance, 0.3 * tolerance);
+      // A chord of a circle is the root of eight times the tolerance long, in radii.
+      const double chords =
+          2.0 * std::numbers::pi * (1.0 + 0.8 + 0.6 + 0.3 + 0.4) / std::sqrt(8.0 * tolerance);
+      EXPECT_LE(made->stats.triangles, 4.0 * 3.0 * chords + 100.0);
+    }
+}
+
+// Only the drop's corner is an edge along the walls.
+TEST(PlacedTriangles, OfAnOutlineHaveEdgesAtItsCornersAlone) {
+  const Contour drop{{2.0, 0.0}, {{2, {{2.6, 0.8}, {1.4, 0.8}}, {2.0, 0.0}}}};
+  const auto made =
+      placedTriangles(extrude(outline({{drop, roundContour({}, 1.0)}}, {1e-6, 1e-4}), 0.25), {}, 1e-3);
+  ASSERT_TRUE(made);
+  int upright = 0;
+  for (const auto& [a, b] : made->mesh.creases)
+    upright += made->mesh.positions[a].z != made->mesh.positions[b].z;
+  EXPECT_EQ(upright, 1);
 }
 
 TEST(PlacedTriangles, AreOfNothingElse) {
   const TriangleMesh one = boxOf(-kHalf, kHalf), other = boxOf(glm::vec3(0.0f), glm::vec3(1.0f));
-  EXPECT_FALSE(placedTriangles(meshOf(together(one, other)), {})) << "they cross";
-  EXPECT_FALSE(placedTriangles(round(boxOfTriangles(), 0.1), {}));
-  EXPECT_FALSE(placedTriangles(subtract({boxOfTriangles(), sphere(0.1)}), {}));
-  EXPECT_FALSE(placedTriangles(twist(boxOfTriangles(), 0.5), {}));
-  EXPECT_FALSE(placedTriangles(sphere(1.0), {}));
+  EXPECT_FALSE(placedTriangles(meshOf(together(one, other)), {}, 1e-3)) << "they cross";
+  EXPECT_FALSE(placedTriangles(round(boxOfTriangles(), 0.1), {}, 1e-3));
+  EXPECT_FALSE(placedTriangles(subtract({boxOfTriangles(), sphere(0.1)}), {}, 1e-3));
+  EXPECT_FALSE(placedTriangles(twist(boxOfTriangles(), 0.5), {}, 1e-3));
+  EXPECT_FALSE(placedTriangles(sphere(1.0), {}, 1e-3));
 }
 
 // Whatever way the file's triangles run, they have the solid behind them, and none lies in it.
 TEST(PlacedTriangles, AreTheSolidsSurface) {
   TriangleMesh inverted = boxOf(-kHalf, kHalf);
   for (glm::uvec3& t : inverted.triangles) std::swap(t.y, t.z);
-  const auto turned = placedTriangles(meshOf(inverted), {}), right = placedTriangles(boxOfTriangles(), {});
+  const auto turned = placedTriangles(meshOf(inverted), {}, 1e-3),
+             right = placedTriangles(boxOfTriangles(), {}, 1e-3);
   ASSERT_TRUE(turned && right);
   EXPECT_EQ(turned->mesh.triangles.size(), 12u);
   const auto volume = [](const FeatureMesh& mesh) {
@@ -121,7 +160,7 @@ TEST(PlacedTriangles, AreTheSolidsSurface) {
   EXPECT_NEAR(volume(turned->mesh), volume(right->mesh), 1e-6);
   EXPECT_GT(volume(turned->mesh), 0.0);
   const auto nested =
-      placedTriangles(meshOf(together(boxOf(-kHalf, kHalf), boxOf(-0.5f * kHalf, 0.5f * kHalf))), {});
+      placedTriangles(meshOf(together(boxOf(-kHalf, kHalf), boxOf(-0.5f * kHalf, 0.5f * kHalf))), {}, 1e-3);
   ASSERT_TRUE(nested);
   EXPECT_EQ(nested->mesh.triangles.size(), 12u);
   EXPECT_EQ(nested->mesh.positions.size(), 8u);

@@ -242,7 +242,7 @@ Outline curvedCoast(int n) {
 }
 
 TEST(PayloadPicture, OfAnOutlineOfCurvesIsTheCpus) {
-  expectTheCpusPicture(lit(extrude(outline(curvedCoast(12), 1e-6), 0.3)));
+  expectTheCpusPicture(lit(extrude(outline(curvedCoast(12), {1e-6, 1e-4}), 0.3)));
 }
 
 // Near the polygon shaders read the distance but for floats; elsewhere but for what patches are off; and

@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <numeric>
 #include <utility>
 
 #include "sdf/eval/scalar_reading.h"
+#include "sdf/mesh/extract/rims.h"
 #include "sdf/shape/solids/polygon_prism.h"
 #include "sdf/shape/solids/triangle_solid.h"
 #include "sdf/triangles/polygon.h"
@@ -84,36 +84,57 @@ std::optional<PlacedTriangles> trianglesOf(const PlacedMesh& placed, const Value
   return made;
 }
 
-// Corner i of the polygon is vertex i below, and above the one that is as many farther as there are corners.
-std::optional<PlacedTriangles> trianglesOf(const PlacedPrism& prism, const Values& values) {
-  if (!prism.field->distance().isPolygon()) return {};
-  const std::vector<PolygonSide>& sides = prism.field->distance().sides();
-  const auto n = static_cast<std::uint32_t>(sides.size());
-  std::vector<glm::vec3> outline;
-  for (const PolygonSide& side : sides) outline.push_back(glm::vec3(side.from, 0.0));
-  std::vector<std::uint32_t> corners(n);
-  std::iota(corners.begin(), corners.end(), 0u);
-  PlacedTriangles made;
-  FeatureMesh& mesh = made.mesh;
-  if (!cutPolygon(outline, corners, mesh.triangles)) return {};
+// The lids of a prism: point i is vertex i below, and above the one that is as many farther as there are
+// points.
+bool addLids(const std::vector<Rim>& rims, FeatureMesh& mesh) {
+  std::vector<glm::vec3> points;
+  for (const Rim& rim : rims)
+    for (const RimPoint& p : rim) points.push_back(glm::vec3(p.at, 0.0));
+  const auto polygons = bridgedRims(rims);
+  if (!polygons) return false;
+  for (const std::vector<std::uint32_t>& polygon : *polygons)
+    if (!cutPolygon(points, polygon, mesh.triangles)) return false;
+  const auto n = static_cast<std::uint32_t>(points.size());
   const std::size_t lid = mesh.triangles.size();
   for (std::size_t i = 0; i < lid; ++i) {
     mesh.triangles.push_back(mesh.triangles[i] + n);
     std::swap(mesh.triangles[i].y, mesh.triangles[i].z);
   }
-  const double tangent = std::tan(0.5 * kCreaseAngle);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t next = (i + 1) % n;
-    mesh.triangles.insert(mesh.triangles.end(), {{i, next, n + next}, {i, n + next, n + i}});
-    const auto [low, high] = std::minmax(i, next);
-    mesh.creases.insert(mesh.creases.end(), {{low, high}, {n + low, n + high}});
-    if (std::abs(sides[i].atFrom) > tangent) mesh.creases.push_back({i, n + i});
+  return true;
+}
+
+// The walls, and which edges are sharp.
+void addWalls(const std::vector<Rim>& rims, FeatureMesh& mesh) {
+  std::uint32_t n = 0, first = 0;
+  for (const Rim& rim : rims) n += static_cast<std::uint32_t>(rim.size());
+  for (const Rim& rim : rims) {
+    const auto count = static_cast<std::uint32_t>(rim.size());
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t i = first + k, next = first + (k + 1) % count;
+      mesh.triangles.insert(mesh.triangles.end(), {{i, next, n + next}, {i, n + next, n + i}});
+      const auto [low, high] = std::minmax(i, next);
+      mesh.creases.insert(mesh.creases.end(), {{low, high}, {n + low, n + high}});
+      if (rim[k].isSharp) mesh.creases.push_back({i, n + i});
+    }
+    first += count;
   }
   std::ranges::sort(mesh.creases);
+}
+
+std::optional<PlacedTriangles> trianglesOf(const PlacedPrism& prism, const Values& values, double tolerance) {
   const Placing placing(prism.at, values);
+  const double factor = std::max(glm::length(placing.turn[0]), glm::length(placing.turn[1]));
+  const std::vector<Rim> rims = rimsOf(prism.field->distance(), tolerance / factor);
+  if (std::ranges::any_of(rims, [](const Rim& rim) { return rim.size() < 3; })) return {};
+  PlacedTriangles made;
+  made.offBy = prism.field->distance().hasArcs() ? tolerance : 0.0;
+  FeatureMesh& mesh = made.mesh;
+  if (!addLids(rims, mesh)) return {};
+  addWalls(rims, mesh);
   const double half = evaluate(*Function(prism.halfHeight).at(values), glm::dvec3(0.0));
   for (const double z : {-half, half})
-    for (const PolygonSide& side : sides) made.places.push_back(placing(glm::dvec3(side.from, z)));
+    for (const Rim& rim : rims)
+      for (const RimPoint& p : rim) made.places.push_back(placing(glm::dvec3(p.at, z)));
   mesh.positions.assign(made.places.begin(), made.places.end());
   if (placing.mirrors())
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
@@ -122,10 +143,10 @@ std::optional<PlacedTriangles> trianglesOf(const PlacedPrism& prism, const Value
 
 }  // namespace
 
-std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values) {
+std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values, double tolerance) {
   const Expr f = withoutClaims(std::array{shape.distance}).front();
   if (const auto mesh = placedMesh(f)) return trianglesOf(*mesh, values);
-  if (const auto prism = placedPrism(f)) return trianglesOf(*prism, values);
+  if (const auto prism = placedPrism(f)) return trianglesOf(*prism, values, tolerance);
   return {};
 }
 

@@ -15,14 +15,15 @@ namespace sdf {
 struct PlacedTriangles {
   FeatureMesh mesh;
   std::vector<glm::dvec3> places;  ///< by vertex
+  double offBy = 0.0;              ///< how far triangles between places on the surface may be off it
 };
 
 /// The surface of a shape that is a mesh from a file, only moved, turned and scaled: its triangles, at their
 /// places for these values of inputs. Creases are the edges where two of them meet at more than 30 degrees.
 /// Where triangles touch, edges may have more of them. Or that of an extruded polygon of many sides
-/// (polygon_prism.h): its sides, and its lids cut into triangles; creases are its rims, and its edges where
-/// sides meet at more than 5 degrees. Nothing where the shape is something else, or its triangles cross one
-/// another. Cost: n log n.
-std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values);
+/// (polygon_prism.h), or of an outline: its sides, curves as chords within `tolerance`, and its lids cut into
+/// triangles; creases are its rims, and its edges where sides meet at more than 5 degrees. Nothing where the
+/// shape is something else, or its triangles cross one another. Cost: n log n.
+std::optional<PlacedTriangles> placedTriangles(const Shape& shape, const Values& values, double tolerance);
 
 }  // namespace sdf

@@ -28,12 +28,16 @@ Shape regularPolygon(int sides, const Expr& radius);
 /// operations an edge, some 15 where the polygon is convex; of more than 64 edges a payload's, some log n
 /// (polygon_field.h). Checking takes n log n, up to n squared where long edges lie beside one another.
 Shape polygon(std::span<const glm::dvec2> points);
+/// How far arcs may be from the curves that they stand for: what is computed, and what shaders draw.
+struct CurveTolerance {
+  double exact, drawn;
+};
 /// What contours of lines and Bézier curves enclose, which may lie in one another, cross and overlap. Exact
-/// to arcs of circles that are nowhere farther from the curves than `tolerance` > 0 and have their directions
+/// to arcs of circles that are nowhere farther from the curves than the tolerance and have their directions
 /// (arcContours); so smooth curves have no edges. `name` is whose points must be finite and enclose some
 /// area. Cost: that of a polygon of more than 64 edges, with as many sides as there are arcs: of a letter
-/// some 150 for a tolerance of 1e-6 of its size.
-Shape outline(const Outline& curves, double tolerance, const std::string& name = "outline");
+/// some 250 for a tolerance of 1e-6 of its size, and 50 for 1e-4.
+Shape outline(const Outline& curves, const CurveTolerance& tolerance, const std::string& name = "outline");
 /// Star with `points` >= 3 tips at radius `outer`, one on +y, and as many corners at radius `inner` between
 /// them. 0 < inner < outer.
 Shape star(int points, const Expr& outer, const Expr& inner);

@@ -137,14 +137,15 @@ Expr formulaOf(const Points& points) {
 }
 
 // About the middle of the contours, if that is far from the origin: floats are fine there.
-Expr fieldOf(std::vector<ArcContour> contours, const Rectangle& box) {
+Expr fieldOf(std::vector<ArcContour> contours, std::vector<ArcContour> drawn, const Rectangle& box) {
   const glm::dvec2 size = box.hi - box.lo, middle = 0.5 * (box.lo + box.hi);
   const bool isFar = std::max(std::abs(middle.x), std::abs(middle.y)) > std::max(size.x, size.y);
   const glm::dvec2 origin = isFar ? middle : glm::dvec2(0.0);
-  for (ArcContour& contour : contours)
-    for (ArcCorner& corner : contour) corner.at -= origin;
+  for (std::vector<ArcContour>* all : {&contours, &drawn})
+    for (ArcContour& contour : *all)
+      for (ArcCorner& corner : contour) corner.at -= origin;
   const Expr x = position().x, y = position().y;
-  return Expr::payload({PolygonField::of(std::move(contours)), 0},
+  return Expr::payload({PolygonField::of(std::move(contours), std::move(drawn)), 0},
                        {isFar ? x - origin.x : x, isFar ? y - origin.y : y, 0.0});
 }
 
@@ -152,7 +153,7 @@ Expr distanceTo(const Points& points, const Rectangle& box) {
   if (points.size() <= kMostSides) return formulaOf(points);
   ArcContour contour;
   for (const glm::dvec2& p : points) contour.push_back({p, 0.0});
-  return fieldOf({std::move(contour)}, box);
+  return fieldOf({std::move(contour)}, {}, box);
 }
 
 }  // namespace
@@ -188,19 +189,21 @@ bool isFinite(const Outline& outline) {
 
 }  // namespace
 
-Shape outline(const Outline& curves, double tolerance, const std::string& name) {
+Shape outline(const Outline& curves, const CurveTolerance& tolerance, const std::string& name) {
   Check c(name);
   c.that(isFinite(curves), "its points must be finite");
-  c.that(std::isfinite(tolerance) && tolerance > 0.0,
-         "its tolerance must be positive, got " + shown(tolerance));
+  for (const double t : {tolerance.exact, tolerance.drawn})
+    c.that(std::isfinite(t) && t > 0.0, "its tolerances must be positive, got " + shown(t));
   if (!c.ok()) return c.failure();
-  const auto border = boundaryOf(arcContours(curves, tolerance), curves.rule);
-  c.that(border.ok(), border ? "" : border.error().message);
+  auto border = boundaryOf(arcContours(curves, tolerance.exact), curves.rule);
+  auto drawn = boundaryOf(arcContours(curves, tolerance.drawn), curves.rule);
+  for (const auto* made : {&border, &drawn})
+    if (!made->ok()) c.that(false, made->error().message);
   c.that(!border || !border->empty(), "it encloses no area");
   if (!c.ok()) return c.failure();
   Rectangle box;
   for (const Arc& arc : arcsOf(*border)) box.add(arc.box());
-  return flat(fieldOf(*border, box), box.lo, box.hi);
+  return flat(fieldOf(std::move(*border), std::move(*drawn), box), box.lo, box.hi);
 }
 
 }  // namespace sdf

@@ -24,20 +24,27 @@ std::shared_ptr<const PolygonField> PolygonField::of(std::span<const glm::dvec2>
   return of(std::vector<ArcContour>{std::move(contour)});
 }
 
-std::shared_ptr<const PolygonField> PolygonField::of(std::vector<ArcContour> contours) {
+PolygonField::PolygonField(std::vector<ArcContour> contours, std::vector<ArcContour> drawn)
+    : contours_(std::move(contours)), drawn_(std::move(drawn)), distance_(contours_) {
+  if (!drawn_.empty()) drawnDistance_.emplace(drawn_);
+}
+
+std::shared_ptr<const PolygonField> PolygonField::of(std::vector<ArcContour> contours,
+                                                     std::vector<ArcContour> drawn) {
   static std::mutex lock;
   static std::vector<std::weak_ptr<const PolygonField>> all;
   const std::lock_guard guard(lock);
   std::erase_if(all, [](const auto& field) { return field.expired(); });
   for (const auto& known : all)
-    if (auto field = known.lock(); field && field->contours_ == contours) return field;
-  const std::shared_ptr<const PolygonField> field(new PolygonField(std::move(contours)));
+    if (auto field = known.lock(); field && field->contours_ == contours && field->drawn_ == drawn)
+      return field;
+  const std::shared_ptr<const PolygonField> field(new PolygonField(std::move(contours), std::move(drawn)));
   all.push_back(field);
   return field;
 }
 
 const PolygonCells& PolygonField::cells() const {
-  std::call_once(made_, [&] { cells_.emplace(distance_); });
+  std::call_once(made_, [&] { cells_.emplace(drawn()); });
   return *cells_;
 }
 

@@ -17,8 +17,10 @@ namespace sdf {
 /// PolygonCells.
 class PolygonField : public Payload {
  public:
-  /// The field of these contours (see PolygonDistance), the same one as long as there is one. Cost: n.
-  static std::shared_ptr<const PolygonField> of(std::vector<ArcContour> contours);
+  /// The field of these contours (see PolygonDistance), the same one as long as there is one. Shaders read
+  /// others in their place where some are `drawn`. Cost: n.
+  static std::shared_ptr<const PolygonField> of(std::vector<ArcContour> contours,
+                                                std::vector<ArcContour> drawn = {});
   /// That of a polygon's corners.
   static std::shared_ptr<const PolygonField> of(std::span<const glm::dvec2> corners);
 
@@ -35,16 +37,18 @@ class PolygonField : public Payload {
   void values(const PayloadRows& p, std::size_t count, float* out) const override;
   void gradients(const PayloadRows& p, std::size_t count, const std::array<float*, 4>& out) const override;
   std::string glsl(const std::string& name) const override {
-    return PolygonCells::glsl(name, distance_.hasArcs());
+    return PolygonCells::glsl(name, drawn().hasArcs());
   }
   std::span<const PayloadVolume> volumes() const override { return {&cells().volume, 1}; }
-  std::string_view kind() const override { return distance_.hasArcs() ? "outline" : "polygon"; }
+  std::string_view kind() const override { return drawn().hasArcs() ? "outline" : "polygon"; }
 
  private:
-  explicit PolygonField(std::vector<ArcContour> contours)
-      : contours_(std::move(contours)), distance_(contours_) {}
-  std::vector<ArcContour> contours_;
+  PolygonField(std::vector<ArcContour> contours, std::vector<ArcContour> drawn);
+  const PolygonDistance& drawn() const { return drawnDistance_ ? *drawnDistance_ : distance_; }
+
+  std::vector<ArcContour> contours_, drawn_;
   PolygonDistance distance_;
+  std::optional<PolygonDistance> drawnDistance_;
   mutable std::once_flag made_;
   mutable std::optional<PolygonCells> cells_;
 };

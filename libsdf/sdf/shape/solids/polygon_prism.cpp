@@ -17,18 +17,29 @@ std::optional<Expr> lidOf(const std::vector<Expr>& nodes) {
   return lid == nodes.end() ? std::nullopt : std::optional(*lid);
 }
 
+// The payload, and products of it and what does not depend on space, which scaling a flat shape leaves.
+std::vector<Expr> sidesIn(const std::vector<Expr>& nodes, const Expr& payload) {
+  std::vector<Expr> sides{payload};
+  for (const Expr& e : nodes)
+    if (e.op() == Op::Mul && e != payload && withoutFactor(e) == payload) sides.push_back(e);
+  return sides;
+}
+
 }  // namespace
 
 // Equal nodes are the same node: what extrude() would build of the two distances must be f itself.
 std::optional<PlacedPrism> placedPrism(Expr f) {
   f = withoutFactor(f);
   const std::vector<Expr> nodes = topologicalOrder({&f, 1});
-  const auto side = std::ranges::find(nodes, Op::Payload, &Expr::op);
+  const auto payload = std::ranges::find(nodes, Op::Payload, &Expr::op);
   const std::optional<Expr> lid = lidOf(nodes);
-  if (side == nodes.end() || !lid || side->payloadPart()->part != 0) return {};
-  auto field = std::dynamic_pointer_cast<const PolygonField>(side->payloadPart()->payload);
-  if (!field || withoutClaims(std::array{boxDistance(*side, *lid)}).front() != f) return {};
-  PlacedPrism prism{std::move(field), lid->arg(1), {side->arg(0), side->arg(1), lid->arg(0).arg(0)}};
+  if (payload == nodes.end() || !lid || payload->payloadPart()->part != 0) return {};
+  auto field = std::dynamic_pointer_cast<const PolygonField>(payload->payloadPart()->payload);
+  const auto isPrism = [&](const Expr& side) {
+    return withoutClaims(std::array{boxDistance(side, *lid)}).front() == f;
+  };
+  if (!field || std::ranges::none_of(sidesIn(nodes, *payload), isPrism)) return {};
+  PlacedPrism prism{std::move(field), lid->arg(1), {payload->arg(0), payload->arg(1), lid->arg(0).arg(0)}};
   if (!std::ranges::all_of(prism.at, isLinear)) return {};
   return prism;
 }

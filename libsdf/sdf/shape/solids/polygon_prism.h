@@ -1,4 +1,4 @@
-// Extruded polygons that are nothing but moved.
+// Extruded polygons and outlines that are nothing but moved.
 #pragma once
 #include <array>
 #include <memory>
@@ -9,7 +9,8 @@
 
 namespace sdf {
 
-/// A polygon of many sides that was extruded, and only moved, turned and scaled.
+/// A polygon of many sides, or an outline of curves, that was extruded, and only moved, turned and scaled,
+/// before or after.
 struct PlacedPrism {
   std::shared_ptr<const PolygonField> field;
   Expr halfHeight;         ///< does not depend on space

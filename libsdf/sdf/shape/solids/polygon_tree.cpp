@@ -50,7 +50,8 @@ PolygonDistance::PolygonDistance(std::span<const glm::dvec2> corners)
     : PolygonDistance(contoursOf(corners)) {}
 
 PolygonDistance::PolygonDistance(const std::vector<ArcContour>& contours)
-    : contours_(contours.size()), sides_(sidesOf(contours)), tree_(treeOver(sides_)) {
+    : sides_(sidesOf(contours)), tree_(treeOver(sides_)) {
+  for (const ArcContour& c : contours) contourSizes_.push_back(c.size());
   hasArcs_ = std::ranges::any_of(sides_, [](const PolygonSide& s) { return s.curvature != 0.0; });
 }
 

@@ -39,8 +39,8 @@ class PolygonDistance {
   const SideTree& tree() const { return tree_; }
   const Rectangle& bounds() const { return tree_.bounds(); }
   bool hasArcs() const { return hasArcs_; }
-  /// Is it one contour of segments?
-  bool isPolygon() const { return !hasArcs_ && contours_ == 1; }
+  /// How many sides each contour has, in the order of the sides.
+  const std::vector<std::size_t>& contourSizes() const { return contourSizes_; }
 
   /// The distance at p, which is finite, but for some roundings of what is as large as p and the sides.
   /// `hint` is a side that may be near. Cost: some log n, where few sides are about equally far.
@@ -48,7 +48,7 @@ class PolygonDistance {
 
  private:
   bool hasArcs_ = false;
-  std::size_t contours_;
+  std::vector<std::size_t> contourSizes_;
   std::vector<PolygonSide> sides_;
   SideTree tree_;
 };
