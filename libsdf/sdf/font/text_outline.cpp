@@ -43,14 +43,13 @@ struct Font {
   double unit = 0.0;  // of the font's coordinates
 };
 
-Status openForShaping(const FontFile& file, Font& font) {
+void openForShaping(const FontFile& file, Font& font) {
   const Blob blob(hb_blob_create(font.bytes->data(), static_cast<unsigned>(font.bytes->size()),
                                  HB_MEMORY_MODE_READONLY, nullptr, nullptr));
   const ShapingFace face(hb_face_create(blob.get(), static_cast<unsigned>(file.index)));
   font.shaping.reset(hb_font_create(face.get()));
   const int units = font.face->units_per_EM;
   hb_font_set_scale(font.shaping.get(), units, units);
-  return okStatus();
 }
 
 Result<Font> openFont(const FontFile& file) {
@@ -71,8 +70,7 @@ Result<Font> openFont(const FontFile& file) {
     return unreadable(file.path,
                       "it is no TrueType or OpenType font with outlines; choose one that has them");
   font.unit = 1.0 / face->units_per_EM;
-  const Status opened = openForShaping(file, font);
-  if (!opened) return opened.error();
+  openForShaping(file, font);
   return font;
 }
 

@@ -473,6 +473,16 @@ const std::vector<FunctionInfo>& shapeLibrary() {
         {"spacing", PlainNumber, "more room between letters, in sizes of the font; there are no ligatures then", Rule::Any, {}, "0"},
         {"line_spacing", PlainNumber, "from one line to the next, in what the font says", Rule::Any, {}, "1"}},
        textShape},
+      {"path",
+       "path(\"M 0 0 L 2 0 Q 2 1 0 1 Z\", {rule = \"nonzero\"})",
+       "a flat shape that lines and curves enclose, written as in an SVG's `d`: `M x y` begins, `L x y`, `H x` and `V y` draw lines, `Q` and `C` Bézier curves, `T` and `S` smooth ones, `A rx ry turn large sweep x y` arcs of ellipses, `Z` closes. Small letters are relative to where the pen is. y is up. Lines and curves may cross; what is open is closed by a line. Exact within 1e-6 of the longest side of all its points, and drawn by `sdfview` within 1e-4",
+       {{"rule", Choice, "what is inside where contours lie in one another: what they wind around, or every other", Rule::Any, {"nonzero", "evenodd"}, "\"nonzero\""}},
+       pathShape},
+      {"svg",
+       "svg(\"logo.svg\", {size = 1})",
+       "what an SVG drawing fills, as one flat shape about the origin: paths, basic shapes, groups, transforms, `use`, fill rules and styles by class. Strokes, text, pictures, clips and masks are not read: make them to paths. Files lie as those of `mesh` do. Exact within 1e-6 of the longest side of all its points, and drawn by `sdfview` within 1e-4",
+       {{"size", SettingKind::Number, "of its longest side", Rule::Positive, {}, "1"}},
+       svgShape},
   };
   return library;
 }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "sdf/drawing/svg.h"
 #include "sdf/font/text_outline.h"
+#include "sdf/outline/path_data.h"
+#include "sdf/outline/side_tree.h"
 #include "sdf/script/context.h"
 #include "sdf/script/library.h"
 #include "sdf/script/meshes.h"
@@ -25,7 +28,7 @@ int pushMissing(lua_State* L, const std::string& why) {
 
 namespace {
 
-constexpr CurveTolerance kCurveTolerance{1e-6, 1e-4};  // of the font's size
+constexpr CurveTolerance kCurveTolerance{1e-6, 1e-4};  // of the font's size, or the longest side
 constexpr const char* kUsualFont = "DejaVu Sans";
 
 // The font of this name, a file or a family.
@@ -43,14 +46,71 @@ Result<FontFile> fontOf(lua_State* L, const std::string& name) {
   return FontFile{*file, 0};
 }
 
+// The first argument.
+std::string stringGiven(lua_State* L, const FunctionInfo& f, const std::string& what) {
+  if (lua_type(L, 1) != LUA_TSTRING)
+    raise(L, f.name + ": the " + what + " must be a string, got " + describe(L, 1) + "; write " + f.usage);
+  return textAt(L, 1);
+}
+
+// Exact to some millionths of the longest side.
+Shape shapeOf(std::span<const Outline> outlines, const std::string& name) {
+  Rectangle box;
+  for (const Outline& outline : outlines)
+    for (const Contour& contour : outline.contours) {
+      box.add(contour.from);
+      for (const Curve& c : contour.curves) {
+        for (int i = 0; i < c.controls; ++i) box.add(c.control[i]);
+        box.add(c.to);
+      }
+    }
+  const glm::dvec2 sides = box.hi - box.lo;
+  const double size = std::max(sides.x, sides.y);
+  if (!(size > 0.0)) return Shape::failed(name + ": it encloses no area");
+  return outline(outlines, {size * kCurveTolerance.exact, size * kCurveTolerance.drawn}, name);
+}
+
 }  // namespace
+
+int pathShape(lua_State* L) {
+  expectArguments(L, 1, 2);
+  const FunctionInfo& f = runningFunction(L);
+  const std::string data = stringGiven(L, f, "path");
+  const FieldValues given = readFields(L, 2, f);
+  auto contours = pathContours(data);
+  if (!contours) raise(L, f.name + ": " + contours.error().message);
+  const Outline outline{std::move(*contours), static_cast<FillRule>(valueOr(given, "rule", 0))};
+  const Shape shape = shapeOf({&outline, 1}, f.name);
+  if (!shape.ok()) raise(L, *shape.error);
+  return pushShape(L, shape), 1;
+}
+
+// Its middle is the origin.
+int svgShape(lua_State* L) {
+  expectArguments(L, 1, 2);
+  const FunctionInfo& f = runningFunction(L);
+  const std::string name = stringGiven(L, f, "file");
+  const FieldValues given = readFields(L, 2, f);
+  ScriptContext& c = contextOf(L);
+  const auto file = permitted(name, c.file, c.options, f.name);
+  if (!file) return pushMissing(L, file.error().message);
+  addOnce(c.scene.files, file->string());
+  const auto outlines = svgOutlines(*file);
+  if (!outlines) return pushMissing(L, f.name + ": " + outlines.error().message);
+  const Shape drawing = shapeOf(*outlines, f.name);
+  if (!drawing.ok()) raise(L, *drawing.error);
+  const glm::dvec3 middle = drawing.bounds.centre(), sides = drawing.bounds.size();
+  const Shape centred = translate(drawing, Vec3E(-middle.x, -middle.y, 0.0));
+  const Expr size = valueOr<Expr>(given, "size", 1.0);
+  const Shape shape = scale(centred, size / std::max(sides.x, sides.y));
+  if (!shape.ok()) raise(L, *shape.error);
+  return pushShape(L, shape), 1;
+}
 
 int textShape(lua_State* L) {
   expectArguments(L, 1, 2);
   const FunctionInfo& f = runningFunction(L);
-  if (lua_type(L, 1) != LUA_TSTRING)
-    raise(L, f.name + ": the text must be a string, got " + describe(L, 1) + "; write " + f.usage);
-  const std::string text = textAt(L, 1);
+  const std::string text = stringGiven(L, f, "text");
   const FieldValues given = readFields(L, 2, f);
   TextStyle style;
   style.align = static_cast<TextStyle::Align>(valueOr(given, "align", 0));

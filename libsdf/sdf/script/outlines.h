@@ -1,4 +1,4 @@
-// Flat shapes of outlines: text. Private to script/.
+// Flat shapes of outlines: text, paths and drawings. Private to script/.
 #pragma once
 
 struct lua_State;
@@ -7,5 +7,9 @@ namespace sdf {
 
 /// text("…", {font = …}). A LibraryFunction.
 int textShape(lua_State* L);
+/// path("M 0 0 L …"). A LibraryFunction.
+int pathShape(lua_State* L);
+/// svg("logo.svg", {size = …}). A LibraryFunction.
+int svgShape(lua_State* L);
 
 }  // namespace sdf

@@ -32,12 +32,18 @@ Shape polygon(std::span<const glm::dvec2> points);
 struct CurveTolerance {
   double exact, drawn;
 };
-/// What contours of lines and Bézier curves enclose, which may lie in one another, cross and overlap. Exact
+/// What contours of lines and Bézier curves enclose, which may lie in one another, cross and overlap; of
+/// several outlines their union. Exact
 /// to arcs of circles that are nowhere farther from the curves than the tolerance and have their directions
 /// (arcContours); so smooth curves have no edges. `name` is whose points must be finite and enclose some
 /// area. Cost: that of a polygon of more than 64 edges, with as many sides as there are arcs: of a letter
 /// some 250 for a tolerance of 1e-6 of its size, and 50 for 1e-4.
-Shape outline(const Outline& curves, const CurveTolerance& tolerance, const std::string& name = "outline");
+Shape outline(std::span<const Outline> outlines, const CurveTolerance& tolerance,
+              const std::string& name = "outline");
+inline Shape outline(const Outline& curves, const CurveTolerance& tolerance,
+                     const std::string& name = "outline") {
+  return outline(std::span(&curves, 1), tolerance, name);
+}
 /// Star with `points` >= 3 tips at radius `outer`, one on +y, and as many corners at radius `inner` between
 /// them. 0 < inner < outer.
 Shape star(int points, const Expr& outer, const Expr& inner);

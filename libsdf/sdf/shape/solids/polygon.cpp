@@ -187,16 +187,28 @@ bool isFinite(const Outline& outline) {
   });
 }
 
+// The border of what they enclose together.
+Result<std::vector<ArcContour>> borderOf(std::span<const Outline> outlines, double tolerance) {
+  std::vector<ArcContour> all;
+  for (const Outline& outline : outlines) {
+    auto own = boundaryOf(arcContours(outline, tolerance), outline.rule);
+    if (!own || outlines.size() == 1) return own;
+    all.insert(all.end(), std::move_iterator(own->begin()), std::move_iterator(own->end()));
+  }
+  return boundaryOf(all, FillRule::NonZero);
+}
+
 }  // namespace
 
-Shape outline(const Outline& curves, const CurveTolerance& tolerance, const std::string& name) {
+Shape outline(std::span<const Outline> outlines, const CurveTolerance& tolerance, const std::string& name) {
   Check c(name);
-  c.that(isFinite(curves), "its points must be finite");
+  c.that(std::ranges::all_of(outlines, [](const Outline& o) { return isFinite(o); }),
+         "its points must be finite");
   for (const double t : {tolerance.exact, tolerance.drawn})
     c.that(std::isfinite(t) && t > 0.0, "its tolerances must be positive, got " + shown(t));
   if (!c.ok()) return c.failure();
-  auto border = boundaryOf(arcContours(curves, tolerance.exact), curves.rule);
-  auto drawn = boundaryOf(arcContours(curves, tolerance.drawn), curves.rule);
+  auto border = borderOf(outlines, tolerance.exact);
+  auto drawn = borderOf(outlines, tolerance.drawn);
   for (const auto* made : {&border, &drawn})
     if (!made->ok()) c.that(false, made->error().message);
   c.that(!border || !border->empty(), "it encloses no area");

@@ -1,0 +1,20 @@
+// SVG drawings as outlines.
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "sdf/base/result.h"
+#include "sdf/outline/outline.h"
+
+namespace sdf {
+
+/// What a drawing fills: an outline for each path, rect, circle, ellipse, polygon and polyline that has a
+/// fill, in the drawing's units with y up (W3C, Scalable Vector Graphics 1.1, 2011). Groups, transforms,
+/// `use`, fills and fill rules of attributes, of `style` and of a style sheet's classes are followed.
+/// Strokes, text and pictures draw nothing, nor do clips and masks take away.
+///
+/// Errors: Files (no file, no XML, with the line); Scene (numbers or paths that are none, nothing that is
+/// filled, nested too deep); Limits (more than 20 MB, or than kMostCurves curves in all).
+Result<std::vector<Outline>> svgOutlines(const std::filesystem::path& file);
+
+}  // namespace sdf

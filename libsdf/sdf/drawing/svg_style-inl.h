@@ -1,0 +1,31 @@
+// What is filled in an SVG drawing, and how. Private to drawing/.
+#pragma once
+#include <map>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+
+#include "sdf/outline/outline.h"
+
+namespace sdf {
+
+/// What an element hands on to those in it.
+struct SvgStyle {
+  bool isFilled = true, isVisible = true;
+  FillRule rule = FillRule::NonZero;
+};
+
+/// The declarations of a drawing's style sheets, by class: of their selectors these alone are known.
+class SvgSheet {
+ public:
+  explicit SvgSheet(const pugi::xml_node& drawing);
+  /// An element's style: its own in that of the element around it. `isDrawn` becomes false where it, with
+  /// all in it, is not.
+  SvgStyle styleOf(const pugi::xml_node& element, SvgStyle style, bool& isDrawn) const;
+
+ private:
+  void read(std::string_view text);
+  std::map<std::string, std::string, std::less<>> classes_;
+};
+
+}  // namespace sdf

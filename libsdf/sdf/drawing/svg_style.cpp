@@ -1,0 +1,73 @@
+#include "sdf/drawing/svg_style-inl.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace sdf {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kSpace);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+// Calls take(part) for each part between separators.
+void forEachPart(std::string_view text, char separator, const std::function<void(std::string_view)>& take) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    take(trimmed(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+void declare(std::string_view name, std::string_view value, SvgStyle& style, bool& isDrawn) {
+  if (value == "inherit") return;
+  if (name == "fill") style.isFilled = value != "none" && value != "transparent";
+  if (name == "fill-rule") style.rule = value == "evenodd" ? FillRule::EvenOdd : FillRule::NonZero;
+  if (name == "visibility") style.isVisible = value == "visible";
+  if (name == "display") isDrawn = value != "none";
+}
+
+void declareAll(std::string_view text, SvgStyle& style, bool& isDrawn) {
+  forEachPart(text, ';', [&](std::string_view part) {
+    const std::size_t colon = part.find(':');
+    if (colon == std::string_view::npos) return;
+    declare(trimmed(part.substr(0, colon)), trimmed(part.substr(colon + 1)), style, isDrawn);
+  });
+}
+
+}  // namespace
+
+SvgSheet::SvgSheet(const pugi::xml_node& drawing) {
+  for (const pugi::xpath_node& found : drawing.select_nodes("//*[local-name() = 'style']"))
+    for (const pugi::xml_node& text : found.node().children()) read(text.value());
+}
+
+void SvgSheet::read(std::string_view text) {
+  for (std::size_t open; (open = text.find('{')) != std::string_view::npos;) {
+    const std::size_t close = std::min(text.find('}', open), text.size());
+    forEachPart(text.substr(0, open), ',', [&](std::string_view selector) {
+      if (!selector.starts_with('.')) return;
+      std::string& known = classes_[std::string(selector.substr(1))];
+      known += text.substr(open + 1, close - open - 1);
+      known += ';';
+    });
+    text.remove_prefix(std::min(close + 1, text.size()));
+  }
+}
+
+// Attributes count least, and an element's own style most.
+SvgStyle SvgSheet::styleOf(const pugi::xml_node& element, SvgStyle style, bool& isDrawn) const {
+  for (const pugi::xml_attribute& a : element.attributes())
+    declare(a.name(), trimmed(a.value()), style, isDrawn);
+  forEachPart(element.attribute("class").value(), ' ', [&](std::string_view name) {
+    if (const auto known = classes_.find(name); known != classes_.end())
+      declareAll(known->second, style, isDrawn);
+  });
+  declareAll(element.attribute("style").value(), style, isDrawn);
+  return style;
+}
+
+}  // namespace sdf
