@@ -173,14 +173,16 @@ glm::vec3 Ring::optimalMove(const glm::vec3& normal) const {
     return glm::dvec2(first, second) * (turn * glm::dvec2(d.x, d.y));
   };
   glm::dvec2 sum(0.0);
-  double area = 0.0;
+  double area = 0.0, reach = 0.0;
   for (std::size_t i = 0; i < spokes_.size(); ++i) {
+    reach = std::max<double>(reach, glm::length(rim_[i]));
     const glm::dvec2 p = inMetric(rim_[i]), q = inMetric(rim_[i + 1]);
     area += p.x * q.y - p.y * q.x;
     sum += glm::dvec2(q.y - p.y, p.x - q.x) * (glm::dot(p, p) + glm::dot(q, q));
   }
   if (!(area > 0.0)) return glm::vec3(0.0f);
   const glm::dvec2 move = glm::transpose(turn) * (sum / (2.0 * area) / glm::dvec2(first, second));
+  if (!(glm::length(move) <= reach)) return glm::vec3(0.0f);  // slivers: their circumcentres are anywhere
   return static_cast<float>(move.x) * s.x + static_cast<float>(move.y) * s.y;
 }
 
