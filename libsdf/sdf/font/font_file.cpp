@@ -13,6 +13,13 @@ namespace {
 
 using Pattern = std::unique_ptr<FcPattern, decltype(&FcPatternDestroy)>;
 
+// The machine's fonts as they are at the first call. Fontconfig's own is never given back.
+FcConfig* fonts() {
+  static const std::unique_ptr<FcConfig, decltype(&FcConfigDestroy)> config(FcInitLoadConfigAndFonts(),
+                                                                            FcConfigDestroy);
+  return config.get();
+}
+
 std::string textOf(const FcChar8* text) { return reinterpret_cast<const char*>(text); }
 
 // Fontconfig takes another family where there is none of the name.
@@ -39,10 +46,10 @@ Result<FontFile> findFont(const std::string& family) {
   if (!wanted || FcPatternGetString(wanted.get(), FC_FAMILY, 0, &name) != FcResultMatch) return notFound;
   const std::string asked = textOf(name);
   FcPatternAddBool(wanted.get(), FC_SCALABLE, FcTrue);
-  FcConfigSubstitute(nullptr, wanted.get(), FcMatchPattern);
+  FcConfigSubstitute(fonts(), wanted.get(), FcMatchPattern);
   FcDefaultSubstitute(wanted.get());
   FcResult result = FcResultNoMatch;
-  const Pattern font(FcFontMatch(nullptr, wanted.get(), &result), FcPatternDestroy);
+  const Pattern font(FcFontMatch(fonts(), wanted.get(), &result), FcPatternDestroy);
   FcChar8* file = nullptr;
   if (!font || FcPatternGetString(font.get(), FC_FILE, 0, &file) != FcResultMatch ||
       !hasFamily(font.get(), reinterpret_cast<const FcChar8*>(asked.c_str())))
