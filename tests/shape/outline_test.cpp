@@ -155,7 +155,7 @@ TEST(Outline, IsAsNearToTheCurveAsItsTolerance) {
 }
 
 TEST(Outline, SaysWhatIsWrong) {
-  EXPECT_EQ(outline({}, {1e-6, 1e-4}).error.value_or(""), "outline: it encloses no area");
+  EXPECT_EQ(outline(Outline{}, {1e-6, 1e-4}).error.value_or(""), "outline: it encloses no area");
   const Contour line{{0, 0}, {{0, {}, {1, 0}}}};
   EXPECT_EQ(outline({{line}}, {1e-6, 1e-4}, "text").error.value_or(""), "text: it encloses no area");
   const Contour bad{{0, 0}, {{0, {}, {NAN, 0}}, {0, {}, {1, 1}}}};
