@@ -78,7 +78,7 @@ TEST_F(Drawings, HaveShapes) {
 
 TEST_F(Drawings, DrawNothingWhereNothingIsFilled) {
   const std::string square = "<path d='M0 0 H1 V-1 H0'/>", hidden = "<path id='x' d='M5 5 H6 V6' ";
-  for (const std::string& attribute :
+  for (const char* attribute :
        {"fill='none'", "style='stroke:red; fill : none'", "display='none'", "style='visibility:hidden'",
         "class='a none'", "fill='red' style='fill:transparent'"})
     expectPath("<style>.none, .other {fill:none}</style>" + square + hidden + attribute + "/>",

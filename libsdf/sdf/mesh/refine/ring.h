@@ -102,7 +102,7 @@ class Ring {
   /// A way in the tangent plane towards the best place for a smooth centre: where the triangles' error would
   /// be least if the surface had the curvature that the normals around tell of (optimal Delaunay
   /// triangulation, Chen 2004, in the metric |II|, to which comes how much colours bend). 0 where that is
-  /// farther than all of the ring. Precondition: place, at `centre`, smooth.
+  /// farther than the ring is wide. Precondition: place, at `centre`, smooth.
   glm::vec3 optimalMove(const glm::vec3& normal) const;
   /// The same along a crease: towards the middle of its two neighbours.
   glm::vec3 moveAlongCrease() const;

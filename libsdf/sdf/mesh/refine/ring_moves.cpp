@@ -182,7 +182,8 @@ glm::vec3 Ring::optimalMove(const glm::vec3& normal) const {
   }
   if (!(area > 0.0)) return glm::vec3(0.0f);
   const glm::dvec2 move = glm::transpose(turn) * (sum / (2.0 * area) / glm::dvec2(first, second));
-  if (!(glm::length(move) <= reach)) return glm::vec3(0.0f);  // slivers: their circumcentres are anywhere
+  // The circumcentres of slivers are anywhere.
+  if (!(glm::length(move) <= 2.0 * reach)) return glm::vec3(0.0f);
   return static_cast<float>(move.x) * s.x + static_cast<float>(move.y) * s.y;
 }
 
