@@ -6,17 +6,16 @@
 #include <fstream>
 
 #include "script/run.h"
-#include "support/folder.h"
+#include "script/scene_folder.h"
 
 namespace sdf::test {
 namespace drawing_test {
 
 namespace fs = std::filesystem;
 
-class Paths : public testing::Test {
+class Paths : public SceneFolder {
  protected:
   Paths() {
-    fs::create_directory(folder_ / "scenes");
     std::ofstream(folder_ / "scenes" / "ring.svg")
         << "<svg><g transform='translate(50 50)'><path fill-rule='evenodd' d='M20 0A20 20 0 1 1-20 0 20 20 0 "
            "1 1 20 0"
@@ -25,25 +24,9 @@ class Paths : public testing::Test {
         << "<svg><rect width='2' height='1'/><path d='M1 0V1H3V0Z'/><path d='M2.5 0.5H4V3H2.5'/></svg>";
     std::ofstream(folder_ / "outside.svg") << "<svg/>";
   }
-  Result<Scene> run(const std::string& text) const {
-    return runScene(text, (folder_ / "scenes" / "scene.lua").string(), options_);
-  }
-  Shape shapeOf(const std::string& text) const {
-    const Result<Scene> scene = run("return " + text);
-    if (scene) return scene->whole();
-    ADD_FAILURE() << scene.error().message;
-    return {};
-  }
-  std::string errorOf(const std::string& text) const {
-    const Result<Scene> scene = run("return " + text);
-    return scene ? "none" : scene.error().message;
-  }
-  std::string here(const std::string& message) const {
-    return (folder_ / "scenes" / "scene.lua").string() + ":1: " + message;
-  }
 
-  Folder folder_;
-  ScriptOptions options_{};
+  Shape shapeOf(const std::string& text) const { return sceneOf("return " + text).whole(); }
+  std::string whyNot(const std::string& text) const { return errorOf("return " + text); }
 };
 
 TEST_F(Paths, EncloseFlatShapes) {
@@ -59,23 +42,29 @@ TEST_F(Paths, EncloseFlatShapes) {
               0.5, 1e-9);
 }
 
+TEST_F(Paths, MayLieFarFromTheOrigin) {
+  const Shape square = shapeOf(R"(path("M 1e12 0 h 8 v 8 h -8 z"):extrude(10))");
+  EXPECT_NEAR(at(square.distance, 1e12 + 4.0, 4.0, 0.0), -4.0, 1e-9);
+  EXPECT_NEAR(at(square.distance, 1e12 - 2.0, 4.0, 0.0), 2.0, 1e-9);
+}
+
 TEST_F(Paths, AreWhatOtherFlatShapesAre) {
   for (const char* use :
        {R"(path("M 1 0 Q 2 1 1 2 Z"):revolve())", R"(box(1) - path("M 0 0 C 1 0 1 1 0 1"):extrude(2))",
         R"(path("M 0 0 H 1 V 1"):round(0.1):extrude(0.2):round(0.05):twist(40))",
         R"((circle(2) - svg("ring.svg")):extrude(0.1))",
         R"(svg("two.svg", {size = param("s", 1, {min = 0.5, max = 2})}):extrude(0.1):polar_repeat(5))"})
-    EXPECT_EQ(errorOf(use), "none") << use;
+    EXPECT_EQ(whyNot(use), "none") << use;
 }
 
 TEST_F(Paths, SayWhatIsWrong) {
-  EXPECT_EQ(errorOf(R"(path("M 0 0 L 1 x"))"),
-            here("path: the path has something else than a number at its character 11, 'x'"));
-  EXPECT_EQ(errorOf(R"(path("M 0 0 L 1 1"))"), here("path: it encloses no area"));
-  EXPECT_EQ(errorOf(R"(path(""))"), here("path: it encloses no area"));
-  EXPECT_NE(errorOf(R"(path({{0, 0}}))").find("path: the path must be a string, got"), std::string::npos);
-  EXPECT_NE(errorOf(R"(path("M 0 0 H 1 V 1", {rule = "odd"}))").find("rule"), std::string::npos);
-  EXPECT_NE(errorOf(R"(path("M 0 0 H 1 V 1"))").find("is flat; extrude or revolve it"), std::string::npos);
+  EXPECT_EQ(whyNot(R"(path("M 0 0 L 1 x"))"),
+            here(":1: path: the path has something else than a number at its character 11, 'x'"));
+  EXPECT_EQ(whyNot(R"(path("M 0 0 L 1 1"))"), here(":1: path: it encloses no area"));
+  EXPECT_EQ(whyNot(R"(path(""))"), here(":1: path: it encloses no area"));
+  EXPECT_NE(whyNot(R"(path({{0, 0}}))").find("path: the path must be a string, got"), std::string::npos);
+  EXPECT_NE(whyNot(R"(path("M 0 0 H 1 V 1", {rule = "odd"}))").find("rule"), std::string::npos);
+  EXPECT_NE(whyNot(R"(path("M 0 0 H 1 V 1"))").find("is flat; extrude or revolve it"), std::string::npos);
 }
 
 // 40 units wide, about (50, -50).
@@ -102,11 +91,10 @@ TEST_F(Paths, OfDrawingsComeFromFiles) {
   ASSERT_TRUE(scene);
   ASSERT_EQ(scene->files.size(), 1u);
   EXPECT_EQ(fs::path(scene->files[0]).filename(), "ring.svg");
-  EXPECT_NE(errorOf(R"(svg("../outside.svg"))").find("svg: '../outside.svg' lies outside"),
-            std::string::npos);
-  EXPECT_NE(errorOf(R"(svg("none.svg"))").find("none.svg': No such file or directory"), std::string::npos);
+  EXPECT_NE(whyNot(R"(svg("../outside.svg"))").find("svg: '../outside.svg' lies outside"), std::string::npos);
+  EXPECT_NE(whyNot(R"(svg("none.svg"))").find("none.svg': No such file or directory"), std::string::npos);
   options_.folders = {folder_ / ""};
-  EXPECT_NE(errorOf(R"(svg("../outside.svg"))").find("it fills nothing"), std::string::npos);
+  EXPECT_NE(whyNot(R"(svg("../outside.svg"))").find("it fills nothing"), std::string::npos);
   options_.withoutMissing = true;
   const Result<Scene> rest = run(R"(return box(1), svg("none.svg"):extrude(1))");
   ASSERT_TRUE(rest);

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "script/run.h"
-#include "support/folder.h"
+#include "script/scene_folder.h"
 #include "support/triangle_meshes.h"
 
 namespace sdf::test {
@@ -20,10 +20,10 @@ void writeObj(const std::filesystem::path& file, const TriangleMesh& mesh, const
     out << "f " << t.x + 1 << ' ' << t.y + 1 << ' ' << t.z + 1 << '\n';
 }
 
-class Meshes : public testing::Test {
+class Meshes : public SceneFolder {
  protected:
   Meshes() {
-    for (const char* folder : {"scenes", "elsewhere"}) std::filesystem::create_directory(folder_ / folder);
+    std::filesystem::create_directory(folder_ / "elsewhere");
     const TriangleMesh box = boxOf(glm::vec3(-1.0f), glm::vec3(1.0f));
     writeObj(scenes() / "box.obj", box);
     writeObj(scenes() / "open.obj", without(box, [](std::size_t i) { return i < 2; }), "mtllib none.mtl\n");
@@ -32,25 +32,6 @@ class Meshes : public testing::Test {
     std::ofstream(scenes() / "flat.obj") << "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n";
     std::ofstream(scenes() / "bad.obj") << "f 1 2 3\n";
   }
-  Result<Scene> run(const std::string& text) const {
-    return runScene(text, (scenes() / "scene.lua").string(), options_);
-  }
-  Scene sceneOf(const std::string& text) const {
-    Result<Scene> scene = run(text);
-    if (scene) return std::move(*scene);
-    ADD_FAILURE() << scene.error().message;
-    return {};
-  }
-  std::string errorOf(const std::string& text) const {
-    const Result<Scene> scene = run(text);
-    return scene ? "none" : scene.error().message;
-  }
-  std::string here(const std::string& message) const { return (scenes() / "scene.lua").string() + message; }
-
-  std::filesystem::path scenes() const { return folder_ / "scenes"; }
-
-  Folder folder_;
-  ScriptOptions options_{};
 };
 
 TEST_F(Meshes, AreShapesLikeAnyOther) {

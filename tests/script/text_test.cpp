@@ -4,40 +4,20 @@
 #include <filesystem>
 
 #include "script/run.h"
+#include "script/scene_folder.h"
 #include "sdf/font/font_file.h"
-#include "support/folder.h"
 
 namespace sdf::test {
 namespace text_test {
 
 namespace fs = std::filesystem;
 
-class Texts : public testing::Test {
+class Texts : public SceneFolder {
  protected:
   Texts() {
-    fs::create_directory(folder_ / "scenes");
     fs::copy_file(findFont("DejaVu Sans")->path, folder_ / "scenes" / "own.ttf");
     fs::copy_file(findFont("DejaVu Sans")->path, folder_ / "outside.ttf");
   }
-  Result<Scene> run(const std::string& text) const {
-    return runScene(text, (folder_ / "scenes" / "scene.lua").string(), options_);
-  }
-  Scene sceneOf(const std::string& text) const {
-    Result<Scene> scene = run(text);
-    if (scene) return std::move(*scene);
-    ADD_FAILURE() << scene.error().message;
-    return {};
-  }
-  std::string errorOf(const std::string& text) const {
-    const Result<Scene> scene = run(text);
-    return scene ? "none" : scene.error().message;
-  }
-  std::string here(const std::string& message) const {
-    return (folder_ / "scenes" / "scene.lua").string() + ":1: " + message;
-  }
-
-  Folder folder_;
-  ScriptOptions options_{};
 };
 
 // A letter l is a rectangle, in units of a 2048th from 193 to 377 and from 0 to 1556.
@@ -93,13 +73,14 @@ TEST_F(Texts, TakeFontsBesideTheScene) {
 TEST_F(Texts, SayWhatIsWrong) {
   EXPECT_EQ(
       errorOf(R"(return text("a", {font = "None Such"}))"),
-      here("text: this machine has no font 'None Such'; name one that fc-list shows, or a font's file, or "
-           "install it"));
+      here(
+          ":1: text: this machine has no font 'None Such'; name one that fc-list shows, or a font's file, or "
+          "install it"));
   EXPECT_NE(errorOf(R"(return text("a", {font = "none.ttf"}))").find("none.ttf': No such file or directory"),
             std::string::npos);
-  EXPECT_EQ(errorOf(R"(return text(""))"), here("text: the text is empty; write some"));
+  EXPECT_EQ(errorOf(R"(return text(""))"), here(":1: text: the text is empty; write some"));
   EXPECT_EQ(errorOf(R"(return text("a\xff"))"),
-            here("text: the text is no UTF-8 at its byte 2; save the scene as UTF-8"));
+            here(":1: text: the text is no UTF-8 at its byte 2; save the scene as UTF-8"));
   EXPECT_NE(errorOf(R"(return text(5))").find("text: the text must be a string, got"), std::string::npos);
   EXPECT_NE(errorOf(R"(return text("a", {size = -1}))").find("'size' must be positive"), std::string::npos);
   EXPECT_NE(errorOf(R"(return text("a", {align = "middle"}))").find("align"), std::string::npos);

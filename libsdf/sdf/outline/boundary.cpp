@@ -26,10 +26,11 @@ Piece reversed(const Piece& p) { return {{p.to, -p.from.bulge}, p.from.at, p.end
 /// Points, those that are near each other being one.
 class PointSet {
  public:
-  explicit PointSet(double reach) : cell_(4.0 * reach), reach_(reach) {}
+  /// None is far below `low`, as seen from the size of all.
+  PointSet(const glm::dvec2& low, double reach) : low_(low), cell_(4.0 * reach), reach_(reach) {}
 
   std::size_t numberOf(const glm::dvec2& p) {
-    const Cell at{cellOf(p.x), cellOf(p.y)};
+    const Cell at{cellOf(p.x - low_.x), cellOf(p.y - low_.y)};
     for (std::int64_t x = at.first - 1; x <= at.first + 1; ++x)
       for (std::int64_t y = at.second - 1; y <= at.second + 1; ++y)
         if (const auto found = inCells_.find({x, y}); found != inCells_.end())
@@ -46,6 +47,7 @@ class PointSet {
   using Cell = std::pair<std::int64_t, std::int64_t>;
   std::int64_t cellOf(double x) const { return static_cast<std::int64_t>(std::floor(x / cell_)); }
 
+  glm::dvec2 low_;
   double cell_, reach_;
   std::vector<glm::dvec2> points_;
   std::map<Cell, std::vector<std::size_t>> inCells_;
@@ -252,7 +254,7 @@ class Joiner {
 Result<std::vector<ArcContour>> boundaryOf(const std::vector<ArcContour>& contours, FillRule rule) {
   if (contours.empty()) return contours;
   const Arrangement all(contours);
-  PointSet points(all.reach);
+  PointSet points(all.tree.bounds().lo, all.reach);
   std::vector<std::vector<Piece>> chains = ChainMaker(all, points).run();
   std::vector<Piece> border = borderOf(all, std::move(chains), rule);
   dropRepeated(border, all.reach);

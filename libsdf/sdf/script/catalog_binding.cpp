@@ -303,11 +303,6 @@ class Call {
   int options_ = 0;  // the table of named fields, or 0; what lies above it is scratch
 };
 
-int pushGood(lua_State* L, Shape shape) {
-  if (!shape.ok()) raise(L, *shape.error);
-  return pushShape(L, std::move(shape)), 1;
-}
-
 // A shape of the script's own formula.
 int pushFormulaShape(lua_State* L, const std::string& what, Shape shape) {
   shape.inexactSince = what + " in line " + std::to_string(currentLine(L));

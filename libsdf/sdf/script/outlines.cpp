@@ -81,8 +81,7 @@ int pathShape(lua_State* L) {
   if (!contours) raise(L, f.name + ": " + contours.error().message);
   const Outline outline{std::move(*contours), static_cast<FillRule>(valueOr(given, "rule", 0))};
   const Shape shape = shapeOf({&outline, 1}, f.name);
-  if (!shape.ok()) raise(L, *shape.error);
-  return pushShape(L, shape), 1;
+  return pushGood(L, shape);
 }
 
 // Its middle is the origin.
@@ -103,8 +102,7 @@ int svgShape(lua_State* L) {
   const Shape centred = translate(drawing, Vec3E(-middle.x, -middle.y, 0.0));
   const Expr size = valueOr<Expr>(given, "size", 1.0);
   const Shape shape = scale(centred, size / std::max(sides.x, sides.y));
-  if (!shape.ok()) raise(L, *shape.error);
-  return pushShape(L, shape), 1;
+  return pushGood(L, shape);
 }
 
 int textShape(lua_State* L) {
@@ -122,8 +120,7 @@ int textShape(lua_State* L) {
   if (!letters && letters.error().kind == ErrorKind::Scene) raise(L, f.name + ": " + letters.error().message);
   if (!letters) return pushMissing(L, f.name + ": " + letters.error().message);
   const Shape shape = scale(outline(*letters, kCurveTolerance, f.name), valueOr<Expr>(given, "size", 1.0));
-  if (!shape.ok()) raise(L, *shape.error);
-  return pushShape(L, shape), 1;
+  return pushGood(L, shape);
 }
 
 }  // namespace sdf

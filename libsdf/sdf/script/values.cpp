@@ -288,6 +288,11 @@ void pushShape(lua_State* L, Shape shape) {
                "give all shapes to one union(list), intersection or difference, and each operator once");
   pushValue(L, kShape, std::move(shape));
 }
+
+int pushGood(lua_State* L, Shape shape) {
+  if (!shape.ok()) raise(L, *shape.error);
+  return pushShape(L, std::move(shape)), 1;
+}
 void pushMaterial(lua_State* L, MaterialPtr material) { pushValue(L, kMaterial, std::move(material)); }
 
 bool isFormula(lua_State* L, int index) { return luaL_testudata(L, index, kFormula); }

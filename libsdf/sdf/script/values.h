@@ -51,6 +51,8 @@ void pushResult(lua_State* L, const Expr& e);
 /// The same as {x, y, z}.
 void pushResult(lua_State* L, const Vec3E& v);
 void pushShape(lua_State* L, Shape shape);
+/// The same of a function's only result, or ends the script with the shape's error. Returns 1.
+int pushGood(lua_State* L, Shape shape);
 void pushMaterial(lua_State* L, MaterialPtr material);
 
 /// A number or a formula?
