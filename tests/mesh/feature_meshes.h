@@ -1,4 +1,4 @@
-// Meshes with known creases, and what the tests of remeshing measure.
+// Meshes with known creases, and what the tests of simplifying measure.
 #pragma once
 #include <algorithm>
 #include <cmath>

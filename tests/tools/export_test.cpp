@@ -503,7 +503,7 @@ TEST_F(Export, ShowsTheFirstPartThatIsNotDone) {
   command.terminal = true;
   const Outcome outcome = command.run();
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_NE(outcome.err.find("part 'slow' (1 of 2): remeshing"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("part 'slow' (1 of 2): simplifying"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("part 'quick'"), std::string::npos) << outcome.err;
 }
 

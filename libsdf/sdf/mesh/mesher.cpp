@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <memory>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "sdf/mesh/band/narrow_band.h"
@@ -25,14 +24,10 @@
 #include "sdf/mesh/measure/last_measured.h"
 #include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/measure/topology.h"
-#include "sdf/mesh/measure/witnesses.h"
 #include "sdf/mesh/mesh.h"
 #include "sdf/mesh/pieces.h"
 #include "sdf/mesh/refine/balance.h"
-#include "sdf/mesh/refine/close_creases.h"
-#include "sdf/mesh/refine/remesh_paint.h"
-#include "sdf/mesh/refine/simplify.h"
-#include "sdf/mesh/refine/thin.h"
+#include "sdf/mesh/refine/ladder.h"
 #include "sdf/mesh/surface/local_field.h"
 #include "sdf/mesh/surface/project.h"
 #include "sdf/model/float_range.h"
@@ -43,7 +38,6 @@
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/place.h"
 #include "sdf/shape/solids/solids.h"
-#include "sdf/triangles/incidence.h"
 
 namespace sdf {
 namespace {
@@ -84,42 +78,9 @@ constexpr double kReadWithin = 0.01;
 constexpr double kAcross = 32.0;
 // How often voxels are halved for a tolerance, and for what they do not resolve.
 constexpr int kHalvings = 3;
-// Voxels: a mesh that is farther from its surface has met an edge that it could not follow, which remeshing
-// cannot mend.
-constexpr double kResolved = 0.25;
-// The coarsest voxels that are tried, times those that were asked for; and how many tolerances their mesh may
-// be off for simplifying to mend it. Measured on the samples: beyond, it fails or leaves more triangles than
-// half the voxels do.
-constexpr double kCoarsest = 16.0, kFollowed = 2.0;
-// Simplifying holds samples to this share of the tolerance, for the rounding of what is measured.
-constexpr double kHeldTo = 0.999;
-// Where that misses the tolerance by little, at bends as sharp as it, all samples are held to these shares of
-// it, and some more triangles are left.
-constexpr double kStricter[] = {0.8, 0.6};
-// What is missed by less than this factor is tried again before finer voxels are, which take four times as
-// long, held to this share of what would do (gear: 0.6 of the time, as many triangles; where a quarter is
-// missed a third more triangles would be left).
-constexpr double kByLittle = 1.1, kAgain = 0.95;
-// Where no tolerance was asked for, a lattice of up to so many triangles is held to both however far off a
-// place is, at a second each; a larger one to the first alone.
-constexpr std::size_t kMostToHold = 100'000;
-// The same of thinning, which does not climb to what lies between its witnesses, by up to 1.7 % in samples,
-// where it is not done again for that.
-constexpr double kThinnedTo = 0.98;
-// Of the tolerance: what is as far from a mesh of the surface may come to be beyond it in the next.
-constexpr double kClose = 0.9;
-// The finest voxels, times those that were asked for, that are thinned for their colours before these are.
-// Their triangles are about as large as those that a tolerance asks for: they tell whether colours need more.
-constexpr double kFinestPainted = 4.0;
 // A mesh of more than these is not tried again with four times as many, nor one of more than those for what
 // may not be mended by it.
 constexpr std::size_t kMostTriangles = 1'000'000, kMostToTry = 150'000;
-// For a goal that nobody asked for a lattice of more than these, which has edges that it does not follow, is
-// not tried again: simplifying four times as many did not keep it in the samples either.
-constexpr std::size_t kMostToHalve = 50'000;
-// Thinning for colours leaves up to a third fewer triangles than simplifying with them does (boards of wood,
-// blends), and takes as long on a mesh of about so many (planets of noise, above it).
-constexpr std::size_t kMostToThin = 300'000;
 
 double voxelSizeOf(const MeshOptions& options, const Box& bounds) {
   return options.voxelSize > 0.0 ? options.voxelSize : bounds.longestSide() / kDefaultResolution;
@@ -148,16 +109,8 @@ std::optional<PlacedTriangles> ownTriangles(const Shape& shape, const MeshOption
   return placedTriangles(shape, options.values, kHeldToByChords * options.tolerance);
 }
 
-// A shape's samples at one resolution, and the mesh that is made of them.
-struct Lattice {
-  Lattice(NarrowBand samples, LocalTapes whole) : band(std::move(samples)), field(band, std::move(whole)) {}
-  NarrowBand band;
-  BandField field;
-  FeatureMesh mesh;
-};
-
 // Runs the stages of one mesh and keeps their times.
-class Mesher {
+class Mesher : LatticeSource {
  public:
   /// `isPiece`: others may have a surface where it has none.
   Mesher(const std::string& name, const MeshOptions& options, Progress& progress, bool isPiece = false)
@@ -166,27 +119,28 @@ class Mesher {
   Result<MeshedShape> run(Shape shape) {
     if (!shape.ok()) return sceneError(name_, *shape.error);
     begin("bounds");
-    Result<Box> bounds = boundsOf(shape);
-    if (!bounds) return bounds.error();
-    if (isPiece_ && bounds->empty()) return std::move(result_);
-    double h = voxelSizeOf(options_, *bounds);
-    if (const double least = kLeastTolerance * bounds->longestSide();
+    if (Result<Box> bounds = boundsOf(shape); bounds)
+      bounds_ = *bounds;
+    else
+      return bounds.error();
+    if (isPiece_ && bounds_.empty()) return std::move(result_);
+    double h = voxelSizeOf(options_, bounds_);
+    if (const double least = kLeastTolerance * bounds_.longestSide();
         options_.tolerance > 0.0 && options_.tolerance < least)
       return Error{ErrorKind::Limits,
                    "part '" + name_ + "': a tolerance of " + shown(options_.tolerance) +
                        " is below the rounding of coordinates at this size; take at least " + shown(least)};
-    if (Status s = checkFloats(*bounds, h); !s) return s.error();
-    if (isFar(*bounds, h)) goNear(shape, *bounds, h);
+    if (Status s = checkFloats(h); !s) return s.error();
+    if (isFar(h)) goNear(shape, h);
     const bool thins = options_.tolerance > 0.0;
     painted_ = isPainted(shape);
     const double finest = thins ? std::ldexp(h, -kHalvings) : h;
-    const ModelTapes model = Model(shape).at(options_.values, Accuracy{*bounds, kReadWithin * finest});
+    model_ = Model(shape).at(options_.values, Accuracy{bounds_, kReadWithin * finest});
     distance_ = shape.distance;
     if (auto own = ownTriangles(shape, options_))
-      if (options_.keepsFiles || own->offBy > 0.0)
-        return takeTriangles(std::move(*own), shape, model, *bounds, h);
+      if (options_.keepsFiles || own->offBy > 0.0) return takeTriangles(std::move(*own), shape, h);
     for (int halvings = 0;; ++halvings, h /= 2.0) {
-      Result<std::unique_ptr<Lattice>> sampled = sample(model, *bounds, h);
+      Result<std::unique_ptr<Lattice>> sampled = sample(h);
       if (!sampled) return sampled.error();
       Lattice& lattice = **sampled;
       findUnresolved(lattice.band, lattice.field, progress_, result_.stats);
@@ -194,7 +148,7 @@ class Mesher {
       result_.stats.notNumbers = lattice.band.notNumbers().count;
       result_.stats.firstNotNumber = lattice.band.notNumbers().first;
       FeatureMesh& mesh = lattice.mesh;
-      if (Status s = extract(lattice, !thins, *bounds); !s) return s.error();
+      if (Status s = extract(lattice, !thins); !s) return s.error();
       const bool last =
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
       const bool cheap = mesh.triangles.size() <= kMostToTry;
@@ -202,43 +156,28 @@ class Mesher {
       if (mesh.triangles.empty()) return isPiece_ ? Result(std::move(result_)) : noSurface(h);
       if (thins) {
         result_.stats.tolerance = options_.tolerance;
-        begin("remeshing");
-        const double limit = std::max(options_.tolerance, kResolved * h);
-        if (surface_.empty()) surface_ = surfacePoints(model, *bounds, progress_);
-        // Where this lattice does not see all that there is, coarser ones see less.
-        const bool resolved = halvings == 0 && result_.stats.unresolved == 0;
+        begin("simplifying");
+        if (surface_.empty()) surface_ = surfacePoints(*model_, bounds_, progress_);
         const bool finer = !last && (options_.strict || cheap);
-        const Simplified simplified =
-            simplifyCoarser(*sampled, resolved ? kCoarsest : 1.0, finer, model, *bounds);
-        if (simplified == Simplified::Taken) return finish(shape, model, *bounds, **sampled);
-        if (simplified == Simplified::NeedsFiner) continue;
-        Witnesses witnesses(surface_, mesh, limit, painted_, progress_);
-        begin("remeshing");
-        if (Status s = checkLattice(mesh, *bounds, h, lattice.field, model); !s) return s.error();
-        if (finer && witnesses.lacking() > limit) continue;
-        const bool broken = result_.stats.maxDistance > limit &&
-                            !placesBeyond(limit, mesh, lattice.field, h, progress_).empty();
-        if (broken && finer) continue;
-        if (broken && options_.strict) return checkTolerance().error();
-        const ThinOptions thinning{thinnedTo(), h, painted_, options_.strict, broken};
-        const FeatureMesh before = options_.strict ? mesh : FeatureMesh();
-        bool kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
-        // Once more with what lay between its witnesses, where the tolerance was asked for.
-        if (kept && options_.strict && !witness(mesh, lattice.field, *bounds, witnesses).empty()) {
-          mesh = before;
-          kept = thin(mesh, lattice.field, witnesses, thinning, progress_);
-        }
-        if (!kept && finer && options_.strict) continue;
+        lattice.isResolved = result_.stats.unresolved == 0;
+        Ladder ladder({options_.tolerance, bounds_.longestSide(), options_.strict, painted_}, *this, surface_,
+                      measured_, progress_);
+        const Ladder::End end = ladder.climb(*sampled, halvings == 0, finer);
+        witnessed_ = ladder.witnessed();
+        if (end == Ladder::End::Simplified) return finish(shape, **sampled);
+        if (end == Ladder::End::NeedsFiner) continue;
+        if (Status s = checkLattice(mesh, h, lattice.field); !s) return s.error();
+        if (finer) continue;
       }
-      return finish(shape, model, *bounds, lattice);
+      return finish(shape, lattice);
     }
   }
 
  private:
   // Positions and readings are floats: what they cannot tell apart is refused before any work.
-  Status checkFloats(const Box& bounds, double voxel) const {
-    const double farthest = reachOf(bounds);
-    if (const auto why = beyondFloats(bounds)) return sceneError(name_, *why);
+  Status checkFloats(double voxel) const {
+    const double farthest = reachOf(bounds_);
+    if (const auto why = beyondFloats(bounds_)) return sceneError(name_, *why);
     const double apart = farthest * kBetweenFloats;
     if (voxel >= kFloatsInAVoxel * apart) return okStatus();
     return sceneError(name_, "positions, which are floats, are up to " + shown(apart) +
@@ -249,18 +188,18 @@ class Mesher {
   }
 
   // Does it lie where the rounding of positions shows in figures, and would not about its middle?
-  static bool isFar(const Box& bounds, double voxel) {
-    return reachOf(bounds) * kBetweenFloats > kSeen * voxel &&
-           glm::length(bounds.centre()) > bounds.longestSide();
+  bool isFar(double voxel) const {
+    return reachOf(bounds_) * kBetweenFloats > kSeen * voxel &&
+           glm::length(bounds_.centre()) > bounds_.longestSide();
   }
 
   // All is done about a place near the middle, which is at the origin until the mesh is. It is a multiple of
   // a power of two, a float that the positions' floats differ from by floats.
-  void goNear(Shape& shape, Box& bounds, double voxel) {
+  void goNear(Shape& shape, double voxel) {
     const double step = std::exp2(std::floor(std::log2(voxel)));
-    origin_ = glm::round(bounds.centre() / step) * step;
+    origin_ = glm::round(bounds_.centre() / step) * step;
     shape = relativeTo(shape, origin_);
-    bounds = {bounds.min - origin_, bounds.max - origin_};
+    bounds_ = {bounds_.min - origin_, bounds_.max - origin_};
     if (clip_) clip_ = Box{clip_->min - origin_, clip_->max - origin_};
   }
 
@@ -285,18 +224,33 @@ class Mesher {
 
   std::string placeOf(const glm::dvec3& p) const { return shownPlace(p + origin_); }
 
-  Result<std::unique_ptr<Lattice>> sample(const ModelTapes& model, const Box& bounds, double voxel) {
+  Result<std::unique_ptr<Lattice>> sample(double voxel) {
     begin("sampling");
-    Result<NarrowBand> band = sampleNarrowBand(model, {voxel, bounds, options_.maxMemory}, progress_);
+    Result<NarrowBand> band = sampleNarrowBand(*model_, {voxel, bounds_, options_.maxMemory}, progress_);
     if (!band) return band.error();
     result_.stats.voxels += band->sampleCount();
     return std::make_unique<Lattice>(std::move(*band),
-                                     LocalTapes{model.whole(), model.whole()->firstOutputOnly()});
+                                     LocalTapes{model_->whole(), model_->whole()->firstOutputOnly()});
+  }
+
+  // LatticeSource.
+  std::unique_ptr<Lattice> lattice(double voxel) override {
+    Result<std::unique_ptr<Lattice>> sampled = sample(voxel);
+    if (!sampled) return {};
+    MeshStats stats;
+    findUnresolved((*sampled)->band, (*sampled)->field, progress_, stats);
+    (*sampled)->isResolved = stats.unresolved == 0;
+    return std::move(*sampled);
+  }
+  bool makeMesh(Lattice& lattice) override {
+    const bool made = extract(lattice, false).ok();
+    begin("simplifying");
+    return made && isClosed(lattice.mesh);
   }
 
   // The mesh at the voxels' resolution, with its creases; empty where there is none. Its vertices lie on the
   // surface, or are balanced.
-  Status extract(Lattice& lattice, bool balanced, const Box& bounds) {
+  Status extract(Lattice& lattice, bool balanced) {
     const BandField& field = lattice.field;
     begin("extraction");
     RawSurface raw = lattice.band.extract();
@@ -306,7 +260,7 @@ class Mesher {
     std::vector<glm::vec3> normals;
     refineVertices(raw.points, normals, field, progress_);
     leaveFilms(outwardNormals(extracted, raw.triangles), raw.points, normals, field, progress_);
-    if (Status s = checkBounds(raw, field, bounds, lattice.band.voxelSize()); !s) return s;
+    if (Status s = checkBounds(raw, field, lattice.band.voxelSize()); !s) return s;
     begin("creases");
     auto [mesh, doubtful] =
         sharpen(std::move(raw.points), normals, std::move(raw.triangles), extracted, field, progress_);
@@ -327,248 +281,30 @@ class Mesher {
     return okStatus();
   }
 
-  enum class Simplified {
-    Taken,       // the mesh is replaced
-    NeedsFiner,  // none keeps the tolerance, and finer voxels are to be tried
-    No           // these voxels are too coarse for the shape, or colours need more than the shape does
-  };
-
-  // Replaces the mesh by one that is simplified from the largest voxels that do, up to some times as large as
-  // these. What these voxels see none may miss: the vertices of this mesh are points of the surface, and
-  // where it is painted those of its creases points of borders, which are to be met within the tolerance.
-  Simplified simplifyCoarser(std::unique_ptr<Lattice>& fine, double coarsest, bool finer,
-                             const ModelTapes& model, const Box& bounds) {
-    Witnesses witnesses(surface_, fine->mesh, painted_);
-    bool blurred = painted_ && blursColors(*fine, model, bounds);  // do they need more than the shape?
-    missed_ = kInfinity;
-    if (simplifyCoarse(1.0, fine, coarsest, blurred, model, bounds, witnesses)) return Simplified::Taken;
-    witnessed_ = {};
-    if (progress_.stopped() || !isClosed(fine->mesh)) return Simplified::No;
-    const FeatureMesh mesh = fine->mesh;
-    const Simplified simplified = simplifyFinest(*fine, blurred, finer, bounds, witnesses);
-    // What is missed by little is kept if all is held to somewhat less.
-    const bool isSmall = mesh.triangles.size() <= kMostToHold;
-    const std::size_t shares = options_.strict || isSmall ? std::size(kStricter) : 1;
-    for (const double share : std::span(kStricter).first(shares)) {
-      const bool isWorthIt = missed_ * share <= 1.0 || (isSmall && !options_.strict && missed_ < kInfinity);
-      if (!isWorthIt || progress_.stopped()) continue;
-      FeatureMesh best = std::exchange(fine->mesh, mesh);
-      if (simplifyCoarse(share, fine, coarsest, blurred, model, bounds, witnesses)) return Simplified::Taken;
-      if (simplifyTo(fine->mesh, share, fine->field, fine->field, bounds, witnesses) &&
-          !crosses(fine->mesh) && (!painted_ || keepsPaint(fine->mesh, witnesses, fine->field)))
-        return Simplified::Taken;
-      fine->mesh = std::move(best);
-    }
-    if (simplified == Simplified::Taken) witnessed_ = witnesses.toSurface(fine->mesh, progress_);
-    return simplified;
-  }
-
-  // The same from larger voxels alone, with samples held to a share of the tolerance. Returns whether one
-  // keeps it. `blurred` may be found out.
-  bool simplifyCoarse(double share, std::unique_ptr<Lattice>& fine, double coarsest, bool& blurred,
-                      const ModelTapes& model, const Box& bounds, Witnesses& witnesses) {
-    const std::size_t seen = fine->mesh.positions.size();
-    for (double times = coarsest; times > 1.0 && !progress_.stopped(); times /= 2.0) {
-      if (blurred && times < kFinestPainted) break;
-      Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, times * fine->band.voxelSize());
-      if (!sampled) break;
-      Lattice& coarse = **sampled;
-      MeshStats stats;
-      findUnresolved(coarse.band, coarse.field, progress_, stats);
-      if (stats.unresolved > 0) continue;
-      if (!extract(coarse, false, bounds)) continue;
-      FeatureMesh mesh = coarse.mesh;
-      if (!isClosed(mesh) || !follows(mesh, coarse.field, witnesses)) continue;
-      if (!blurred) {
-        bool kept = simplifyTo(mesh, share, coarse.field, fine->field, bounds, witnesses);
-        if (!kept && share == 1.0 && exceeded_ < kByLittle) {
-          mesh = coarse.mesh;
-          kept = simplifyTo(mesh, kAgain / exceeded_, coarse.field, fine->field, bounds, witnesses);
-        }
-        if (!kept || crosses(mesh)) continue;
-        // What is painted is looked at as closely as in the finest lattice.
-        blurred = painted_ && !keepsPaint(mesh, witnesses, fine->field);
-      }
-      if (blurred &&
-          (times < kFinestPainted || !simplifyPainted(mesh, coarse, bounds, witnesses, fine->field)))
-        continue;
-      witnessed_.points = seen;  // the others are looked at again
-      (painted_ ? *fine : coarse).mesh = std::move(mesh);
-      if (!painted_) fine = std::move(*sampled);
-      return true;
-    }
-    return false;
-  }
-
-  // The same from the mesh itself. Where no tolerance was asked for, what comes of it is taken as it is.
-  Simplified simplifyFinest(Lattice& fine, bool& blurred, bool finer, const Box& bounds,
-                            Witnesses& witnesses) {
-    if (blurred && options_.strict) return Simplified::No;
-    const double off = lackOf(fine.mesh, fine.field, witnesses);
-    const bool followed = off <= kFollowed * options_.tolerance;
-    if (!followed && (finer || options_.strict)) return Simplified::No;
-    const bool mends = followed && (options_.strict || result_.stats.unresolved == 0);
-    FeatureMesh mesh = fine.mesh;
-    if (mends && !blurred) {
-      const bool kept = simplifyTo(mesh, 1.0, fine.field, fine.field, bounds, witnesses);
-      if (kept) missed_ = kInfinity;  // nothing is to be done again
-      const bool helps = off > options_.tolerance && fine.mesh.triangles.size() <= kMostToHalve;
-      if (!kept && finer && (options_.strict || helps)) return Simplified::NeedsFiner;
-      blurred = painted_ && !keepsPaint(mesh, witnesses, fine.field);
-      if (blurred && options_.strict) return Simplified::No;
-      if (blurred) mesh = fine.mesh;
-    }
-    if (!mends) {
-      closeCreases(mesh);
-      simplifyUnresolved(mesh, fine.field, thinnedTo(), blurred, progress_);
-    } else if (blurred) {
-      const bool thins = off <= std::max(options_.tolerance, kResolved * fine.band.voxelSize()) &&
-                         mesh.triangles.size() <= kMostToThin && isMostlyFlat(mesh);
-      if (!thins || !thinPainted(mesh, fine, bounds, witnesses, fine.field)) {
-        mesh = fine.mesh;
-        simplifyTo(mesh, 1.0, fine.field, fine.field, bounds, witnesses, true);
-      }
-      missed_ = kInfinity;
-    }
-    if (crosses(mesh)) return Simplified::No;
-    fine.mesh = std::move(mesh);
-    return Simplified::Taken;
-  }
-
-  static bool crosses(const FeatureMesh& mesh) {
-    return !crossingTriangles(mesh.positions, mesh.triangles).empty();
-  }
-
-  // Would triangles as large as the tolerance asks for blur the colours?
-  bool blursColors(const Lattice& fine, const ModelTapes& model, const Box& bounds) {
-    Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, kFinestPainted * fine.band.voxelSize());
-    if (!sampled) return false;
-    if (!extract(**sampled, false, bounds)) return false;
-    const FeatureMesh& mesh = (*sampled)->mesh;
-    return isClosed(mesh) && !keepsColors(mesh, options_.tolerance, fine.field, progress_);
-  }
-
-  static bool isClosed(const FeatureMesh& mesh) {
-    return !mesh.triangles.empty() && !openVertex(mesh.triangles, mesh.positions.size());
-  }
-
-  // Is a lattice's mesh near enough for simplifying to mend it?
-  bool follows(const FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
-    return lackOf(mesh, field, witnesses) <= kFollowed * options_.tolerance;
-  }
-
-  // How far a lattice's mesh is from the surface, either way; infinite where it lacks a border.
-  double lackOf(const FeatureMesh& mesh, const BandField& field, const Witnesses& witnesses) {
-    begin("remeshing");
-    MeshStats stats;
-    measured_.fromMesh(mesh, field, progress_, stats);
-    if (witnesses.toBorders(mesh, progress_) > options_.tolerance) return kInfinity;
-    return std::max(stats.maxDistance, witnesses.toSurface(mesh, progress_).max);
-  }
-
-  double thinnedTo() const { return (options_.strict ? 1.0 : kThinnedTo) * options_.tolerance; }
-
-  // The mesh becomes that of the lattice with fewer triangles that hold the colours; returns whether the
-  // tolerance is kept. Measured: of most of what curves simplifying leaves fewer triangles, in half of the
-  // time (chess, creature, pawn; of metaballs a sixth more); of a board of wood thinning leaves three
-  // quarters.
-  bool simplifyPainted(FeatureMesh& mesh, const Lattice& lattice, const Box& bounds, Witnesses& witnesses,
-                       const BandField& fine) {
-    if (isMostlyFlat(lattice.mesh)) return thinPainted(mesh, lattice, bounds, witnesses, fine);
-    mesh = lattice.mesh;
-    return simplifyTo(mesh, 1.0, lattice.field, fine, bounds, witnesses, true) && !crosses(mesh);
-  }
-
-  // The mesh becomes that of the lattice, thinned by readings of shape and colours; returns whether the
-  // tolerance is kept.
-  bool thinPainted(FeatureMesh& mesh, const Lattice& lattice, const Box& bounds, Witnesses& witnesses,
-                   const BandField& fine) {
-    mesh = lattice.mesh;
-    const ThinOptions options{
-        .tolerance = thinnedTo(), .voxel = lattice.band.voxelSize(), .painted = true, .once = true};
-    if (!thin(mesh, fine, witnesses, options, progress_)) return false;
-    witnessed_ = witnesses.toSurface(mesh, progress_);
-    return witnessed_.max <= options_.tolerance && witness(mesh, fine, bounds, witnesses).empty();
-  }
-
-  // Points of the surface between the witnesses that are farther from the mesh than the tolerance. What is so
-  // far that the mesh may come to miss it is one of the witnesses from now on.
-  std::vector<glm::vec3> witness(const FeatureMesh& mesh, const BandField& field, const Box& bounds,
-                                 Witnesses& witnesses) {
-    const std::vector<FarPoint>& far =
-        measured_.fromSurface(surface_, mesh, field, bounds.longestSide(), progress_);
-    std::vector<glm::vec3> close, missed;
-    for (std::size_t i = 0; i < far.size(); ++i) {
-      if (i >= surface_.size() && far[i].distance > kClose * options_.tolerance) close.push_back(far[i].at);
-      if (far[i].distance > options_.tolerance) missed.push_back(far[i].at);
-      exceeded_ = std::max(exceeded_, far[i].distance / options_.tolerance);
-    }
-    surface_.insert(surface_.end(), close.begin(), close.end());
-    witnesses.add(close);
-    return missed;
-  }
-
-  // Simplifies a lattice's mesh with samples held to a share of the tolerance; returns whether it is kept,
-  // both ways.
-  bool simplifyTo(FeatureMesh& mesh, double share, const BandField& field, const BandField& fine,
-                  const Box& bounds, Witnesses& witnesses, bool painted = false) {
-    closeCreases(mesh);
-    const auto exceeding = [&](const FeatureMesh& made) {
-      return placesBeyondTolerance(made, painted_ ? fine : field, bounds, witnesses);
-    };
-    exceeded_ = kInfinity;
-    const bool kept = simplify(mesh, field, share * kHeldTo * options_.tolerance, witnesses.surface(),
-                               exceeding, painted, progress_);
-    if (!kept) missed_ = std::min(missed_, exceeded_);
-    return kept;
-  }
-
   // A mesh from a file has its surface, but for the rounding of its vertices; that of an outline is measured.
   // The lattice is for normals.
-  Result<MeshedShape> takeTriangles(PlacedTriangles own, const Shape& shape, const ModelTapes& model,
-                                    const Box& bounds, double voxel) {
-    Result<std::unique_ptr<Lattice>> sampled = sample(model, bounds, kCoarsest * voxel);
+  Result<MeshedShape> takeTriangles(PlacedTriangles own, const Shape& shape, double voxel) {
+    Result<std::unique_ptr<Lattice>> sampled = sample(kCoarsest * voxel);
     if (!sampled) return sampled.error();
     Lattice& lattice = **sampled;
     result_.stats.voxelSize = lattice.band.voxelSize();
     result_.stats.tolerance = options_.tolerance;
     round(own.mesh);
     lattice.mesh = std::move(own.mesh);
-    if (own.offBy > 0.0) return finish(shape, model, bounds, lattice);
+    if (own.offBy > 0.0) return finish(shape, lattice);
     begin("measuring");
     measureRounding(lattice.mesh.positions, own.places, result_.stats);
     measureTopology(lattice.mesh.triangles, lattice.mesh.positions.size(), result_.stats);
     measureCrossings(lattice.mesh.positions, lattice.mesh.triangles, result_.stats);
-    return dress(shape, model, bounds, lattice);
+    return dress(shape, lattice);
   }
 
-  // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are
-  // any.
-  std::vector<glm::vec3> placesBeyondTolerance(const FeatureMesh& mesh, const BandField& field,
-                                               const Box& bounds, Witnesses& witnesses) {
-    MeshStats stats;
-    measured_.fromMesh(mesh, field, progress_, stats);
-    exceeded_ = stats.maxDistance / options_.tolerance;
-    if (exceeded_ > 1.0) return {stats.farthest};
-    witnessed_ = witnesses.toSurface(mesh, progress_);
-    exceeded_ = witnessed_.max / options_.tolerance;
-    if (exceeded_ > 1.0) return {witnessed_.farthest};
-    return witness(mesh, field, bounds, witnesses);
-  }
-
-  // Does the mesh keep borders and colours as the field sees them?
-  bool keepsPaint(const FeatureMesh& mesh, const Witnesses& witnesses, const BandField& field) {
-    return witnesses.toBorders(mesh, progress_) <= options_.tolerance &&
-           keepsColors(mesh, options_.tolerance, field, progress_);
-  }
-
-  // Of what is not closed remeshing could make nothing.
-  Status checkLattice(const FeatureMesh& mesh, const Box& bounds, double voxel, const BandField& field,
-                      const ModelTapes& model) {
+  // Of what is not closed simplifying could make nothing.
+  Status checkLattice(const FeatureMesh& mesh, double voxel, const BandField& field) {
     const std::vector<float>& distances = measured_.fromMesh(mesh, field, progress_, result_.stats);
     measureTopology(mesh.triangles, mesh.positions.size(), result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    return checkStated(mesh, bounds, voxel, distances, model);
+    return checkStated(mesh, voxel, distances);
   }
 
   // Would voxels as small as these see what the present ones do not? Solids that touch are thinner than any.
@@ -578,8 +314,7 @@ class Mesher {
   }
 
   // Measures and checks what was made, and dresses it.
-  Result<MeshedShape> finish(const Shape& shape, const ModelTapes& model, const Box& bounds,
-                             Lattice& lattice) {
+  Result<MeshedShape> finish(const Shape& shape, Lattice& lattice) {
     round(lattice.mesh);
     const FeatureMesh& features = lattice.mesh;
     const BandField& field = lattice.field;
@@ -589,18 +324,17 @@ class Mesher {
     measureTopology(features.triangles, features.positions.size(), result_.stats);
     measureCrossings(features.positions, features.triangles, result_.stats);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
-    if (Status s = checkStated(features, bounds, voxel, distances, model); !s) return s.error();
-    measureToMesh(features, field, model, bounds);
-    return dress(shape, model, bounds, lattice);
+    if (Status s = checkStated(features, voxel, distances); !s) return s.error();
+    measureToMesh(features, field);
+    return dress(shape, lattice);
   }
 
   // Holds what was measured to what was asked for, and gives the mesh its normals and colours.
-  Result<MeshedShape> dress(const Shape& shape, const ModelTapes& model, const Box& bounds,
-                            const Lattice& lattice) {
+  Result<MeshedShape> dress(const Shape& shape, const Lattice& lattice) {
     const FeatureMesh& features = lattice.mesh;
     const BandField& field = lattice.field;
     if (Status s = checkTolerance(); !s) return s.error();
-    if (Status s = certifyMesh(model, features, bounds, result_.stats.voxelSize); !s) return s.error();
+    if (Status s = certifyMesh(features, result_.stats.voxelSize); !s) return s.error();
     begin("normals");
     Mesh& mesh = result_.mesh;
     const double far =
@@ -615,15 +349,14 @@ class Mesher {
   }
 
   // What the mesh lacks is seen from the surface only.
-  void measureToMesh(const FeatureMesh& mesh, const BandField& field, const ModelTapes& model,
-                     const Box& bounds) {
-    if (surface_.empty()) surface_ = surfacePoints(model, bounds, progress_);
+  void measureToMesh(const FeatureMesh& mesh, const BandField& field) {
+    if (surface_.empty()) surface_ = surfacePoints(*model_, bounds_, progress_);
     MeshStats& stats = result_.stats;
     // A cell's diagonal, beyond which there is no vertex in a cell; few triangles may be as far as the
     // tolerance.
     const double limit = std::max(std::numbers::sqrt3 * stats.voxelSize, stats.tolerance);
     const SurfaceDistance missed =
-        farthestOf(measured_.fromSurface(surface_, mesh, field, bounds.longestSide(), progress_), limit);
+        farthestOf(measured_.fromSurface(surface_, mesh, field, bounds_.longestSide(), progress_), limit);
     if (stats.unresolved == 0 && missed.beyond > 0)
       stats.unresolved = missed.beyond, stats.firstUnresolved = missed.farthest;
     stats.surfacePoints = missed.points + witnessed_.points;
@@ -674,9 +407,8 @@ class Mesher {
 
   // Refuses a mesh that leaves the bounds that are stated of the shape, or is not the shape's. `distances`
   // are the vertices' to the surface.
-  Status checkStated(const FeatureMesh& mesh, const Box& bounds, double voxel,
-                     const std::vector<float>& distances, const ModelTapes& model) const {
-    const auto fault = faultOf({mesh, distances, result_.stats, bounds, voxel, origin_}, model);
+  Status checkStated(const FeatureMesh& mesh, double voxel, const std::vector<float>& distances) const {
+    const auto fault = faultOf({mesh, distances, result_.stats, bounds_, voxel, origin_}, *model_);
     return fault ? Status(explained(*fault, voxel)) : okStatus();
   }
 
@@ -694,9 +426,9 @@ class Mesher {
   }
 
   // What leaves its bounds by more than finer voxels would change is refused before work is done on it.
-  Status checkBounds(const RawSurface& raw, const BandField& field, const Box& bounds, double voxel) {
+  Status checkBounds(const RawSurface& raw, const BandField& field, double voxel) {
     const double allowed = 2.0 * std::max(voxel, options_.tolerance);
-    const auto outside = farthestOutside(raw.points, bounds, allowed);
+    const auto outside = farthestOutside(raw.points, bounds_, allowed);
     if (!outside) return okStatus();
     if (const auto blamed = noNumberAround(*outside, voxel)) return sceneError(name_, *blamed);
     FeatureMesh mesh;
@@ -704,21 +436,21 @@ class Mesher {
     mesh.triangles = raw.triangles;
     MeshStats stats;
     const std::vector<float>& distances = measured_.fromMesh(mesh, field, progress_, stats);
-    const auto fault = leavesBounds({mesh, distances, stats, bounds, voxel, origin_});
+    const auto fault = leavesBounds({mesh, distances, stats, bounds_, voxel, origin_});
     return fault && !progress_.stopped() ? Status(sceneError(name_, fault->what)) : okStatus();
   }
 
   // Proves the distance, if that is asked for.
-  Status certifyMesh(const ModelTapes& model, const FeatureMesh& mesh, const Box& bounds, double voxel) {
+  Status certifyMesh(const FeatureMesh& mesh, double voxel) {
     if (!options_.certify) return okStatus();
     begin("certifying");
     MeshStats& stats = result_.stats;
     // Three times the measured distance is what a proof may well come to. Vertices are floats, a rounding
     // off.
-    const double goal = std::max(2.5 * stats.maxDistance, 0x1p-22 * bounds.longestSide());
+    const double goal = std::max(2.5 * stats.maxDistance, 0x1p-22 * bounds_.longestSide());
     const double limit = std::max(kFarthestVoxels * voxel, 4.0 * goal);
     const Certificate proof =
-        certify(mesh.positions, mesh.triangles, model, {bounds, goal, voxel, limit}, progress_);
+        certify(mesh.positions, mesh.triangles, *model_, {bounds_, goal, voxel, limit}, progress_);
     if (progress_.stopped()) return Error{ErrorKind::Interrupted, "interrupted"};
     stats.provenDistance = proof.bound();
     if (proof.proven()) return okStatus();
@@ -754,6 +486,8 @@ class Mesher {
   const std::string& name_;
   const MeshOptions& options_;
   Expr distance_;  // of the shape
+  std::optional<ModelTapes> model_;
+  Box bounds_;  // the finite box to mesh in
   Progress& progress_;
   bool isPiece_;
   std::optional<Box> clip_;  // as the options have it
@@ -763,8 +497,6 @@ class Mesher {
   std::vector<glm::vec3> surface_;  // points of it
   LastMeasured measured_;
   SurfaceDistance witnessed_;  // from vertices of a finer lattice, where there was one
-  double exceeded_ = 0.0;      // tolerances that the mesh that was looked at last is off
-  double missed_ = kInfinity;  // the least of what did not keep it
   std::size_t stage_ = 0;
   Clock::time_point began_;
 };

@@ -131,6 +131,22 @@ TEST(Borders, OfFourSquaresMeetInTheirCorners) {
   }
 }
 
+// Squares of 1, of which four of the box's sides lie in borders: there it shows what lies behind.
+TEST(Borders, AFaceInABorderIsOfOneColourByWhatLiesBehind) {
+  const Vec3E p = position();
+  const Expr odd = less(sin(kPi * p.x) * sin(kPi * p.z), 0.0);
+  const Shape board = box({2.0, 0.3, 3.0}).paint({.color = Vec3E(select(odd, 0.25, 0.75), 0.5, 0.5)});
+  Progress progress;
+  const Mesh mesh = meshShape(board, "board", {.tolerance = 2e-3}, progress).value().mesh;
+  EXPECT_LE(mesh.triangles.size(), 250u) << "24 squares on either side, 20 beside them";
+  for (const glm::uvec3& t : mesh.triangles) {
+    glm::vec3 middle = (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
+    middle = glm::clamp(middle, glm::vec3(-1.99f, -1.0f, -2.99f), glm::vec3(1.99f, 1.0f, 2.99f));
+    const float own = std::sin(3.14159265f * middle.x) * std::sin(3.14159265f * middle.z);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(mesh.colors[t[k]].x, own < 0.0f ? 0.25f : 0.75f, 1e-5f);
+  }
+}
+
 // Normals of a vertex and its copies at a border are those of one smooth surface.
 TEST(Borders, OnASmoothSurfaceNormalsAreOne) {
   Progress progress;

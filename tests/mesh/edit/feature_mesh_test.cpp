@@ -13,7 +13,7 @@ TEST(FeatureMesh, DropsWhatIsGoneWithAllThatBelongsToIt) {
   FeatureMesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}},
                    .triangles = {{0, 0, 0}, {1, 3, 4}},
                    .creases = {{1, 3}, {3, 4}},
-                   .held = {Hold::Free, Hold::Tip, Hold::Fixed, Hold::Exempt}};
+                   .tips = {0, 1, 0, 1}};
   std::vector<glm::vec3> normals{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 3, 0}, {0, 4, 0}};
   const std::vector<std::uint32_t> after = dropUnused(mesh, &normals);
   constexpr std::uint32_t kNone = Compaction::kNone;
@@ -22,17 +22,7 @@ TEST(FeatureMesh, DropsWhatIsGoneWithAllThatBelongsToIt) {
   EXPECT_EQ(normals, (std::vector<glm::vec3>{{0, 1, 0}, {0, 3, 0}, {0, 4, 0}}));
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
   EXPECT_EQ(mesh.creases, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {1, 2}}));
-  EXPECT_EQ(mesh.held, (std::vector<Hold>{Hold::Tip, Hold::Exempt}));
-}
-
-TEST(FeatureMesh, KnowsWhetherMostOfItIsFlat) {
-  // At the rim of each face lie a fifth of its squares, if it has 20 along.
-  EXPECT_TRUE(isMostlyFlat(griddedCube(20)));
-  EXPECT_FALSE(isMostlyFlat(griddedCube(4)));
-  EXPECT_FALSE(isMostlyFlat(griddedCylinder(64, 16)));
-  FeatureMesh ball = griddedCube(20);
-  for (glm::vec3& p : ball.positions) p = glm::normalize(p);
-  EXPECT_FALSE(isMostlyFlat(ball));
+  EXPECT_EQ(mesh.tips, (std::vector<char>{1, 1}));
 }
 
 TEST(FeatureMesh, TrianglesFaceNormalsUpTo60Degrees) {

@@ -16,10 +16,7 @@ FeatureMesh square(float height) {
   return mesh;
 }
 
-Witnesses witnesses(const FeatureMesh& mesh, bool withBorders = true) {
-  Progress progress;
-  return {{}, mesh, 0.0, withBorders, progress};
-}
+Witnesses witnesses(const FeatureMesh& mesh, bool withBorders = true) { return {{}, mesh, withBorders}; }
 
 TEST(Witnesses, AreAsFarAsTheFarthestVertex) {
   Progress progress;
@@ -42,27 +39,6 @@ TEST(Witnesses, OfBordersAreVerticesOnCreases) {
   other.creases.clear();
   EXPECT_EQ(witnesses(square(0.5f)).toBorders(other, progress), HUGE_VAL);
   EXPECT_EQ(witnesses(other).toBorders(other, progress), 0.0);
-}
-
-TEST(Witnesses, ArePointsThatTheMeshItselfIsNear) {
-  Progress progress;
-  const Witnesses both({{0.5f, 0.5f, 0.125f}, {0.25f, 0.5f, 0.5f}}, square(0.0f), 0.25, false, progress);
-  EXPECT_EQ(both.lacking(), 0.5);
-  EXPECT_EQ(both.toSurface(square(0.0f), progress).max, 0.125);
-  EXPECT_EQ(both.toSurface(square(0.0f), progress).points, 5u);
-}
-
-TEST(Witnesses, NameTheTrianglesBesideThem) {
-  Progress progress;
-  FeatureMesh higher = square(0.0f);
-  higher.positions[3].z = 0.25f;
-  const FeatureMesh flat = square(0.0f);
-  const auto missed = [&](double limit) {
-    return witnesses(higher).missedBy(flat.positions, flat.triangles, limit, progress);
-  };
-  EXPECT_EQ(missed(0.2).max, 0.25);
-  EXPECT_EQ(missed(0.2).triangles, std::vector<std::uint32_t>{1});
-  EXPECT_TRUE(missed(0.25).triangles.empty());
 }
 
 }  // namespace witnesses_test

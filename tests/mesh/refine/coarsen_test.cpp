@@ -64,10 +64,6 @@ TEST(Coarsen, KeepsCreasesAndWhatIsHeld) {
     before += glm::distance(fine.mesh.positions[a], fine.mesh.positions[b]);
   for (const auto& [a, b] : mesh.creases) after += glm::distance(mesh.positions[a], mesh.positions[b]);
   EXPECT_NEAR(after, before, 1e-3 * before);
-
-  LatticeMesh held(sphere(1.0), 0.1);
-  held.mesh.held.assign(held.mesh.positions.size(), Hold::Fixed);
-  EXPECT_EQ(coarsened(held, 0.1).triangles.size(), held.mesh.triangles.size());
 }
 
 // Circles around a tip are as sharply bent however small they are.
@@ -75,8 +71,8 @@ TEST(Coarsen, LeavesTipsAllTheirTrianglesAround) {
   LatticeMesh fine(cone(0.5, 0.8), 0.02);
   const auto top = std::ranges::max_element(fine.mesh.positions, {}, &glm::vec3::y);
   const auto tip = static_cast<std::size_t>(top - fine.mesh.positions.begin());
-  fine.mesh.held.assign(fine.mesh.positions.size(), Hold::Free);
-  fine.mesh.held[tip] = Hold::Tip;
+  fine.mesh.tips.assign(fine.mesh.positions.size(), 0);
+  fine.mesh.tips[tip] = 1;
   const auto around = [&](const FeatureMesh& mesh) {
     return std::ranges::count_if(mesh.triangles, [&](const glm::uvec3& t) {
       return std::ranges::any_of(std::array{t.x, t.y, t.z},

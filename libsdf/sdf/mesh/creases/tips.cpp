@@ -353,8 +353,8 @@ class Crowner {
   void close(const Tip& tip) {
     mesh_.positions[tip.vertex] = glm::vec3(tip.at);
     normals_[tip.vertex] = glm::vec3(0.0f);
-    mesh_.held.resize(mesh_.positions.size());
-    mesh_.held[tip.vertex] = Hold::Tip;
+    mesh_.tips.resize(mesh_.positions.size(), 0);
+    mesh_.tips[tip.vertex] = 1;
     for (const std::uint32_t t : gone_) mesh_.triangles[t] = glm::uvec3(0);
     for (const auto& [a, b] : next_) {
       mesh_.triangles.push_back({a, b, tip.vertex});

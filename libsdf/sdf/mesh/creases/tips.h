@@ -14,9 +14,9 @@ namespace sdf {
 /// point and turn all the way round: planes at the vertices about give the first place (least squares,
 /// Garland and Heckbert 1997), planes of the exact gradients ever closer to it the next ones. Corners of flat
 /// faces are none; creases meet in these, and what is on a crease stays. `normals` are the vertices'; they
-/// become zero at tips, which are held (Hold::Tip). `doubtful` vertices keep their meaning where the mesh's
-/// numbers change (sharpen.h). Cost: one pass over the triangles, and 24 readings for each vertex that is
-/// nearest to where the planes meet around one by which normals turn by more than 25 degrees.
+/// become zero at tips, which are marked (FeatureMesh::tips). `doubtful` vertices keep their meaning where
+/// the mesh's numbers change (sharpen.h). Cost: one pass over the triangles, and 24 readings for each vertex
+/// that is nearest to where the planes meet around one by which normals turn by more than 25 degrees.
 void placeTips(FeatureMesh& mesh, std::vector<glm::vec3>& normals, std::vector<std::uint32_t>& doubtful,
                const LocalField& field, Progress& progress);
 

@@ -78,8 +78,8 @@ class FanFinder {
       around_.push_back({v, {}});
     };
     for (const auto& [a, b] : creases) add(a), add(b);
-    for (std::uint32_t v = 0; v < mesh.held.size(); ++v)
-      if (mesh.held[v] == Hold::Tip) add(v);
+    for (std::uint32_t v = 0; v < mesh.tips.size(); ++v)
+      if (mesh.tips[v]) add(v);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k)
         if (const std::uint32_t i = creased_[mesh.triangles[t][k]]; i != ~0u)
@@ -108,7 +108,7 @@ class FanFinder {
  private:
   // Do two triangles share an edge at the vertex that is no crease? Around a tip each has its own normal.
   bool joined(std::uint32_t vertex, std::uint32_t a, std::uint32_t b) const {
-    if (mesh_.heldAt(vertex) == Hold::Tip) return false;
+    if (mesh_.isTip(vertex)) return false;
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t other = mesh_.triangles[a][i];

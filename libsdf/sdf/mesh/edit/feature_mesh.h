@@ -1,4 +1,4 @@
-// A closed triangle mesh that knows its creases: what is handed from the finding of edges to remeshing.
+// A closed triangle mesh that knows its creases: what is handed from the finding of edges to simplifying.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,14 +12,6 @@ namespace sdf {
 
 /// Pieces that meet at less than this angle are one, in radians: 5 degrees.
 inline constexpr float kCreaseAngle = 0.08726646f;
-
-/// What remeshing may do with a vertex; each value forbids what those before it do.
-enum class Hold : std::uint8_t {
-  Free,   ///< anything
-  Tip,    ///< it does not move: it is a tip (tips.h)
-  Fixed,  ///< nor do its edges go or turn
-  Exempt  ///< nor does the tolerance hold for triangles that have three such vertices
-};
 
 /// What a triangle shows at a corner, linear (surface_paint.h).
 struct CornerColor {
@@ -38,9 +30,10 @@ struct FeatureMesh {
   std::vector<int> materials{};
   /// Of each triangle's corners; empty: they are those of the surface there.
   std::vector<std::array<CornerColor, 3>> colors{};
-  std::vector<Hold> held{};  ///< of the first vertices; of all others none is held
+  /// Of the first vertices: is it a tip (tips.h), which does not move? No other is.
+  std::vector<char> tips{};
 
-  Hold heldAt(std::uint32_t v) const { return v < held.size() ? held[v] : Hold::Free; }
+  bool isTip(std::uint32_t v) const { return v < tips.size() && tips[v] != 0; }
 };
 
 /// A triangle that was taken away, and keeps its place in the list for a while, has one vertex for all
@@ -58,10 +51,6 @@ bool isFacing(const Vector& area, const Vector& normal) {
   const auto along = glm::dot(area, normal), square = glm::dot(area, area);
   return along > 0 && along * along > kFacing * kFacing * square;
 }
-
-/// Is more than half of its area in triangles that lie in one plane with all that touch them, but for a
-/// tenth of a degree? Cost: linear.
-bool isMostlyFlat(const FeatureMesh& mesh);
 
 /// Drops the triangles that are gone, and the vertices that no triangle has, with their normals, if these are
 /// given. What is left keeps its order. Returns Compaction::after. Cost: linear.

@@ -23,7 +23,7 @@ HalfEdgeMesh::HalfEdgeMesh(const FeatureMesh& mesh)
       materials_(mesh.materials),
       crease_(3 * mesh.triangles.size(), 0),
       creases_(mesh.positions.size(), 0),
-      held_(mesh.held),
+      tips_(mesh.tips),
       live_(mesh.triangles.size()) {
   from_.reserve(twin_.size());
   std::vector<Side> sides;
@@ -47,13 +47,13 @@ HalfEdgeMesh::HalfEdgeMesh(const FeatureMesh& mesh)
     crease_[a.half] = crease_[b.half] = 1;
     for (const Index v : edge) creases_[v] = static_cast<std::uint8_t>(std::min(creases_[v] + 1, 3));
   }
-  for (Index v = 0; v < held_.size(); ++v)
-    if (held_[v] != Hold::Free) creases_[v] = 3;
+  for (Index v = 0; v < tips_.size(); ++v)
+    if (tips_[v]) creases_[v] = 3;
 }
 
 FeatureMesh HalfEdgeMesh::compacted() const {
   FeatureMesh mesh;
-  mesh.positions = positions, mesh.held = held_;
+  mesh.positions = positions, mesh.tips = tips_;
   for (Index h = 0; h < from_.size(); h += 3) {
     if (!alive(h)) continue;
     mesh.triangles.emplace_back(from_[h], from_[h + 1], from_[h + 2]);
@@ -77,7 +77,6 @@ bool HalfEdgeMesh::adjacent(Index u, Index v) const {
 
 bool HalfEdgeMesh::canCollapse(Index h) const {
   const Index u = from(h), v = to(h), g = twin(h);
-  if (isFixed(v)) return false;
   if (creases_[u] == 2 ? !isCrease(h) : creases_[u] != 0) return false;
   // The sides that come to lie on each other: from u, and from v, to the corner across.
   if (isCrease(previous(h)) && isCrease(next(h))) return false;
@@ -113,8 +112,7 @@ void HalfEdgeMesh::collapse(Index h) {
 }
 
 bool HalfEdgeMesh::canFlip(Index h) const {
-  return !isCrease(h) && !isFixed(from(h)) && !isFixed(to(h)) && apex(h) != apex(twin(h)) &&
-         !adjacent(apex(h), apex(twin(h)));
+  return !isCrease(h) && apex(h) != apex(twin(h)) && !adjacent(apex(h), apex(twin(h)));
 }
 
 // Names a triangle's corners; its first side is h.

@@ -43,15 +43,8 @@ class HalfEdgeMesh {
   Index halfEdges() const { return static_cast<Index>(from_.size()); }
   Index vertices() const { return static_cast<Index>(out_.size()); }
   std::size_t liveTriangles() const { return live_; }
-  /// Is v to stay where it is, and with it the edges that end there?
-  bool isFixed(Index v) const { return v < held_.size() && held_[v] >= Hold::Fixed; }
-  bool isExempt(Index v) const { return v < held_.size() && held_[v] == Hold::Exempt; }
-  /// Of the triangle that h is the first half-edge of: need it not keep the tolerance?
-  bool isExemptTriangle(Index h) const {
-    return isExempt(from_[h]) && isExempt(from_[h + 1]) && isExempt(from_[h + 2]);
-  }
   /// Creases that end at v: 0 on a smooth piece, 2 on a crease; any other number makes a corner, which a
-  /// vertex that is not free counts as.
+  /// tip counts as.
   int creasesAt(Index v) const { return creases_[v]; }
   bool adjacent(Index u, Index v) const;
   /// The next half-edge out of from(h) that is a crease; h itself if there is no other.
@@ -82,7 +75,7 @@ class HalfEdgeMesh {
   std::vector<int> materials_;         // by triangle; empty where all are of one
   std::vector<std::uint8_t> crease_;   // by half-edge
   std::vector<std::uint8_t> creases_;  // by vertex; 3 stands for more
-  std::vector<Hold> held_;             // by vertex, of the first ones
+  std::vector<char> tips_;             // by vertex, of the first ones
   std::size_t live_ = 0;
 };
 

@@ -52,7 +52,7 @@ std::optional<glm::vec3> farthestOutside(std::span<const glm::vec3> points, cons
 }
 
 std::optional<MeshFault> leavesBounds(const MeasuredMesh& m) {
-  // Refinement may move a vertex by a voxel, remeshing by the tolerance, and the surface be as far from it.
+  // Refinement may move a vertex by a voxel, simplifying by the tolerance, and the surface be as far from it.
   const double near = std::max(m.voxel, m.stats.tolerance);
   double farthest = near;
   const glm::vec3* outside = nullptr;

@@ -101,8 +101,8 @@ class Coarsener {
     const std::vector<char> crowded = crowdedVertices(mesh_, normals, edge_ + kApart * limit_);
     for (Index v = 0; v < mesh_.vertices(); ++v)
       if (crowded[v]) keepAround(v, 1);
-    for (Index v = 0; v < mesh.held.size(); ++v)
-      if (mesh.held[v] == Hold::Tip) keepAround(v, kTipRings);
+    for (Index v = 0; v < mesh.tips.size(); ++v)
+      if (mesh.tips[v]) keepAround(v, kTipRings);
     for (Index v = 0; v < mesh_.vertices(); ++v)
       if (std::abs(distances[v]) > limit_) keepAround(v, kTipRings);
     corners_ = readCorners(mesh_, field, painted_, normals, progress);

@@ -61,23 +61,42 @@ std::vector<char> SampledMesh::besideBorders(float away) const {
   return beside;
 }
 
-// The colour of the next known sample between two creases, else what is seen in the largest triangle there.
+// Of each triangle a known sample, of those that lie in it or else in the next triangles that no crease parts
+// from it. kNone: there is none up to the creases.
+std::vector<Index> SampledMesh::knownNextTo(const std::vector<char>& isKnown) const {
+  std::vector<Index> known(mesh.halfEdges() / 3, kNone), next;
+  for (Index t = 0; t < known.size(); ++t)
+    for (Index w = onTriangle.first(t); w != Lists::kNone && known[t] == kNone; w = onTriangle.after(w))
+      if (isKnown[w]) known[t] = w, next.push_back(t);
+  for (std::size_t i = 0; i < next.size(); ++i)
+    for (Index h = 3 * next[i]; h < 3 * next[i] + 3; ++h)
+      if (const Index t = mesh.twin(h) / 3; !mesh.isCrease(h) && known[t] == kNone)
+        known[t] = known[next[i]], next.push_back(t);
+  return known;
+}
+
+// Where a vertex's own colour is not known, and might be of the other side of a border, that of the next
+// known sample between two creases, else what is seen in the largest triangle there.
 void SampledMesh::paintSectors(const LocalField& field, Progress& progress, const std::vector<Paint>& paint,
-                               Tints& own) const {
+                               const std::vector<Index>& known, Tints& own) const {
   std::vector<Sector> unseen;
   std::vector<glm::vec3> points;
   for (Index v = 0; v < mesh.vertices(); ++v) {
-    if (!mesh.vertexAlive(v) || isSmooth(v)) continue;
+    if (!mesh.vertexAlive(v) || (isSmooth(v) && own.isKnown(v))) continue;
     for (Sector& s : sectorsAround(mesh, v)) {
       Index nearest = Lists::kNone;
       float least = HUGE_VALF;
-      for (const Index h : s.corners)
-        for (Index w = onTriangle.first(h / 3); w != Lists::kNone; w = onTriangle.after(w)) {
-          if (!own.isKnown(w)) continue;
-          const float d = glm::distance(samples[w].at, mesh.positions[v]);
-          if (d < least) least = d, nearest = w;
-        }
+      const auto look = [&](Index w) {
+        const float d = glm::distance(samples[w].at, mesh.positions[v]);
+        if (d < least) least = d, nearest = w;
+      };
+      for (const Index h : s.corners) {
+        if (known[h / 3] != kNone) look(known[h / 3]);
+        for (Index w = onTriangle.first(h / 3); w != Lists::kNone; w = onTriangle.after(w))
+          if (own.isKnown(w)) look(w);
+      }
       if (nearest != Lists::kNone) {
+        if (isSmooth(v) && !differ(paint[v], paint[nearest])) continue;
         for (const Index h : s.corners) own.corners[h] = own.of(paint[nearest]);
         continue;
       }
@@ -101,15 +120,22 @@ void SampledMesh::paint(const LocalField& field, float tolerance, Progress& prog
   for (Index t = 0; t < mesh.halfEdges() / 3; ++t)
     for (Index w = onTriangle.first(t); w != Lists::kNone; w = onTriangle.after(w)) triangleOf[w] = t;
   const std::vector<char> beside = besideBorders(kBorderTolerances * tolerance);
-  for (Index i = 0; i < samples.size(); ++i) {
-    const bool isKnown = triangleOf[i] != kNone && !beside[i] &&
-                         (!mesh.hasMaterials() || paint[i].material == mesh.material(3 * triangleOf[i]));
-    own.addSample(isKnown ? &paint[i] : nullptr);
-  }
+  std::vector<char> isKnown(samples.size(), 0);
+  const auto find = [&](const auto& isSure) {
+    for (Index i = 0; i < samples.size(); ++i) {
+      const Index t = triangleOf[i];
+      isKnown[i] = t != kNone && (isKnown[i] || isSure(i, t)) &&
+                   (!mesh.hasMaterials() || paint[i].material == mesh.material(3 * t));
+    }
+  };
+  find([&](Index i, Index) { return !beside[i]; });
+  // A crease that the paint does not jump at is no border.
+  const std::vector<Index> known = knownNextTo(isKnown);
+  find([&](Index i, Index t) { return known[t] != kNone && !differ(paint[i], paint[known[t]]); });
+  for (Index i = 0; i < samples.size(); ++i) own.addSample(isKnown[i] ? &paint[i] : nullptr);
   own.corners.resize(mesh.halfEdges());
-  for (Index h = 0; h < mesh.halfEdges(); ++h)
-    if (isSmooth(mesh.from(h))) own.corners[h] = own.of(paint[mesh.from(h)]);
-  paintSectors(field, progress, paint, own);
+  for (Index h = 0; h < mesh.halfEdges(); ++h) own.corners[h] = own.of(paint[mesh.from(h)]);
+  paintSectors(field, progress, paint, known, own);
   if (!progress.stopped()) tints = std::move(own);
 }
 

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "sdf/mesh/refine/sampled_mesh.h"
@@ -145,10 +146,10 @@ class Ring {
   bool placeOnCreases(float limit);
   bool placeOnEdge(Index edge, Index from, Index to);
   void rotateTo(std::size_t first);
-  void chooseTints();
+  bool chooseTints(float limit);
   glm::dvec3 tintForm() const;
-  Tint bestTint(const Sector& s, const Tint& was) const;
-  float tintEnergy(const Sector& s, const Tint& centre) const;
+  std::optional<Tint> bestTint(const Sector& s, const Tint& was, float limit) const;
+  float seeTints(const Sector& s, const Tint& centre);
   void findWay();
   std::array<glm::vec3, 2> creaseEnds() const;
   void findNearest();

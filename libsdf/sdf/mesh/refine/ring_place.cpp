@@ -23,10 +23,7 @@ bool Ring::place(const glm::vec3& centre, float limit) {
   for (std::size_t k = 0; k < sectors_.size(); ++k)
     if (!placeSector(k, limit)) return false;
   findNearest();
-  if (rims_.empty()) return true;
-  chooseTints();
-  return std::ranges::all_of(
-      placed_, [&](const Placed& p) { return limit == HUGE_VALF || p.tint <= std::min(limit, tolerance_); });
+  return rims_.empty() || chooseTints(limit == HUGE_VALF ? limit : std::min(limit, tolerance_));
 }
 
 bool Ring::placeSector(std::size_t number, float limit) {
@@ -73,9 +70,10 @@ bool Ring::placeSector(std::size_t number, float limit) {
 bool Ring::isFacingVertices(const Sector& s) const {
   const auto n = static_cast<Index>(spokes_.size());
   for (Index i = s.first; i < s.last && !isTip_; ++i) {
-    if (counts_[i] == 0 && s.isBent) return false;
     const glm::vec3& normal = normals_[i - s.first];
     const Index ends[2] = {spokes_[i].vertex, spokes_[i + 1 == n ? 0 : i + 1].vertex};
+    if (counts_[i] == 0 && s.isBent && !(sampled_.isSmooth(ends[0]) && sampled_.isSmooth(ends[1])))
+      return false;
     for (const Index v : ends)
       if (s.isBent && sampled_.isSmooth(v) && !isFacing(normal, sampled_.normals[v])) return false;
     if (counts_[i] > 0 && !facesNormals_) continue;

@@ -10,6 +10,8 @@ namespace {
 constexpr float kNoShare = 1e-3f;
 // What is nearer counts as so near, in aims: powers that are no normal floats take a hundred times as long.
 constexpr float kLeastDistance = 3e-5f;
+// Bounds of linear channels, from 0 to 1 and more, are off by their rounding.
+constexpr float kRounding = 0x1p-18f;
 
 // Where a channel may be for all samples to be near, and what the samples are.
 struct Bounds {
@@ -95,24 +97,27 @@ glm::dvec3 Ring::tintForm() const {
 }
 
 // Each sector's centre gets the colour in the middle of where all samples are seen at the aim, or stays as it
-// is, if that is nearer to them on the whole.
-void Ring::chooseTints() {
+// is, if that is nearer to them on the whole. False: none has all samples within the limit.
+bool Ring::chooseTints(float limit) {
   for (Placed& p : placed_) p.weights = clampedWeights(p.weights);
   for (const Sector& s : sectors_) {
-    Tint was{};
+    // The mean, exactly where all are one.
+    const Tint first = centres_[s.first];
+    Tint was = first;
     for (Index i = s.first; i < s.last; ++i)
       for (std::size_t k = 0; k < was.size(); ++k)
-        was[k] += centres_[i][k] / static_cast<float>(s.last - s.first);
-    const Tint best = bestTint(s, was);
-    const Tint& better = tintEnergy(s, was) <= tintEnergy(s, best) ? was : best;
-    for (Index i = s.first; i < s.last; ++i) centres_[i] = better;
+        was[k] += (centres_[i][k] - first[k]) / static_cast<float>(s.last - s.first);
+    const std::optional<Tint> best = bestTint(s, was, limit);
+    if (!best) return false;
+    // The last that is seen stays.
+    const float ofWas = seeTints(s, was), ofBest = seeTints(s, *best);
+    if (ofWas <= ofBest) seeTints(s, was);
+    for (Index i = s.first; i < s.last; ++i) centres_[i] = ofWas <= ofBest ? was : *best;
   }
-  for (Placed& p : placed_)
-    p.tint = sampled_.tints.distance(
-        p.sample, mixed(centres_[p.spoke], rims_[p.spoke][0], rims_[p.spoke][1], p.weights));
+  return std::ranges::all_of(placed_, [&](const Placed& p) { return p.tint <= limit; });
 }
 
-Tint Ring::bestTint(const Sector& s, const Tint& was) const {
+std::optional<Tint> Ring::bestTint(const Sector& s, const Tint& was, float limit) const {
   const Tints& tints = sampled_.tints;
   const float most = tints.difference(aim_);
   std::array<Bounds, std::tuple_size_v<Tint>> bounds;
@@ -130,20 +135,22 @@ Tint Ring::bestTint(const Sector& s, const Tint& was) const {
     }
   }
   Tint chosen{};
-  for (std::size_t k = 0; k < tints.channels(); ++k) chosen[k] = bounds[k].middle(was[k], most);
+  for (std::size_t k = 0; k < tints.channels(); ++k) {
+    if (limit <= aim_ && bounds[k].lo > bounds[k].hi + kRounding) return {};
+    chosen[k] = bounds[k].middle(was[k], most);
+  }
   return chosen;
 }
 
-// The sum of the eighth powers of a sector's samples' distances, in aims, from what is shown with this
-// centre.
-float Ring::tintEnergy(const Sector& s, const Tint& centre) const {
+// Shows a sector's samples with this centre. Returns the sum of the eighth powers of how far they are from
+// their colours, in aims.
+float Ring::seeTints(const Sector& s, const Tint& centre) {
   float sum = 0.0f;
-  for (const Placed& p : placed_) {
+  for (Placed& p : placed_) {
     if (p.spoke < s.first || p.spoke >= s.last) continue;
-    float d =
-        sampled_.tints.distance(p.sample, mixed(centre, rims_[p.spoke][0], rims_[p.spoke][1], p.weights)) /
-        aim_;
-    d = std::max(d, kLeastDistance);
+    p.tint =
+        sampled_.tints.distance(p.sample, mixed(centre, rims_[p.spoke][0], rims_[p.spoke][1], p.weights));
+    float d = std::max(p.tint / aim_, kLeastDistance);
     d *= d, d *= d;
     sum += d * d;
   }

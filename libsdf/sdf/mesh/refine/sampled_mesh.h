@@ -88,8 +88,9 @@ struct SampledMesh {
   void put(Index triangle, Index sample);
   Index newSample(const SurfaceSample& sample, const Paint* paint);
   std::vector<char> besideBorders(float away) const;
+  std::vector<Index> knownNextTo(const std::vector<char>& isKnown) const;
   void paintSectors(const LocalField& field, Progress& progress, const std::vector<Paint>& paint,
-                    Tints& own) const;
+                    const std::vector<Index>& known, Tints& own) const;
 };
 
 /// Barycentric coordinates of a point of the triangle that is near to where these are, maybe beside it.

@@ -12,12 +12,6 @@
 
 namespace sdf {
 
-/// The largest difference (colorDifference) between the surface's colour and what a mesh shows: four steps of
-/// a byte.
-inline constexpr float kColorTolerance = 1.0f / 64;
-/// Colours are looked at no nearer to a border than so many tolerances of the distance.
-inline constexpr float kBorderTolerances = 2.5f;
-
 /// The channels of a colour that are held, in some order.
 using Tint = std::array<float, 6>;
 

@@ -11,16 +11,25 @@
 namespace sdf {
 namespace {
 
+// Paint is read so far inside, in floats' distances at the place: on a face that a border of the paint lies
+// in rounding would decide otherwise.
+constexpr float kInside = 8.0f * 0x1p-23f;
+
 float unit(float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f; }
 float notNegative(float v) { return std::isfinite(v) ? std::max(v, 0.0f) : 0.0f; }
 
 // The paint of a run's points, which may have moved since the run was made.
 void readRun(const PointRun& run, const PointRows& points, const PointRows& normals, Paint* paint) {
+  PointRows inside;
+  for (std::size_t i = 0; i < run.count; ++i) {
+    const glm::vec3 p = points.at(i);
+    inside.set(i, p - kInside * largestCoordinate(p) * normals.at(i));
+  }
   constexpr int kOutputs = static_cast<int>(SurfaceOutput::Count);
   float values[kOutputs][kBatchPoints];
   float* out[kOutputs];
   for (int k = 0; k < kOutputs; ++k) out[k] = values[k];
-  run.batch.evaluate(*run.tapes.surface, points.rows(normals), run.count, out);
+  run.batch.evaluate(*run.tapes.surface, inside.rows(normals), run.count, out);
   for (std::size_t i = 0; i < run.count; ++i) {
     const auto at = [&](SurfaceOutput output) { return values[static_cast<int>(output)][i]; };
     paint[i] = {{unit(at(SurfaceOutput::Red)), unit(at(SurfaceOutput::Green)), unit(at(SurfaceOutput::Blue))},

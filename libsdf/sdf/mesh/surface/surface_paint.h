@@ -24,6 +24,12 @@ inline float perceived(float linear) { return std::sqrt(linear + kDark); }
 /// The largest difference of a channel, as perceived.
 float colorDifference(const Paint& a, const Paint& b);
 
+/// The largest difference (colorDifference) between the surface's colour and what a mesh shows: four steps of
+/// a byte.
+inline constexpr float kColorTolerance = 1.0f / 64;
+/// Colours are looked at no nearer to a border than so many tolerances of the distance.
+inline constexpr float kBorderTolerances = 2.5f;
+
 /// Colours that differ by more at one place have a border between them: some ten steps of a byte.
 inline constexpr float kColorJump = 0.04f;
 
@@ -32,8 +38,9 @@ inline bool differ(const Paint& a, const Paint& b) {
   return a.material != b.material || colorDifference(a, b) > kColorJump;
 }
 
-/// The paint at `count` points for which point(i) yields the position and normal(i) the unit normal. What is
-/// no number reads as 0.
+/// The paint at `count` points for which point(i) yields the position and normal(i) the unit normal, by some
+/// roundings of floats inside of there: so a face that lies in a border of the paint is of one colour, the
+/// one behind it. What is no number reads as 0.
 std::vector<Paint> readPaint(std::size_t count, const std::function<glm::vec3(std::size_t)>& point,
                              const std::function<glm::vec3(std::size_t)>& normal, const LocalField& field,
                              Progress& progress);

@@ -1,4 +1,4 @@
-#include "sdf/mesh/refine/thin.h"
+#include "sdf/mesh/mesher.h"
 
 #include <gtest/gtest.h>
 
@@ -8,23 +8,23 @@
 #include <utility>
 
 #include "mesh/scenes.h"
-#include "sdf/mesh/mesher.h"
+#include "sdf/mesh/surface/surface_paint.h"
 #include "sdf/shape/catalog.h"
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/solids/flats.h"
 #include "support/evaluate.h"
 
 namespace sdf::test {
-namespace thin_test {
+namespace tolerance_test {
 
 // Triangles of the lattice are smaller than what is a needle beside such tolerances.
-TEST(Thin, TolerancesOfManyVoxelsLeaveFewTriangles) {
+TEST(MeshTolerance, TolerancesOfManyVoxelsLeaveFewTriangles) {
   for (const double tolerance : {0.1, 0.3, 2.0})
     EXPECT_LE(meshed(sphere(1.0), 0.04, tolerance).mesh.triangles.size(), 60u) << tolerance;
 }
 
 // A ball that waves rise from: where one ends an edge fades out.
-TEST(Thin, EdgesThatFadeOutAreNotSplitIntoNeedles) {
+TEST(MeshTolerance, EdgesThatFadeOutAreNotSplitIntoNeedles) {
   const Vec3E p = position();
   const Expr waves = sin(4.0 * p.x + 1.0) * sin(4.0 * p.y) * sin(4.0 * p.z + 2.0) +
                      0.5 * sin(9.0 * p.y + p.x) * sin(8.0 * p.z);
@@ -37,7 +37,7 @@ TEST(Thin, EdgesThatFadeOutAreNotSplitIntoNeedles) {
 }
 
 // A rim about as thin as the tolerance, and letters through the wall that stand out by less.
-TEST(Thin, StepsAndRimsBelowTheToleranceDoNotCross) {
+TEST(MeshTolerance, StepsAndRimsBelowTheToleranceDoNotCross) {
   const Shape cup = subtract(
       {round(cylinder(0.72, 0.8), 0.06), translate(round(cylinder(0.7, 0.8), 0.04), {0.0, 0.12, 0.0})},
       Blend::quadratic(0.05));
@@ -47,8 +47,25 @@ TEST(Thin, StepsAndRimsBelowTheToleranceDoNotCross) {
     EXPECT_LE(meshed(cup | standing, 0.0125, tolerance).mesh.triangles.size(), 4000u) << tolerance;
 }
 
+// Two of a board's sides need a thousand triangles for a pattern, and none for their shape.
+TEST(MeshTolerance, HoldsForTheColoursOfWhatIsFlat) {
+  const Vec3E p = position();
+  const Shape board =
+      round(box({2.0, 0.05, 1.5}), 0.05)
+          .paint({.color = {0.5 + 0.3 * sin(9.0 * p.z + 0.6 * sin(2.0 * p.x)), Expr(0.4), Expr(0.2)}});
+  const MeshedShape m = meshed(board, 0.0, 2.5e-3);
+  EXPECT_LE(m.mesh.triangles.size(), 3000u);
+  for (const glm::uvec3& t : m.mesh.triangles) {
+    const auto mean = [&](const std::vector<glm::vec3>& of) { return (of[t.x] + of[t.y] + of[t.z]) / 3.0f; };
+    const glm::vec3 middle = mean(m.mesh.positions), shown = mean(m.mesh.colors);
+    const float own = 0.5f + 0.3f * std::sin(9.0f * middle.z + 0.6f * std::sin(2.0f * middle.x));
+    // Between samples by some more.
+    ASSERT_LE(std::abs(perceived(shown.x) - perceived(own)), 1.5f * kColorTolerance);
+  }
+}
+
 // Where a crescent's horns run out to nothing no tolerance can be kept. Elsewhere it is.
-TEST(Thin, WhatCannotBeKeptIsLeftAsItIsWhereThatIsAllowed) {
+TEST(MeshTolerance, WhatCannotBeKeptIsLeftAsItIsWhereThatIsAllowed) {
   const Shape crescent = subtract({sphere(0.5), translate(sphere(0.5), {0.05, 0.0, 0.0})});
   constexpr double kVoxel = 0.02, kTolerance = 1e-3;
   const auto meshed = [&](bool strict) {
@@ -82,7 +99,7 @@ TEST(Thin, WhatCannotBeKeptIsLeftAsItIsWhereThatIsAllowed) {
 
 // Blends a few tolerances wide, whose bends are about as sharp as that: what simplifying to the tolerance
 // misses there by little is held to less of it.
-TEST(Simplify, KeepsAToleranceAtBendsAsSharpAsIt) {
+TEST(MeshTolerance, KeepsAToleranceAtBendsAsSharpAsIt) {
   const auto blended = [](double k, double away) {
     return unite(
         {sphere(1.0), translate(sphere(0.3), {away, 0.0, 0.0}), translate(sphere(0.4), {0.0, 1.2, 0.2})},
@@ -92,7 +109,7 @@ TEST(Simplify, KeepsAToleranceAtBendsAsSharpAsIt) {
     EXPECT_LE(meshed(blended(k, away), 0.05, 0.01).mesh.triangles.size(), 1200u) << k << " " << away;
 }
 
-TEST(Thin, MeshesThatAreTornOpenAreRefused) {
+TEST(MeshTolerance, MeshesThatAreTornOpenAreRefused) {
   const Shape ball = field((length(position()) - 1.0) * 2.0, Box{glm::dvec3(-1.0), glm::dvec3(1.0)}, 1.0);
   Progress progress;
   const Result<MeshedShape> mesh = meshShape(ball, "part", {.tolerance = 1e-3}, progress);
@@ -125,13 +142,13 @@ double wrongShare(const Mesh& mesh, const Shape& shape) {
 
 // Long triangles run down from the rim, whose rounding is as high as two edges: they are not to be tilted
 // with it. A fifteenth of the area is the roundings'.
-TEST(Thin, NormalsOfLargeTrianglesAreRightAllOverThem) {
+TEST(MeshTolerance, NormalsOfLargeTrianglesAreRightAllOverThem) {
   const Shape drum = round(cylinder(0.95, 0.65), 0.05);
   EXPECT_LT(wrongShare(meshed(drum, 0.02, 3e-3).mesh, drum), 0.04);
 }
 
 // Three edges meet in each inner corner of the letter, where sharpening leaves a gap of a voxel.
-TEST(Thin, GapsInEdgesDoNotGrow) {
+TEST(MeshTolerance, GapsInEdgesDoNotGrow) {
   const Shape t =
       translate(box({0.06, 0.3, 0.5}), {0.3, 0.0, 0.9}) | translate(box({0.25, 0.06, 0.5}), {0.3, 0.24, 0.9});
   const Shape letter = t & subtract(cylinder(1.09, 0.6), cylinder(0.98, 0.8));
@@ -142,14 +159,14 @@ TEST(Thin, GapsInEdgesDoNotGrow) {
 
 // Where a displaced rim bulges it is rounded, as small as the tolerance: the edge that is left there has two
 // sides, which creases do not tell of. A ball has none, however coarse.
-TEST(Thin, SmallRoundingsAreShadedAsEdges) {
+TEST(MeshTolerance, SmallRoundingsAreShadedAsEdges) {
   const Shape board = displace(box({1.1, 0.7, 0.12}), -0.05 * sin(4.0 * position().x));
   EXPECT_LT(wrongShare(meshed(board, 0.011, 3e-3).mesh, board), 0.03);
   EXPECT_TRUE(meshed(sphere(1.0), 0.04, 0.1).mesh.copyOf.empty());
 }
 
 // Near a rim that is thinner than the tolerance a point of the mesh is nearer to the other side.
-TEST(Thin, RimsThinnerThanTheToleranceAreShadedBySides) {
+TEST(MeshTolerance, RimsThinnerThanTheToleranceAreShadedBySides) {
   const glm::dvec3 off(0.25, 0.1, 0.0);
   const Mesh mesh = meshed(subtract(sphere(0.6), translate(sphere(0.6), Vec3E(off))), 0.006, 3.3e-3).mesh;
   double wrong = 0.0, all = 0.0;  // areas, by corners
@@ -168,7 +185,7 @@ TEST(Thin, RimsThinnerThanTheToleranceAreShadedBySides) {
 }
 
 // Each triangle at a tip has the normal of its own side there. The lemon is curved along its sides, too.
-TEST(Thin, TipsStayAndAreShadedAllAround) {
+TEST(MeshTolerance, TipsStayAndAreShadedAllAround) {
   for (const double turn : {0.0, 0.7}) {
     const glm::dvec3 axis = glm::normalize(glm::dvec3(1.0, 0.3, 0.5));
     for (const auto& [shape, tip] : {std::pair{cone(0.5, 0.8), 0.8}, std::pair{cone(0.5, 0.4), 0.4},
@@ -183,5 +200,5 @@ TEST(Thin, TipsStayAndAreShadedAllAround) {
   }
 }
 
-}  // namespace thin_test
+}  // namespace tolerance_test
 }  // namespace sdf::test
