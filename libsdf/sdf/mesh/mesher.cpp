@@ -139,6 +139,8 @@ class Mesher : LatticeSource {
     distance_ = shape.distance;
     if (auto own = ownTriangles(shape, options_))
       if (options_.keepsFiles || own->offBy > 0.0) return takeTriangles(std::move(*own), shape, h);
+    Ladder ladder({options_.tolerance, bounds_.longestSide(), options_.strict, painted_}, *this, surface_,
+                  measured_, progress_);
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(h);
       if (!sampled) return sampled.error();
@@ -160,8 +162,6 @@ class Mesher : LatticeSource {
         if (surface_.empty()) surface_ = surfacePoints(*model_, bounds_, progress_);
         const bool finer = !last && (options_.strict || cheap);
         lattice.isResolved = result_.stats.unresolved == 0;
-        Ladder ladder({options_.tolerance, bounds_.longestSide(), options_.strict, painted_}, *this, surface_,
-                      measured_, progress_);
         const Ladder::End end = ladder.climb(*sampled, halvings == 0, finer);
         witnessed_ = ladder.witnessed();
         if (end == Ladder::End::Simplified) return finish(shape, **sampled);

@@ -50,7 +50,7 @@ Ladder::End Ladder::climb(std::unique_ptr<Lattice>& fine, bool fromCoarse, bool 
   witnesses_.emplace(surface_, fine->mesh, options_.painted);
   // Where this lattice does not see all that there is, coarser ones see less.
   coarsest_ = fromCoarse && fine->isResolved ? kCoarsest : 1.0;
-  isBlurred_ = options_.painted && blursColors(*fine);
+  isBlurred_ = isBlurred_ || (options_.painted && blursColors(*fine));
   missed_ = kInfinity;
   if (simplifyCoarse(1.0, fine)) return End::Simplified;
   witnessed_ = {};
@@ -148,7 +148,7 @@ bool Ladder::withColors(FeatureMesh& mesh, const BandField& fine, const Simplify
   if (!isBlurred_) {
     FeatureMesh before = options_.painted ? mesh : FeatureMesh();
     const bool kept = simplify(false);
-    isBlurred_ = options_.painted && !keepsPaint(mesh, fine);
+    isBlurred_ = options_.painted && !keepsColors(mesh, options_.tolerance, fine, progress_);
     if (!isBlurred_) return kept;
     mesh = std::move(before);
   }
@@ -160,12 +160,6 @@ bool Ladder::blursColors(const Lattice& fine) {
   const std::unique_ptr<Lattice> coarse = source_.lattice(kFinestPainted * fine.band.voxelSize());
   return coarse && source_.makeMesh(*coarse) &&
          !keepsColors(coarse->mesh, options_.tolerance, fine.field, progress_);
-}
-
-// Does the mesh keep borders and colours as the field sees them?
-bool Ladder::keepsPaint(const FeatureMesh& mesh, const BandField& field) const {
-  return witnesses_->toBorders(mesh, progress_) <= options_.tolerance &&
-         keepsColors(mesh, options_.tolerance, field, progress_);
 }
 
 // How far a lattice's mesh is from the surface, either way; infinite where it lacks a border.

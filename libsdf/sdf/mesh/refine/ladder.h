@@ -51,8 +51,9 @@ struct LadderOptions {
 };
 
 /// Replaces a lattice's mesh by one with few triangles, simplified (simplify.h) from the largest voxels that
-/// do. What the lattice sees none may miss: the vertices of its mesh are points of the surface, and where it
-/// is painted those of its creases points of borders, which are to be met within the tolerance.
+/// do. What the lattice sees none may miss: the vertices of its mesh are points of the surface, which are to
+/// be met within the tolerance, and where it is painted those of its creases points of borders, which larger
+/// voxels are to have that near, too.
 class Ladder {
  public:
   enum class End {
@@ -66,8 +67,9 @@ class Ladder {
          LastMeasured& measured, Progress& progress)
       : options_(options), source_(source), surface_(surface), measured_(measured), progress_(progress) {}
 
-  /// `fromCoarse`: are larger voxels tried, too, where the lattice sees all? `mayRefine`: may finer ones be?
-  /// The lattice has a mesh. The one that is left may be another one, by whose field normals are to be read.
+  /// Once for each size of voxels, the largest first. `fromCoarse`: are larger voxels tried, too, where the
+  /// lattice sees all? `mayRefine`: may finer ones be? The lattice has a mesh. The one that is left may be
+  /// another one, by whose field normals are to be read.
   End climb(std::unique_ptr<Lattice>& fine, bool fromCoarse, bool mayRefine);
 
   /// How far the mesh that is left is from points of the surface that the lattice had.
@@ -82,7 +84,6 @@ class Ladder {
   template <class Simplify>
   bool withColors(FeatureMesh& mesh, const BandField& fine, const Simplify& simplify);
   bool blursColors(const Lattice& fine);
-  bool keepsPaint(const FeatureMesh& mesh, const BandField& field) const;
   double lackOf(const FeatureMesh& mesh, const BandField& field);
   std::vector<glm::vec3> placesBeyondTolerance(const FeatureMesh& mesh, const BandField& field);
   std::vector<glm::vec3> witness(const FeatureMesh& mesh, const BandField& field);
