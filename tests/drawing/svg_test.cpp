@@ -79,7 +79,7 @@ TEST_F(Drawings, HaveShapes) {
 TEST_F(Drawings, DrawNothingWhereNothingIsFilled) {
   const std::string square = "<path d='M0 0 H1 V-1 H0'/>", hidden = "<path id='x' d='M5 5 H6 V6' ";
   for (const char* attribute :
-       {"fill='none'", "style='stroke:red; fill : none'", "display='none'", "style='visibility:hidden'",
+       {"fill='none'", "style='stroke:none; fill : none'", "display='none'", "style='visibility:hidden'",
         "class='a none'", "fill='red' style='fill:transparent'"})
     expectPath("<style>.none, .other {fill:none}</style>" + square + hidden + attribute + "/>",
                "M0 0 H1 V1 H0");
@@ -89,6 +89,48 @@ TEST_F(Drawings, DrawNothingWhereNothingIsFilled) {
   expectPath("<path d='M5 5 H6 V6'/><path fill='#123' d='M0 0 H1 V-1 H0'/>", "M0 0 H1 V1 H0", "fill='none'");
   expectPath("<g fill='none'><g fill='red'>" + square + "</g></g>", "M0 0 H1 V1 H0");
   expectPath("<g fill='none'><g fill='inherit'><circle r='2'/></g></g>" + square, "M0 0 H1 V1 H0");
+}
+
+TEST_F(Drawings, HaveStrokes) {
+  const std::string line = "<line x1='1' y1='2' x2='3' y2='4' ";
+  const auto stroke = [&](const std::string& attributes, const std::string& around = "") {
+    return outlinesOf("<g " + around + ">" + line + attributes + "/></g>").at(0).stroke.value();
+  };
+  const Stroke plain = stroke("stroke='red'");
+  EXPECT_EQ(plain.width, 1.0);
+  EXPECT_EQ(plain.join, Stroke::Join::Miter);
+  EXPECT_EQ(plain.cap, Stroke::Cap::Butt);
+  EXPECT_EQ(plain.miterLimit, 4.0);
+  const Stroke own =
+      stroke("stroke='red' style='stroke-width:2mm; stroke-linejoin:round; stroke-linecap:square'");
+  EXPECT_DOUBLE_EQ(own.width, 2.0 * 96.0 / 25.4);
+  EXPECT_EQ(own.join, Stroke::Join::Round);
+  EXPECT_EQ(own.cap, Stroke::Cap::Square);
+  const Stroke handedOn =
+      stroke("", "stroke='red' stroke-width='0.5' stroke-linejoin='bevel' stroke-miterlimit='2'");
+  EXPECT_EQ(handedOn.width, 0.5);
+  EXPECT_EQ(handedOn.join, Stroke::Join::Bevel);
+  EXPECT_EQ(handedOn.miterLimit, 2.0);
+  EXPECT_DOUBLE_EQ(stroke("stroke='red'", "transform='scale(2 8)'").width, 4.0);
+  // A line fills nothing; what is filled and stroked is both.
+  EXPECT_EQ(errorOf("<svg>" + line + "/></svg>").substr(0, 28), "it fills and strokes nothing");
+  const std::vector<Outline> both = outlinesOf("<circle r='1' stroke='red'/>");
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NE(both[0].stroke.has_value(), both[1].stroke.has_value());
+  EXPECT_EQ(outlinesOf("<circle r='1' stroke='red' stroke-width='0'/>").size(), 1u);
+}
+
+// A stroke goes round what is closed, and ends where nothing closes it.
+TEST_F(Drawings, KnowWhatIsClosed) {
+  const auto isClosed = [&](const std::string& inside) {
+    return outlinesOf("<g stroke='red' fill='none'>" + inside + "</g>").at(0).contours.at(0).isClosed;
+  };
+  for (const char* closed : {"<circle r='1'/>", "<ellipse rx='1' ry='2'/>", "<rect width='1' height='1'/>",
+                             "<polygon points='0 0 1 0 1 1'/>", "<path d='M0 0 H1 V1 Z'/>"})
+    EXPECT_TRUE(isClosed(closed)) << closed;
+  for (const char* open :
+       {"<line x2='1'/>", "<polyline points='0 0 1 0 1 1'/>", "<path d='M0 0 H1 V1 H0 V0'/>"})
+    EXPECT_FALSE(isClosed(open)) << open;
 }
 
 TEST_F(Drawings, HaveFillRules) {
@@ -134,8 +176,7 @@ TEST_F(Drawings, SayWhatIsWrong) {
   EXPECT_NE(errorOf("plain text").find("it is no SVG drawing: "), std::string::npos);
   EXPECT_EQ(errorOf("<html/>"), "it is no SVG drawing: its outermost element is no svg");
   EXPECT_EQ(errorOf(svg("<path d='M0 0 H1' fill='none'/>")),
-            "it fills nothing; make strokes and text to paths (in Inkscape: Path > Object to Path, Stroke to "
-            "Path)");
+            "it fills and strokes nothing; make text to paths (in Inkscape: Path > Object to Path)");
   EXPECT_EQ(errorOf(svg("<path id='nose' d='M 0 0 L x'/>")),
             "path 'nose': the path has something else than a number at its character 9, 'x'");
   EXPECT_EQ(errorOf(svg("<circle r='wide'/>")), "circle: r must be a length, got \"wide\"");

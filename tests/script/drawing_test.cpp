@@ -22,6 +22,8 @@ class Paths : public SceneFolder {
            "M10 0A10 10 0 1 1-10 0 10 10 0 1 1 10 0'/></g></svg>";
     std::ofstream(folder_ / "scenes" / "two.svg")
         << "<svg><rect width='2' height='1'/><path d='M1 0V1H3V0Z'/><path d='M2.5 0.5H4V3H2.5'/></svg>";
+    std::ofstream(folder_ / "scenes" / "lines.svg") << "<svg><g stroke='red' stroke-width='2'><line x2='18' "
+                                                       "y2='0'/><path d='M9-9V9' fill='none'/></g></svg>";
     std::ofstream(folder_ / "outside.svg") << "<svg/>";
   }
 
@@ -42,6 +44,24 @@ TEST_F(Paths, EncloseFlatShapes) {
               0.5, 1e-9);
 }
 
+TEST_F(Paths, DrawStrokes) {
+  const auto stroke = [&](const std::string& more, double x, double y) {
+    return at(shapeOf("path('M -1 0 H 1', {stroke = 0.5" + more + "}):extrude(10)").distance, x, y, 0.0);
+  };
+  EXPECT_NEAR(stroke("", 0.0, 1.0), 0.75, 1e-9);
+  EXPECT_NEAR(stroke("", 2.0, 0.0), 0.75, 1e-9);
+  EXPECT_NEAR(stroke(", cap = 'butt'", 2.0, 0.0), 1.0, 1e-9);
+  EXPECT_NEAR(stroke(", cap = 'square'", 2.0, 0.0), 0.75, 1e-9);
+  EXPECT_NEAR(stroke(", cap = 'square'", 1.0, 0.0), -0.25, 1e-9);
+  const Shape square = shapeOf("path('M -1 -1 h 2 v 2 h -2 z', {stroke = 0.5, join = 'miter'}):extrude(10)");
+  EXPECT_NEAR(at(square.distance, 0.0, 0.0, 0.0), 0.75, 1e-9);
+  EXPECT_NEAR(at(square.distance, 2.25, 2.25, 0.0), std::sqrt(2.0), 1e-9);
+  // A cross of two lines of the width 10 / 9.
+  const Shape drawing = shapeOf(R"(svg("lines.svg", {size = 10}):extrude(1))");
+  EXPECT_NEAR(at(drawing.distance, 0.0, 0.0, 0.0), -std::sqrt(2.0) * 5.0 / 9.0, 1e-9);
+  EXPECT_NEAR(drawing.bounds.size().x, 10.0, 1e-9);
+}
+
 TEST_F(Paths, MayLieFarFromTheOrigin) {
   const Shape square = shapeOf(R"(path("M 1e12 0 h 8 v 8 h -8 z"):extrude(10))");
   EXPECT_NEAR(at(square.distance, 1e12 + 4.0, 4.0, 0.0), -4.0, 1e-9);
@@ -53,6 +73,7 @@ TEST_F(Paths, AreWhatOtherFlatShapesAre) {
        {R"(path("M 1 0 Q 2 1 1 2 Z"):revolve())", R"(box(1) - path("M 0 0 C 1 0 1 1 0 1"):extrude(2))",
         R"(path("M 0 0 H 1 V 1"):round(0.1):extrude(0.2):round(0.05):twist(40))",
         R"((circle(2) - svg("ring.svg")):extrude(0.1))",
+        R"(path("M 0 0 C 1 0 1 1 0 1", {stroke = 0.1}):round(0.1):extrude(0.2):bend(1))",
         R"(svg("two.svg", {size = param("s", 1, {min = 0.5, max = 2})}):extrude(0.1):polar_repeat(5))"})
     EXPECT_EQ(whyNot(use), "none") << use;
 }
@@ -64,6 +85,11 @@ TEST_F(Paths, SayWhatIsWrong) {
   EXPECT_EQ(whyNot(R"(path(""))"), here(":1: path: it encloses no area"));
   EXPECT_NE(whyNot(R"(path({{0, 0}}))").find("path: the path must be a string, got"), std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1 V 1", {rule = "odd"}))").find("rule"), std::string::npos);
+  EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = -1}))").find("'stroke' must be positive"),
+            std::string::npos)
+      << whyNot(R"(path("M 0 0 H 1", {stroke = -1}))");
+  EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, join = "sharp"}))").find("join"), std::string::npos);
+  EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, cap = "flat"}))").find("cap"), std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1 V 1"))").find("is flat; extrude or revolve it"), std::string::npos);
 }
 
@@ -94,7 +120,7 @@ TEST_F(Paths, OfDrawingsComeFromFiles) {
   EXPECT_NE(whyNot(R"(svg("../outside.svg"))").find("svg: '../outside.svg' lies outside"), std::string::npos);
   EXPECT_NE(whyNot(R"(svg("none.svg"))").find("none.svg': No such file or directory"), std::string::npos);
   options_.folders = {folder_ / ""};
-  EXPECT_NE(whyNot(R"(svg("../outside.svg"))").find("it fills nothing"), std::string::npos);
+  EXPECT_NE(whyNot(R"(svg("../outside.svg"))").find("it fills and strokes nothing"), std::string::npos);
   options_.withoutMissing = true;
   const Result<Scene> rest = run(R"(return box(1), svg("none.svg"):extrude(1))");
   ASSERT_TRUE(rest);

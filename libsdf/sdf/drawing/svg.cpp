@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/matrix.hpp>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -22,6 +24,9 @@ constexpr int kDeepest = 64;
 constexpr std::size_t kMostElements = 200'000;
 
 Error sceneError(const std::string& message) { return {ErrorKind::Scene, message}; }
+Error tooMany(std::size_t most, const std::string& of) {
+  return {ErrorKind::Limits, "it has more than " + std::to_string(most) + of};
+}
 
 // Without its namespace.
 std::string nameOf(const pugi::xml_node& element) {
@@ -29,8 +34,8 @@ std::string nameOf(const pugi::xml_node& element) {
   return name.substr(name.find(':') + 1);
 }
 
-Contour polygonOf(const std::vector<double>& numbers) {
-  Contour contour{{numbers[0], numbers[1]}, {}};
+Contour polygonOf(const std::vector<double>& numbers, bool isClosed) {
+  Contour contour{{numbers[0], numbers[1]}, {}, isClosed};
   for (std::size_t i = 2; i + 1 < numbers.size(); i += 2)
     contour.curves.push_back({0, {}, {numbers[i], numbers[i + 1]}});
   return contour;
@@ -39,14 +44,14 @@ Contour polygonOf(const std::vector<double>& numbers) {
 // Two halves of an ellipse.
 Contour ellipseOf(const glm::dvec2& centre, const glm::dvec2& radii) {
   const glm::dvec2 right = centre + glm::dvec2(radii.x, 0.0), left = centre - glm::dvec2(radii.x, 0.0);
-  Contour contour{right, curvesOf(right, {radii, 0.0, false, true, left})};
+  Contour contour{right, curvesOf(right, {radii, 0.0, false, true, left}), true};
   for (const Curve& c : curvesOf(left, {radii, 0.0, false, true, right})) contour.curves.push_back(c);
   return contour;
 }
 
 Contour rectangleOf(const glm::dvec2& at, const glm::dvec2& size, const glm::dvec2& radii) {
   const glm::dvec2 end = at + size;
-  Contour contour{{at.x + radii.x, at.y}, {}};
+  Contour contour{{at.x + radii.x, at.y}, {}, true};
   const auto side = [&](const glm::dvec2& to, const glm::dvec2& corner) {
     contour.curves.push_back({0, {}, to});
     for (const Curve& c : curvesOf(to, {radii, 0.0, false, true, corner})) contour.curves.push_back(c);
@@ -71,8 +76,7 @@ class SvgReader {
     if (const Status done = children(root, up, style, 0); !done) return done.error();
     if (outlines_.empty())
       return sceneError(
-          "it fills nothing; make strokes and text to paths (in Inkscape: Path > Object to Path, Stroke to "
-          "Path)");
+          "it fills and strokes nothing; make text to paths (in Inkscape: Path > Object to Path)");
     return std::move(outlines_);
   }
 
@@ -87,8 +91,7 @@ class SvgReader {
   Status element(const pugi::xml_node& e, Affine place, SvgStyle style, int depth) {
     if (depth > kDeepest)
       return sceneError("its elements are more than " + std::to_string(kDeepest) + " deep; ungroup some");
-    if (++elements_ > kMostElements)
-      return Error{ErrorKind::Limits, "it has more than " + std::to_string(kMostElements) + " elements"};
+    if (++elements_ > kMostElements) return tooMany(kMostElements, " elements");
     bool isDrawn = true;
     style = sheet_.styleOf(e, style, isDrawn);
     if (!isDrawn) return okStatus();
@@ -100,10 +103,10 @@ class SvgReader {
     const std::string name = nameOf(e);
     if (name == "g" || name == "a" || name == "switch") return children(e, place, style, depth + 1);
     if (name == "svg" || name == "use") return placed(e, name, place, style, depth);
-    if (!style.isFilled || !style.isVisible) return okStatus();
+    if (!style.isVisible) return okStatus();
     auto contours = contoursOf(e, name);
     if (!contours) return contours.error();
-    return take(std::move(*contours), place, style.rule);
+    return take(std::move(*contours), place, style, name != "line");
   }
 
   // What has its own x and y.
@@ -134,7 +137,13 @@ class SvgReader {
     if (name == "polygon" || name == "polyline") {
       const auto numbers = numbersIn(e.attribute("points").value());
       if (!numbers || numbers->size() % 2 != 0) return wrong(e, "points", "pairs of numbers");
-      return numbers->empty() ? std::vector<Contour>{} : std::vector<Contour>{polygonOf(*numbers)};
+      return numbers->empty() ? std::vector<Contour>{}
+                              : std::vector<Contour>{polygonOf(*numbers, name == "polygon")};
+    }
+    if (name == "line") {
+      const auto n = lengths(e, {"x1", "y1", "x2", "y2"});
+      if (!n) return n.error();
+      return std::vector<Contour>{polygonOf({n->begin(), n->end()}, false)};
     }
     if (name == "circle") {
       const auto n = lengths(e, {"cx", "cy", "r"});
@@ -172,28 +181,13 @@ class SvgReader {
     for (std::size_t i = 0; i < n; ++i) {
       const pugi::xml_attribute given = e.attribute(names[i]);
       if (!given) continue;
-      const auto length = lengthOf(given.value());
+      const auto length = svgLength(given.value());
       if (!length) return wrong(e, names[i], "a length");
       found[i] = *length;
     }
     return found;
   }
-  static std::optional<double> lengthOf(std::string text) {
-    constexpr std::pair<const char*, double> kUnits[] = {{"px", 1.0},         {"pt", 96.0 / 72.0},
-                                                         {"pc", 16.0},        {"mm", 96.0 / 25.4},
-                                                         {"cm", 96.0 / 2.54}, {"in", 96.0}};
-    double unit = 1.0;
-    for (const auto& [name, size] : kUnits)
-      if (text.ends_with(name)) {
-        unit = size, text.resize(text.size() - 2);
-        break;
-      }
-    const auto numbers = numbersIn(text);
-    if (!numbers || numbers->size() != 1) return {};
-    return unit * numbers->front();
-  }
-
-  Status take(std::vector<Contour> contours, const Affine& place, FillRule rule) {
+  Status take(std::vector<Contour> contours, const Affine& place, const SvgStyle& style, bool mayFill) {
     for (Contour& contour : contours) {
       contour.from = place(contour.from);
       for (Curve& c : contour.curves) {
@@ -202,10 +196,12 @@ class SvgReader {
       }
       curves_ += contour.curves.size();
     }
-    if (curves_ > kMostCurves)
-      return Error{ErrorKind::Limits,
-                   "it has more than " + std::to_string(kMostCurves) + " curves; simplify its paths"};
-    if (!contours.empty()) outlines_.push_back({std::move(contours), rule});
+    if (curves_ > kMostCurves) return tooMany(kMostCurves, " curves; simplify its paths");
+    if (contours.empty()) return okStatus();
+    Stroke stroke = style.stroke;
+    stroke.width *= std::sqrt(std::abs(glm::determinant(place.turn)));
+    if (style.isStroked && stroke.width > 0.0) outlines_.push_back({contours, FillRule::NonZero, stroke});
+    if (style.isFilled && mayFill) outlines_.push_back({std::move(contours), style.rule, {}});
     return okStatus();
   }
 

@@ -1,6 +1,7 @@
-// What is filled in an SVG drawing, and how. Private to drawing/.
+// What is filled and stroked in an SVG drawing, and how. Private to drawing/.
 #pragma once
 #include <map>
+#include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
@@ -11,9 +12,13 @@ namespace sdf {
 
 /// What an element hands on to those in it.
 struct SvgStyle {
-  bool isFilled = true, isVisible = true;
+  bool isFilled = true, isStroked = false, isVisible = true;
   FillRule rule = FillRule::NonZero;
+  Stroke stroke{.join = Stroke::Join::Miter, .cap = Stroke::Cap::Butt};
 };
+
+/// A length in units of the drawing; none where it has another unit, or is no number.
+std::optional<double> svgLength(std::string text);
 
 /// The declarations of a drawing's style sheets, by class: of their selectors these alone are known.
 class SvgSheet {

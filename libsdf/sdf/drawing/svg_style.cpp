@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
+
+#include "sdf/drawing/svg_transform.h"
 
 namespace sdf {
 namespace {
@@ -26,6 +29,18 @@ void declare(std::string_view name, std::string_view value, SvgStyle& style, boo
   if (value == "inherit") return;
   if (name == "fill") style.isFilled = value != "none" && value != "transparent";
   if (name == "fill-rule") style.rule = value == "evenodd" ? FillRule::EvenOdd : FillRule::NonZero;
+  if (name == "stroke") style.isStroked = value != "none" && value != "transparent";
+  if (name == "stroke-linejoin")
+    style.stroke.join = value == "round"   ? Stroke::Join::Round
+                        : value == "bevel" ? Stroke::Join::Bevel
+                                           : Stroke::Join::Miter;
+  if (name == "stroke-linecap")
+    style.stroke.cap = value == "round"    ? Stroke::Cap::Round
+                       : value == "square" ? Stroke::Cap::Square
+                                           : Stroke::Cap::Butt;
+  if (name == "stroke-width") style.stroke.width = svgLength(std::string(value)).value_or(style.stroke.width);
+  if (name == "stroke-miterlimit")
+    style.stroke.miterLimit = svgLength(std::string(value)).value_or(style.stroke.miterLimit);
   if (name == "visibility") style.isVisible = value == "visible";
   if (name == "display") isDrawn = value != "none";
 }
@@ -39,6 +54,20 @@ void declareAll(std::string_view text, SvgStyle& style, bool& isDrawn) {
 }
 
 }  // namespace
+
+std::optional<double> svgLength(std::string text) {
+  constexpr std::pair<const char*, double> kUnits[] = {
+      {"px", 1.0}, {"pt", 96.0 / 72.0}, {"pc", 16.0}, {"mm", 96.0 / 25.4}, {"cm", 96.0 / 2.54}, {"in", 96.0}};
+  double unit = 1.0;
+  for (const auto& [name, size] : kUnits)
+    if (text.ends_with(name)) {
+      unit = size, text.resize(text.size() - 2);
+      break;
+    }
+  const auto numbers = numbersIn(text);
+  if (!numbers || numbers->size() != 1) return {};
+  return unit * numbers->front();
+}
 
 SvgSheet::SvgSheet(const pugi::xml_node& drawing) {
   for (const pugi::xpath_node& found : drawing.select_nodes("//*[local-name() = 'style']"))

@@ -1,8 +1,12 @@
 #include "sdf/outline/biarcs.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <utility>
+
+#include "sdf/outline/stroke.h"
 
 namespace sdf {
 namespace {
@@ -103,7 +107,8 @@ class ContourWriter {
  public:
   explicit ContourWriter(double tolerance) : tolerance_(tolerance) {}
 
-  ArcContour contourOf(const Contour& contour) {
+  /// Of what is not closed the last corner is the end.
+  ArcContour contourOf(const Contour& contour, bool isClosed) {
     corners_.clear();
     glm::dvec2 at = contour.from;
     for (const Curve& c : contour.curves) {
@@ -116,7 +121,7 @@ class ContourWriter {
       at = c.to;
     }
     line(at);
-    return risingOrFalling();
+    return risingOrFalling(isClosed);
   }
 
  private:
@@ -164,14 +169,18 @@ class ContourWriter {
   }
 
   // Cuts arcs where they turn from rising to falling, and leaves out what has no length.
-  ArcContour risingOrFalling() const {
+  ArcContour risingOrFalling(bool isClosed) const {
     ArcContour given, cut;
     for (const ArcCorner& c : corners_) {
       if (!given.empty() && given.back().at == c.at) given.pop_back();
       given.push_back(c);
     }
-    while (given.size() > 1 && given.back().at == given.front().at) given.pop_back();
+    while (isClosed && given.size() > 1 && given.back().at == given.front().at) given.pop_back();
     for (std::size_t i = 0; i < given.size() && given.size() > 1; ++i) {
+      if (!isClosed && i + 1 == given.size()) {
+        cut.push_back(given[i]);
+        break;
+      }
       const glm::dvec2& to = given[(i + 1) % given.size()].at;
       const Arc arc = Arc::through(given[i], to);
       cut.push_back(given[i]);
@@ -196,8 +205,16 @@ class ContourWriter {
 std::vector<ArcContour> arcContours(const Outline& outline, double tolerance) {
   std::vector<ArcContour> contours;
   ContourWriter writer(tolerance);
-  for (const Contour& c : outline.contours)
-    if (ArcContour made = writer.contourOf(c); made.size() > 1) contours.push_back(std::move(made));
+  for (const Contour& c : outline.contours) {
+    const bool isClosed = !outline.stroke || c.isClosed;
+    ArcContour made = writer.contourOf(c, isClosed);
+    if (made.size() < 2) continue;
+    if (outline.stroke) {
+      std::ranges::move(strokeContours(made, isClosed, *outline.stroke), std::back_inserter(contours));
+    } else {
+      contours.push_back(std::move(made));
+    }
+  }
   return contours;
 }
 

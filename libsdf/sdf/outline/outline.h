@@ -1,6 +1,7 @@
 // Flat outlines of lines and Bézier curves, as fonts and drawings give them.
 #pragma once
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 namespace sdf {
@@ -12,10 +13,11 @@ struct Curve {
   glm::dvec2 to{};
 };
 
-/// Curves one after the other. Where the last one does not end at `from`, a line closes them.
+/// Curves one after the other. Where the last one does not end at `from`, a line closes what is filled.
 struct Contour {
   glm::dvec2 from{};
   std::vector<Curve> curves{};
+  bool isClosed = false;  ///< is it closed as a stroke, too?
 };
 
 /// What is inside of contours, by their winding number.
@@ -24,10 +26,22 @@ enum class FillRule {
   EvenOdd   ///< where it is odd
 };
 
-/// Contours, which may lie in one another and cross.
+/// A line along contours.
+struct Stroke {
+  enum class Join { Round, Miter, Bevel };
+  enum class Cap { Round, Butt, Square };
+  double width = 1.0;  ///< positive
+  Join join = Join::Round;
+  Cap cap = Cap::Round;
+  /// Miters that would be longer, in widths, are bevels.
+  double miterLimit = 4.0;
+};
+
+/// Contours, which may lie in one another and cross: what is inside of them, or a line along them.
 struct Outline {
   std::vector<Contour> contours{};
   FillRule rule = FillRule::NonZero;
+  std::optional<Stroke> stroke{};
 };
 
 }  // namespace sdf

@@ -95,7 +95,7 @@ class PathReader {
   Status repeated(char command) {
     isRelative_ = command >= 'a';
     if (lower(command) == 'z') {
-      at_ = contours_.back().from, isClosed_ = true;
+      at_ = contours_.back().from, isClosed_ = contours_.back().isClosed = true;
       before_ = command;
       return okStatus();
     }

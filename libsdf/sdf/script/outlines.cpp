@@ -79,7 +79,11 @@ int pathShape(lua_State* L) {
   const FieldValues given = readFields(L, 2, f);
   auto contours = pathContours(data);
   if (!contours) raise(L, f.name + ": " + contours.error().message);
-  const Outline outline{std::move(*contours), static_cast<FillRule>(valueOr(given, "rule", 0))};
+  Outline outline{std::move(*contours), static_cast<FillRule>(valueOr(given, "rule", 0)), {}};
+  if (const double width = valueOr(given, "stroke", 0.0); width > 0.0)
+    outline.stroke = {.width = width,
+                      .join = static_cast<Stroke::Join>(valueOr(given, "join", 0)),
+                      .cap = static_cast<Stroke::Cap>(valueOr(given, "cap", 0))};
   const Shape shape = shapeOf({&outline, 1}, f.name);
   return pushGood(L, shape);
 }

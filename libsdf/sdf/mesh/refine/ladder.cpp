@@ -30,10 +30,9 @@ constexpr double kByLittle = 1.1, kAgain = 0.95;
 constexpr std::size_t kMostToHold = 100'000;
 // Of the tolerance: what is as far from a mesh of the surface may come to be beyond it in the next.
 constexpr double kNearlyMissed = 0.9;
-// The finest voxels, times those that were asked for, that are simplified with their colours before these
-// are. Their triangles are about as large as those that a tolerance asks for: they tell whether colours need
-// more.
-constexpr double kFinestPainted = 4.0;
+// Voxels, times those that were asked for, whose triangles are about as large as those that a tolerance asks
+// for: they tell whether colours need more.
+constexpr double kAsLarge = 4.0;
 // For a goal that nobody asked for a lattice of more than these, which has edges that it does not follow, is
 // not tried again: simplifying four times as many did not keep it in the samples either.
 constexpr std::size_t kMostToHalve = 50'000;
@@ -157,7 +156,7 @@ bool Ladder::withColors(FeatureMesh& mesh, const BandField& fine, const Simplify
 
 // Would triangles as large as the tolerance asks for blur the colours?
 bool Ladder::blursColors(const Lattice& fine) {
-  const std::unique_ptr<Lattice> coarse = source_.lattice(kFinestPainted * fine.band.voxelSize());
+  const std::unique_ptr<Lattice> coarse = source_.lattice(kAsLarge * fine.band.voxelSize());
   return coarse && source_.makeMesh(*coarse) &&
          !keepsColors(coarse->mesh, options_.tolerance, fine.field, progress_);
 }

@@ -191,7 +191,7 @@ bool isFinite(const Outline& outline) {
 Result<std::vector<ArcContour>> borderOf(std::span<const Outline> outlines, double tolerance) {
   std::vector<ArcContour> all;
   for (const Outline& outline : outlines) {
-    auto own = boundaryOf(arcContours(outline, tolerance), outline.rule);
+    auto own = boundaryOf(arcContours(outline, tolerance), outline.stroke ? FillRule::NonZero : outline.rule);
     if (!own || outlines.size() == 1) return own;
     all.insert(all.end(), std::move_iterator(own->begin()), std::move_iterator(own->end()));
   }
