@@ -385,6 +385,27 @@ TEST_F(Export, RefusesAMeshOfWhatIsNoNumberByItsFormula) {
   EXPECT_EQ(outcome.err.find("leaves the bounds"), std::string::npos) << outcome.err;
 }
 
+// A note is there before the work that may take long, and once for all moments.
+TEST_F(Export, SaysWhatIsWrongWithASceneBeforeItIsMeshed) {
+  const std::string noted = scene(
+      "local ring = torus(0.42, 0.1):scale(1, 1.15, 1):translate(0.82, 0, 0)\n"
+      "return union(cylinder(0.72, 0.8), ring, {k = 0.14}):difference(cylinder(0.6, 0.7), {k = 0.05})");
+  const Outcome refused = run({noted, "-o", out("a.glb"), "--tolerance", "1e-9%"});
+  EXPECT_NE(refused.status, 0);
+  const std::size_t note = refused.err.find("sdf2gltf: warning: " + noted + ":2: difference: what it blends");
+  ASSERT_NE(note, std::string::npos) << refused.err;
+  EXPECT_LT(note, refused.err.find("a tolerance of")) << refused.err;
+  const Outcome sequence = run(
+      {noted, "-o", out("b.glb"), "--report", out("report.json"), "--voxel-size", "0.2", "--frames", "2"});
+  EXPECT_EQ(sequence.status, 0);
+  const auto noteAt = [&](std::size_t from) { return sequence.err.find("what it blends", from); };
+  ASSERT_NE(noteAt(0), std::string::npos) << sequence.err;
+  EXPECT_EQ(noteAt(noteAt(0) + 1), std::string::npos) << sequence.err;
+  for (const auto& file : nlohmann::json::parse(contents(out("report.json")))["outputs"])
+    EXPECT_EQ(file["warnings"].size(), 1u);
+  EXPECT_EQ(run({noted, "-o", out("c.glb"), "--voxel-size", "0.2", "--quiet"}).err, "");
+}
+
 // Between balls that touch there is a gap thinner than any voxel, of which nothing is lost.
 TEST_F(Export, DoesNotWarnOfWhatTouches) {
   const std::string file = scene("return sphere(1) | sphere(1):translate(2, 0, 0)");

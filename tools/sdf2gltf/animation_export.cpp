@@ -54,7 +54,7 @@ bool hasAPlace(const Scene& scene) {
 
 Status AnimationExport::add(int i) {
   FrameExport frame(options_, progress_, frameSubject(options_, i));
-  if (Status s = frame.load(frameTime(options_, i), voxelSize_); !s) return s;
+  if (Status s = frame.load(frameTime(options_, i), voxelSize_, report_.notes); !s) return s;
   animation_.times.push_back(frameTime(options_, i));
   report_.frames.push_back({frameTime(options_, i), {}});
   for (AnimatedPart& part : animation_.parts)

@@ -46,10 +46,11 @@ void tell(const Options& options, const FileReport& file, ProgressLine& progress
 Status exportFrames(const Options& options, ProgressLine& progress, std::ostream& out, Written& written) {
   // One for the whole sequence, or its surface would shimmer.
   std::optional<double> voxelSize = options.voxelSize;
+  std::vector<std::string> told;
   for (int i = 0; i < filesOf(options); ++i) {
     FrameExport frame(options, progress, frameSubject(options, i));
     const std::filesystem::path target = targetOf(options, i);
-    if (Status s = frame.load(frameTime(options, i), voxelSize); !s) return s;
+    if (Status s = frame.load(frameTime(options, i), voxelSize, told); !s) return s;
     written.parameters = frame.scene.parameters;
     for (int level = 0; level < options.levels.value_or(1); ++level) {
       if (Status s =

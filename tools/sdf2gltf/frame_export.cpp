@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -56,13 +57,23 @@ std::size_t mostBeside() {
 
 }  // namespace
 
-Status FrameExport::load(double time, std::optional<double>& voxelSize) {
+Status FrameExport::load(double time, std::optional<double>& voxelSize, std::vector<std::string>& told) {
   report.time = time;
   report.total.name = "total";
   if (Status s = loadParts(time); !s) return s;
+  tellNotes(told);
   if (Status s = chooseVoxelSize(voxelSize); !s) return s;
   loaded_ = report.total;
   return okStatus();
+}
+
+void FrameExport::tellNotes(std::vector<std::string>& told) const {
+  std::vector<std::string> notes = scene.notes;
+  std::erase_if(notes, [&](const std::string& note) { return std::ranges::find(told, note) != told.end(); });
+  told.insert(told.end(), notes.begin(), notes.end());
+  if (notes.empty() || options_.quiet) return;
+  progress_.clear();
+  printNotes(std::cerr, notes);
 }
 
 Status FrameExport::loadParts(double time) {
@@ -93,7 +104,8 @@ Status FrameExport::chooseVoxelSize(std::optional<double>& voxelSize) {
 
 Status FrameExport::mesh(const std::vector<Part>& bodies, double voxelSize, double tolerance) {
   report.total = loaded_;
-  report.warnings = scene.notes;
+  report.notes = scene.notes;
+  report.warnings.clear();
   if (Status s =
           options_.triangles
               ? meshWithin(static_cast<std::size_t>(*options_.triangles), bodies, voxelSize)

@@ -21,9 +21,10 @@ class FrameExport {
   FrameExport(const Options& options, ProgressLine& progress, std::string subject)
       : options_(options), progress_(progress), subject_(std::move(subject)) {}
 
-  /// Runs the script at this time and fills `scene` and `clip`; of the bounds it makes the voxel size, if
+  /// Runs the script at this time and fills `scene` and `clip`. Warns of the scene's notes at once, but for
+  /// those that are told, to which they come. Of the bounds it makes the voxel size, if
   /// that is none yet. Errors: the scene's, also those of parts without bounds.
-  Status load(double time, std::optional<double>& voxelSize);
+  Status load(double time, std::optional<double>& voxelSize, std::vector<std::string>& told);
   /// Meshes the bodies into `parts`, in the place of what is there, with this tolerance (in the
   /// units of Options::tolerance) or with as many triangles as are asked for; bakes their light and
   /// compresses them, if that is asked for.
@@ -44,6 +45,7 @@ class FrameExport {
     double peakMemory = 0.0;
   };
   Status loadParts(double time);
+  void tellNotes(std::vector<std::string>& told) const;
   Status chooseVoxelSize(std::optional<double>& voxelSize);
   Status meshAll(const std::vector<Part>& bodies, double voxelSize, double tolerance);
   Status meshWithin(std::size_t triangles, const std::vector<Part>& bodies, double voxelSize);

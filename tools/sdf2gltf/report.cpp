@@ -152,8 +152,12 @@ void addSeconds(StageSeconds& stages, const std::string& name, double seconds) {
   }
 }
 
+void printNotes(std::ostream& out, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) out << "sdf2gltf: warning: " << note << '\n';
+}
+
 void printWarnings(std::ostream& out, const FileReport& report) {
-  for (const std::string& warning : report.warnings) out << "sdf2gltf: warning: " << warning << '\n';
+  printNotes(out, report.warnings);
   for (const ReportLine& line : report.parts)
     for (const std::string& warning : warningsOf(line))
       out << "sdf2gltf: warning: part '" << line.name << "': " << warning << '\n';
@@ -195,12 +199,14 @@ std::string reportJson(const Options& options, const std::vector<ParameterInfo>&
       for (const auto& [part, place] : frame.meshes) meshes[part] = place;
       frames.push_back({{"time", frame.time}, {"meshes", meshes}});
     }
+    std::vector<std::string> warnings = file.notes;
+    warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
     outputs.push_back({{"file", file.file.string()},
                        {"time", file.time},
                        {"parts", parts},
                        {"total", json(file.total)},
                        {"frames", frames},
-                       {"warnings", file.warnings}});
+                       {"warnings", warnings}});
   }
   const Json report{{"generator", std::string("sdf2gltf ") + version()},
                     {"scene", options.scene.string()},

@@ -41,6 +41,7 @@ struct FileReport {
   double time = 0.0;
   std::vector<ReportLine> parts;
   std::vector<FrameReport> frames;    ///< of an animation
+  std::vector<std::string> notes;     ///< of the scene (Scene::notes)
   std::vector<std::string> warnings;  ///< of the whole file
   ReportLine total;                   ///< with the stages that belong to no part: script, bounds, writing
 };
@@ -48,7 +49,10 @@ struct FileReport {
 /// A table of the file's parts and their total.
 void printTable(std::ostream& out, const FileReport& report);
 
-/// A line for each warning, and for each part whose mesh or light is known to miss something.
+/// A warning for each note.
+void printNotes(std::ostream& out, const std::vector<std::string>& notes);
+
+/// A line for each warning but for notes, and for each part whose mesh or light is known to miss something.
 void printWarnings(std::ostream& out, const FileReport& report);
 
 /// Everything as JSON. `parameters` are the values that the scene ran with.
