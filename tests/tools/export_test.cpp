@@ -406,6 +406,20 @@ TEST_F(Export, SaysWhatIsWrongWithASceneBeforeItIsMeshed) {
   EXPECT_EQ(run({noted, "-o", out("c.glb"), "--voxel-size", "0.2", "--quiet"}).err, "");
 }
 
+// Letters, drawings and strokes that are only extruded have their own walls.
+TEST_F(Export, WritesTheSampleOfDrawingsWithoutWarnings) {
+  const Outcome outcome = run({SDF_SOURCE_DIR "/samples/drawings/sign.lua", "-o", out("a.glb"), "--report",
+                               out("report.json"), "--quiet"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  const auto file = nlohmann::json::parse(contents(out("report.json")))["outputs"][0];
+  EXPECT_EQ(file["warnings"].size(), 0u);
+  for (const auto& part : file["parts"]) {
+    EXPECT_LE(part["max_distance"].get<double>(), part["tolerance"].get<double>()) << part["name"];
+    EXPECT_EQ(part["self_intersections"], 0) << part["name"];
+  }
+}
+
 // Between balls that touch there is a gap thinner than any voxel, of which nothing is lost.
 TEST_F(Export, DoesNotWarnOfWhatTouches) {
   const std::string file = scene("return sphere(1) | sphere(1):translate(2, 0, 0)");
