@@ -88,6 +88,10 @@ TEST_F(Paths, SayWhatIsWrong) {
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = -1}))").find("'stroke' must be positive"),
             std::string::npos)
       << whyNot(R"(path("M 0 0 H 1", {stroke = -1}))");
+  // Ends that are a ten thousandth apart, with sides that run along the ring.
+  EXPECT_NE(whyNot(R"(path("M 0 0 A 1 1 0 1 1 0 0.0001", {stroke = 1, cap = "square"}))")
+                .find("make a stroke a little wider"),
+            std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, join = "sharp"}))").find("join"), std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, cap = "flat"}))").find("cap"), std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1 V 1"))").find("is flat; extrude or revolve it"), std::string::npos);

@@ -261,7 +261,8 @@ Result<std::vector<ArcContour>> boundaryOf(const std::vector<ArcContour>& contou
   if (auto joined = Joiner(border, points.size()).run()) return *joined;
   return Error{
       ErrorKind::Scene,
-      "curves all but lie on each other where contours overlap; move them apart, or unite them before"};
+      "curves all but lie on each other where contours overlap; move them apart, unite them before, or "
+      "make a stroke a little wider"};
 }
 
 }  // namespace sdf
