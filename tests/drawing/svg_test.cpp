@@ -133,6 +133,13 @@ TEST_F(Drawings, KnowWhatIsClosed) {
     EXPECT_FALSE(isClosed(open)) << open;
 }
 
+TEST_F(Drawings, DoNotReadWhatIsNotDrawn) {
+  const std::string square = "<path d='M0 0 H1 V-1 H0'/>", broken = "<path d='M 0 0 L x' fill='none' ";
+  expectPath(square + broken + "/>", "M0 0 H1 V1 H0");
+  EXPECT_NE(errorOf("<svg>" + square + broken + "stroke='red'/></svg>").find("something else than a number"),
+            std::string::npos);
+}
+
 TEST_F(Drawings, HaveFillRules) {
   const auto rule = [&](const std::string& inside) { return outlinesOf(inside).at(0).rule; };
   EXPECT_EQ(rule("<circle r='1'/>"), FillRule::NonZero);

@@ -22,8 +22,8 @@ class FrameExport {
       : options_(options), progress_(progress), subject_(std::move(subject)) {}
 
   /// Runs the script at this time and fills `scene` and `clip`. Warns of the scene's notes at once, but for
-  /// those that are told, to which they come. Of the bounds it makes the voxel size, if
-  /// that is none yet. Errors: the scene's, also those of parts without bounds.
+  /// those that are told, to which they come. Of the bounds it makes the voxel size, if that is none yet.
+  /// Errors: the scene's, also those of parts without bounds.
   Status load(double time, std::optional<double>& voxelSize, std::vector<std::string>& told);
   /// Meshes the bodies into `parts`, in the place of what is there, with this tolerance (in the
   /// units of Options::tolerance) or with as many triangles as are asked for; bakes their light and

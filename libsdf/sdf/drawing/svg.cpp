@@ -103,7 +103,7 @@ class SvgReader {
     const std::string name = nameOf(e);
     if (name == "g" || name == "a" || name == "switch") return children(e, place, style, depth + 1);
     if (name == "svg" || name == "use") return placed(e, name, place, style, depth);
-    if (!style.isVisible) return okStatus();
+    if (!style.isVisible || (!style.isFilled && !style.isStroked)) return okStatus();
     auto contours = contoursOf(e, name);
     if (!contours) return contours.error();
     return take(std::move(*contours), place, style, name != "line");
@@ -187,6 +187,7 @@ class SvgReader {
     }
     return found;
   }
+
   Status take(std::vector<Contour> contours, const Affine& place, const SvgStyle& style, bool mayFill) {
     for (Contour& contour : contours) {
       contour.from = place(contour.from);

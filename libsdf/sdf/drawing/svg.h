@@ -15,7 +15,7 @@ namespace sdf {
 /// followed. Text and pictures draw nothing, nor do clips and masks take away.
 ///
 /// Errors: Files (no file, no XML, with the line); Scene (numbers or paths that are none, nothing that is
-/// filled, nested too deep); Limits (more than 20 MB, or than kMostCurves curves in all).
+/// filled or stroked, nested too deep); Limits (more than 20 MB, or than kMostCurves curves in all).
 Result<std::vector<Outline>> svgOutlines(const std::filesystem::path& file);
 
 }  // namespace sdf

@@ -176,11 +176,9 @@ class ContourWriter {
       given.push_back(c);
     }
     while (isClosed && given.size() > 1 && given.back().at == given.front().at) given.pop_back();
-    for (std::size_t i = 0; i < given.size() && given.size() > 1; ++i) {
-      if (!isClosed && i + 1 == given.size()) {
-        cut.push_back(given[i]);
-        break;
-      }
+    if (given.size() < 2) return {};
+    const std::size_t arcs = isClosed ? given.size() : given.size() - 1;
+    for (std::size_t i = 0; i < arcs; ++i) {
       const glm::dvec2& to = given[(i + 1) % given.size()].at;
       const Arc arc = Arc::through(given[i], to);
       cut.push_back(given[i]);
@@ -193,6 +191,7 @@ class ContourWriter {
       cut.back() = arc.part(arc.from, top);
       cut.push_back(arc.part(top, to));
     }
+    if (!isClosed) cut.push_back(given.back());
     return cut;
   }
 
