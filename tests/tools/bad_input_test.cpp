@@ -14,13 +14,27 @@ class BadInput : public Sdf2gltf {
   /// The program ends with `status` and one line in which every one of `words` is found.
   void expectRefusal(const Outcome& outcome, int status, const std::vector<std::string>& words) const {
     EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_EQ(outcome.err.substr(0, 10), "sdf2gltf: ") << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(outcome.err.back(), '\n');
-    for (const std::string& word : words) {
-      EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' is not in: " << outcome.err;
-    }
+    expectLine(outcome.err, "sdf2gltf: ", words);
     EXPECT_EQ(written(), std::vector<std::string>{});
+  }
+
+  /// A warning, in a line of its own, comes before the refusal: each with its words.
+  void expectRefusalAfterAWarning(const Outcome& outcome, int status, const std::vector<std::string>& warning,
+                                  const std::vector<std::string>& words) const {
+    const std::size_t end = outcome.err.find('\n') + 1;
+    expectLine(outcome.err.substr(0, end), "sdf2gltf: warning: ", warning);
+    Outcome refusal = outcome;
+    refusal.err.erase(0, end);
+    expectRefusal(refusal, status, words);
+  }
+
+  static void expectLine(const std::string& line, const std::string& start,
+                         const std::vector<std::string>& words) {
+    EXPECT_EQ(line.substr(0, start.size()), start) << line;
+    EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
+    for (const std::string& word : words) {
+      EXPECT_NE(line.find(word), std::string::npos) << "'" << word << "' is not in: " << line;
+    }
   }
 
   void expectBadFlags(std::vector<std::string> flags, const std::vector<std::string>& words) {
@@ -235,13 +249,22 @@ TEST_F(BadInput, MeshesThatContradictWhatIsStatedOfAFieldAreNotWritten) {
   expectBadScene(
       part("", "bounds = {{-1, -1, -1}, {1, 1, 0.9}}"),
       {"part 'ball': the surface leaves the bounds (-1, -1, -1) to (1, 1, 0.9)", "at (", "enlarge"});
-  expectBadScene(part(" * 2", "bounds = {{-1, -1, -1}, {1, 1, 1}}, lipschitz = 1"),
-                 {"part 'ball': the mesh is torn open at (", "the distance changes by 1.98",
-                  "allows 1. Enlarge the lipschitz"});
-  expectBadScene(part(" * (1 + 20 * exp(-200 * ((x - 0.6) ^ 2 + (y - 0.6) ^ 2 + (z - 0.53) ^ 2)))",
-                      "bounds = {{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}}, lipschitz = 1"),
-                 {"part 'ball': the mesh is off by about 0.074", "voxels, at (0.6", "Enlarge the lipschitz"},
-                 kScene, {"--voxel-size", "0.02"});
+  const auto steeper = [&](const std::string& text, const std::string& slope,
+                           const std::vector<std::string>& words, std::vector<std::string> flags = {}) {
+    std::vector<std::string> arguments{scene(text), "-o", out("a.glb"), "--report", out("r.json")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    SCOPED_TRACE(text);
+    expectRefusalAfterAWarning(run(arguments), kScene,
+                               {"field: the formula's slope is " + slope, "more than the lipschitz of 1"},
+                               words);
+  };
+  steeper(part(" * 2", "bounds = {{-1, -1, -1}, {1, 1, 1}}, lipschitz = 1"), "2 at (",
+          {"part 'ball': the mesh is torn open at (", "the distance changes by 1.98",
+           "allows 1. Enlarge the lipschitz"});
+  steeper(part(" * (1 + 20 * exp(-200 * ((x - 0.6) ^ 2 + (y - 0.6) ^ 2 + (z - 0.53) ^ 2)))",
+               "bounds = {{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}}, lipschitz = 1"),
+          "7.7", {"part 'ball': the mesh is off by about 0.074", "voxels, at (0.6", "Enlarge the lipschitz"},
+          {"--voxel-size", "0.02"});
 }
 
 TEST_F(BadInput, TooSmallVoxelsAreRefusedBeforeTheWorkStarts) {

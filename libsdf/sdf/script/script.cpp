@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "sdf/model/float_range.h"
 #include "sdf/model/no_number.h"
 #include "sdf/script/context.h"
 
@@ -64,14 +65,15 @@ void lookAtOffsets(ScriptContext& context) try {
   // A scene that takes all of its memory is not looked at.
 }
 
-// Says of which parts the distance is no number somewhere within their bounds.
+// Says of which parts the distance is no number somewhere within their bounds. What floats cannot hold is
+// refused for that.
 void lookForNoNumbers(ScriptContext& context) {
   Scene& scene = context.scene;
   Values values(context.options.values.begin(), context.options.values.end());
   values["time"] = context.options.time;
   for (const Part& part : scene.parts) {
     const Box box = scene.bounds ? intersect(part.shape.bounds, *scene.bounds) : part.shape.bounds;
-    if (box.empty() || !box.finite()) continue;
+    if (box.empty() || !box.finite() || beyondFloats(box)) continue;
     const auto found = findNoNumber(part.shape.distance, box, values);
     if (!found) continue;
     const glm::dvec3& p = found->at;
