@@ -275,7 +275,7 @@ class Mesher : LatticeSource {
     }
     if (painted_) {
       begin("borders");
-      cutAtBorders(mesh, field, progress_);
+      lattice.borders = cutAtBorders(mesh, field, progress_);
     }
     lattice.mesh = std::move(mesh);
     return okStatus();

@@ -17,7 +17,7 @@ constexpr double kVoxel = 1.0 / 16;
 
 // A ball's mesh at the voxels' resolution, cut at the borders of its paint.
 struct Cut {
-  explicit Cut(const Shape& shape) {
+  explicit Cut(const Shape& shape, const std::vector<std::array<std::uint32_t, 2>>& creases = {}) {
     Progress progress;
     const ModelTapes model = Model(shape).at();
     NarrowBand band = sampleNarrowBand(model, {kVoxel, findBounds(shape), kInfinity}, progress).value();
@@ -28,11 +28,13 @@ struct Cut {
     mesh.positions = std::move(raw.points);
     mesh.triangles = std::move(raw.triangles);
     vertices = mesh.positions.size();
-    cutAtBorders(mesh, field, progress);
+    mesh.creases = creases;
+    borders = cutAtBorders(mesh, field, progress);
     measureTopology(mesh.triangles, mesh.positions.size(), stats);
   }
   FeatureMesh mesh;
   std::size_t vertices;  // before
+  std::vector<glm::vec3> borders;
   MeshStats stats;
 };
 
@@ -45,6 +47,14 @@ TEST(Borders, OfOneColourThereAreNone) {
   EXPECT_EQ(cut.mesh.positions.size(), cut.vertices);
   EXPECT_TRUE(cut.mesh.creases.empty());
   EXPECT_EQ(cut.mesh.materials.size(), cut.mesh.triangles.size());
+}
+
+TEST(Borders, AreNotCreasesOfOneColour) {
+  const glm::uvec3 t = Cut(ball(0.25)).mesh.triangles[0];
+  const std::array<std::uint32_t, 2> crease{std::min(t.x, t.y), std::max(t.x, t.y)};
+  const Cut cut(ball(0.25), {crease});
+  EXPECT_EQ(cut.mesh.creases, std::vector{crease});
+  EXPECT_TRUE(cut.borders.empty());
 }
 
 TEST(Borders, OfColoursThatChangeSlowlyThereAreNone) {
@@ -67,6 +77,8 @@ TEST(Borders, AJumpOfTheColourIsALineOfCreases) {
       EXPECT_NEAR(cut.mesh.positions[v].x, at, off);
     }
   EXPECT_GT(ends.size(), 40u);
+  EXPECT_EQ(cut.borders.size(), ends.size());
+  for (const glm::vec3& p : cut.borders) EXPECT_NEAR(p.x, at, off);
   for (const auto& [v, count] : ends) EXPECT_EQ(count, 2) << "vertex " << v;
   for (const glm::uvec3& t : cut.mesh.triangles) {
     double low = 1.0, high = -1.0;

@@ -16,7 +16,9 @@ FeatureMesh square(float height) {
   return mesh;
 }
 
-Witnesses witnesses(const FeatureMesh& mesh, bool withBorders = true) { return {{}, mesh, withBorders}; }
+Witnesses witnesses(const FeatureMesh& mesh, const std::vector<glm::vec3>& borders = {}) {
+  return {{}, mesh, borders};
+}
 
 TEST(Witnesses, AreAsFarAsTheFarthestVertex) {
   Progress progress;
@@ -29,15 +31,17 @@ TEST(Witnesses, AreAsFarAsTheFarthestVertex) {
   EXPECT_EQ(witnesses(higher).toBorders(square(0.0f), progress), 0.0);
 }
 
-TEST(Witnesses, OfBordersAreVerticesOnCreases) {
+TEST(Witnesses, OfBordersAreAsFarAsTheNextCrease) {
   Progress progress;
+  const std::vector<glm::vec3> corner{{0, 0, 0.5f}};
   FeatureMesh other = square(0.0f);
+  EXPECT_EQ(witnesses(other, corner).toBorders(other, progress), 0.5);
   other.creases = {{1, 3}};
   // Roundings of floats near 1.
-  EXPECT_NEAR(witnesses(square(0.5f)).toBorders(other, progress), std::hypot(0.5, std::sqrt(0.5)), 1e-6);
-  EXPECT_EQ(witnesses(square(0.5f), false).toBorders(other, progress), 0.0);
+  EXPECT_NEAR(witnesses(other, corner).toBorders(other, progress), std::hypot(0.5, std::sqrt(0.5)), 1e-6);
+  EXPECT_EQ(witnesses(other).toBorders(other, progress), 0.0);
   other.creases.clear();
-  EXPECT_EQ(witnesses(square(0.5f)).toBorders(other, progress), HUGE_VAL);
+  EXPECT_EQ(witnesses(other, corner).toBorders(other, progress), HUGE_VAL);
   EXPECT_EQ(witnesses(other).toBorders(other, progress), 0.0);
 }
 

@@ -53,13 +53,13 @@ class BorderCutter {
   BorderCutter(FeatureMesh& mesh, const LocalField& field, Progress& progress)
       : mesh_(mesh), field_(field), progress_(progress) {}
 
-  void run() {
+  std::vector<glm::vec3> run() {
     readCorners();
     halveDoubtful();
     cutSides_.assign(mesh_.triangles.size(), {});
     whole_ = static_cast<std::uint32_t>(mesh_.positions.size());
     findCrossings();
-    if (progress_.stopped()) return;
+    if (progress_.stopped()) return {};
     const std::vector<glm::uvec3> triangles = mesh_.triangles;
     const std::vector<Edge> creases = mesh_.creases;
     const std::vector<glm::vec3> positions = mesh_.positions;
@@ -73,7 +73,7 @@ class BorderCutter {
       }
       mesh_.creases = creases, mesh_.positions = positions;
     }
-    addBorders();
+    return addBorders();
   }
 
  private:
@@ -344,8 +344,8 @@ class BorderCutter {
     mesh_.creases.push_back({after, before});
   }
 
-  // What differs on both sides of an edge.
-  void addBorders() {
+  // What differs on both sides of an edge. Returns the vertices of such edges.
+  std::vector<glm::vec3> addBorders() {
     struct Side {
       Edge edge;
       std::uint32_t triangle;
@@ -357,14 +357,14 @@ class BorderCutter {
         sides.push_back({edgeOf(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]), t});
     std::ranges::sort(sides);
     std::vector<Search> searches;
-    std::vector<Edge> edges;
+    std::vector<Edge> edges, borders;
     for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
       const auto& [edge, s] = sides[i];
       const std::uint32_t t = sides[i + 1].triangle;
       if (!differ(paint_[s], paint_[t])) continue;
       // At a crossing a border is certain; elsewhere a colour may only change fast.
       if (paint_[s].material != paint_[t].material || edge[1] >= whole_) {
-        mesh_.creases.push_back(edge);
+        borders.push_back(edge);
       } else {
         const glm::vec3 middle = 0.5f * (mesh_.positions[edge[0]] + mesh_.positions[edge[1]]);
         searches.push_back(
@@ -374,10 +374,21 @@ class BorderCutter {
     }
     readEnds(searches);
     halve(searches);
-    for (const Search& s : searches) mesh_.creases.push_back(edges[s.where]);
+    for (const Search& s : searches) borders.push_back(edges[s.where]);
+    mesh_.creases.insert(mesh_.creases.end(), borders.begin(), borders.end());
     for (Edge& c : mesh_.creases) c = edgeOf(c[0], c[1]);
     std::ranges::sort(mesh_.creases);
     mesh_.creases.erase(std::unique(mesh_.creases.begin(), mesh_.creases.end()), mesh_.creases.end());
+    return endsOf(borders);
+  }
+
+  std::vector<glm::vec3> endsOf(const std::vector<Edge>& edges) const {
+    std::vector<char> isEnd(mesh_.positions.size(), 0);
+    for (const auto& [a, b] : edges) isEnd[a] = isEnd[b] = 1;
+    std::vector<glm::vec3> ends;
+    for (std::size_t v = 0; v < isEnd.size(); ++v)
+      if (isEnd[v]) ends.push_back(mesh_.positions[v]);
+    return ends;
   }
 
   FeatureMesh& mesh_;
@@ -393,8 +404,8 @@ class BorderCutter {
 
 }  // namespace
 
-void cutAtBorders(FeatureMesh& mesh, const LocalField& field, Progress& progress) {
-  BorderCutter(mesh, field, progress).run();
+std::vector<glm::vec3> cutAtBorders(FeatureMesh& mesh, const LocalField& field, Progress& progress) {
+  return BorderCutter(mesh, field, progress).run();
 }
 
 }  // namespace sdf

@@ -11,7 +11,8 @@ namespace sdf {
 /// found by halving along their edges to 1/128 of these; one with three paints around a point inside it.
 /// Those that a border does not cross straight, as where it has a corner or four squares of a board meet, are
 /// divided before, into edges of a sixteenth. What is narrower than an edge may be missed, and where pieces
-/// would cross edges stay whole. Positions that were there stay. Cost: a reading for each corner; n log n.
-void cutAtBorders(FeatureMesh& mesh, const LocalField& field, Progress& progress);
+/// would cross edges stay whole. Positions that were there stay. Returns the positions of the borders'
+/// vertices, which other creases do not have. Cost: a reading for each corner; n log n.
+std::vector<glm::vec3> cutAtBorders(FeatureMesh& mesh, const LocalField& field, Progress& progress);
 
 }  // namespace sdf

@@ -1,17 +1,14 @@
 #include "sdf/mesh/measure/witnesses.h"
 
 #include <cmath>
+#include <utility>
 
 namespace sdf {
 
-Witnesses::Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, bool withBorders)
-    : surface_(mesh.positions) {
+Witnesses::Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh,
+                     std::vector<glm::vec3> borders)
+    : surface_(mesh.positions), borders_(std::move(borders)) {
   surface_.insert(surface_.end(), surface.begin(), surface.end());
-  if (!withBorders) return;
-  std::vector<char> onCrease(mesh.positions.size(), 0);
-  for (const auto& [a, b] : mesh.creases) onCrease[a] = onCrease[b] = 1;
-  for (std::size_t v = 0; v < onCrease.size(); ++v)
-    if (onCrease[v]) borders_.push_back(mesh.positions[v]);
 }
 
 void Witnesses::add(const std::vector<glm::vec3>& surface) {

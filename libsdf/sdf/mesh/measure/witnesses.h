@@ -9,12 +9,11 @@
 
 namespace sdf {
 
-/// A mesh's vertices and points that were found on the surface, and the vertices of its creases, which
-/// borders of paint are among.
+/// A mesh's vertices, points that were found on the surface, and points of the borders of its paint.
 class Witnesses {
  public:
-  /// All of these points. `withBorders`: are borders looked at, too?
-  Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, bool withBorders);
+  /// All of these points.
+  Witnesses(const std::vector<glm::vec3>& surface, const FeatureMesh& mesh, std::vector<glm::vec3> borders);
 
   /// Points of the surface, that were found since.
   void add(const std::vector<glm::vec3>& surface);
@@ -24,8 +23,8 @@ class Witnesses {
 
   /// The largest distance from a witness to another mesh's triangles, at least one.
   SurfaceDistance toSurface(const FeatureMesh& mesh, Progress& progress) const;
-  /// The same from a vertex on a crease to another mesh's creases; infinite if that has none, 0 if there are
-  /// no such vertices.
+  /// The same from a point of a border to another mesh's creases, which its borders are among; infinite if
+  /// that has none, 0 if there are no such points.
   double toBorders(const FeatureMesh& mesh, Progress& progress) const;
 
  private:

@@ -46,7 +46,7 @@ bool isClosed(const FeatureMesh& mesh) {
 }
 
 Ladder::End Ladder::climb(std::unique_ptr<Lattice>& fine, bool fromCoarse, bool mayRefine) {
-  witnesses_.emplace(surface_, fine->mesh, options_.painted);
+  witnesses_.emplace(surface_, fine->mesh, fine->borders);
   // Where this lattice does not see all that there is, coarser ones see less.
   coarsest_ = fromCoarse && fine->isResolved ? kCoarsest : 1.0;
   isBlurred_ = isBlurred_ || (options_.painted && blursColors(*fine));
@@ -80,7 +80,7 @@ bool Ladder::simplifyCoarse(double share, std::unique_ptr<Lattice>& fine) {
     std::unique_ptr<Lattice> coarse = source_.lattice(times * fine->band.voxelSize());
     if (!coarse) break;
     if (!coarse->isResolved || !source_.makeMesh(*coarse)) continue;
-    if (lackOf(coarse->mesh, coarse->field) > kFollowed * options_.tolerance) continue;
+    if (lackOf(coarse->mesh) > kFollowed * options_.tolerance) continue;
     FeatureMesh mesh = coarse->mesh;
     bool kept = simplifyWithin(share, mesh, *coarse, fine->field);
     if (!kept && share == 1.0 && exceeded_ > 1.0 && exceeded_ < kByLittle) {
@@ -98,7 +98,9 @@ bool Ladder::simplifyCoarse(double share, std::unique_ptr<Lattice>& fine) {
 
 // From the mesh itself. Where no tolerance was asked for, what comes of it is taken as it is.
 Ladder::End Ladder::simplifyFinest(Lattice& fine, bool mayRefine) {
-  const double off = lackOf(fine.mesh, fine.field);
+  MeshStats stats;
+  measured_.fromMesh(fine.mesh, fine.field, progress_, stats);
+  const double off = std::max(stats.maxDistance, lackOf(fine.mesh));
   const bool followed = off <= kFollowed * options_.tolerance;
   if (!followed && (mayRefine || options_.strict)) return End::Failed;
   FeatureMesh mesh = fine.mesh;
@@ -161,12 +163,10 @@ bool Ladder::blursColors(const Lattice& fine) {
          !keepsColors(coarse->mesh, options_.tolerance, fine.field, progress_);
 }
 
-// How far a lattice's mesh is from the surface, either way; infinite where it lacks a border.
-double Ladder::lackOf(const FeatureMesh& mesh, const BandField& field) {
-  MeshStats stats;
-  measured_.fromMesh(mesh, field, progress_, stats);
+// How far what the lattice sees of the surface is from a mesh; infinite where that lacks a border.
+double Ladder::lackOf(const FeatureMesh& mesh) const {
   if (witnesses_->toBorders(mesh, progress_) > options_.tolerance) return kInfinity;
-  return std::max(stats.maxDistance, witnesses_->toSurface(mesh, progress_).max);
+  return witnesses_->toSurface(mesh, progress_).max;
 }
 
 // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are any.

@@ -21,7 +21,8 @@ struct Lattice {
   NarrowBand band;
   BandField field;
   FeatureMesh mesh;
-  bool isResolved = true;  ///< is nothing known that is thinner than its voxels?
+  std::vector<glm::vec3> borders;  ///< points of the borders of its paint
+  bool isResolved = true;          ///< is nothing known that is thinner than its voxels?
 };
 
 /// Is it closed, and has it triangles?
@@ -52,8 +53,7 @@ struct LadderOptions {
 
 /// Replaces a lattice's mesh by one with few triangles, simplified (simplify.h) from the largest voxels that
 /// do. What the lattice sees none may miss: the vertices of its mesh are points of the surface, which are to
-/// be met within the tolerance, and where it is painted those of its creases points of borders, which larger
-/// voxels are to have that near, too.
+/// be met within the tolerance, and where paint has borders larger voxels are to have them that near, too.
 class Ladder {
  public:
   enum class End {
@@ -84,7 +84,7 @@ class Ladder {
   template <class Simplify>
   bool withColors(FeatureMesh& mesh, const BandField& fine, const Simplify& simplify);
   bool blursColors(const Lattice& fine);
-  double lackOf(const FeatureMesh& mesh, const BandField& field);
+  double lackOf(const FeatureMesh& mesh) const;
   std::vector<glm::vec3> placesBeyondTolerance(const FeatureMesh& mesh, const BandField& field);
   std::vector<glm::vec3> witness(const FeatureMesh& mesh, const BandField& field);
 

@@ -30,7 +30,7 @@ std::vector<SampledMesh::Index> MissedSamples::add() {
   addAt(close, kFineSteps, nullptr);
   addOfSurface(all);
   addOfCreases();
-  if (++sinceClimb_ > fruitless_) addClimbed(all);
+  if (added_.empty()) addClimbed(all);  // which takes the longest
   return std::exchange(added_, {});
 }
 
@@ -154,8 +154,6 @@ void MissedSamples::addClimbed(const std::vector<Index>& triangles) {
   const std::size_t known = surface_.size();
   for (std::size_t i = known; i < far.size(); ++i)
     if (far[i].distance > tolerance_) surface_.push_back(far[i].at);
-  sinceClimb_ = 0;
-  fruitless_ = surface_.size() > known ? 0 : fruitless_ + 1;
   if (surface_.size() > known) addOfSurface(triangles);
 }
 

@@ -29,8 +29,8 @@ class MissedSamples {
       : sampled_(sampled), field_(field), surface_(surface), tolerance_(tolerance), progress_(progress) {}
 
   /// Adds the surface's points next to places all over the triangles and next to the middles of creases'
-  /// edges, and points next to the mesh on the surface, that are too far off, and those that are climbed to
-  /// from them (farthestOfSurface). Returns the triangles, by their first
+  /// edges, and points next to the mesh on the surface, that are too far off; where there are none, those
+  /// that are climbed to from them (farthestOfSurface). Returns the triangles, by their first
   /// half-edges, that have more samples now. Cost: 10 to 46 points a triangle, a few readings each.
   std::vector<SampledMesh::Index> add();
   /// Adds the points of the surface next to these places to the triangles that are nearest to them. Returns
@@ -57,8 +57,7 @@ class MissedSamples {
   Progress& progress_;
   std::vector<Index> added_;
   std::vector<OffSurface> off_;
-  std::vector<Corners> looked_;         // by triangle: where its corners were when nothing was missed
-  int fruitless_ = 0, sinceClimb_ = 0;  // climbs that found nothing, and looks since: ever more of them
+  std::vector<Corners> looked_;  // by triangle: where its corners were when nothing was missed
 };
 
 }  // namespace sdf
