@@ -80,7 +80,7 @@ bool Ladder::simplifyCoarse(double share, std::unique_ptr<Lattice>& fine) {
     std::unique_ptr<Lattice> coarse = source_.lattice(times * fine->band.voxelSize());
     if (!coarse) break;
     if (!coarse->isResolved || !source_.makeMesh(*coarse)) continue;
-    if (lackOf(coarse->mesh) > kFollowed * options_.tolerance) continue;
+    if (offBy(*coarse) > kFollowed * options_.tolerance) continue;
     FeatureMesh mesh = coarse->mesh;
     bool kept = simplifyWithin(share, mesh, *coarse, fine->field);
     if (!kept && share == 1.0 && exceeded_ > 1.0 && exceeded_ < kByLittle) {
@@ -98,9 +98,7 @@ bool Ladder::simplifyCoarse(double share, std::unique_ptr<Lattice>& fine) {
 
 // From the mesh itself. Where no tolerance was asked for, what comes of it is taken as it is.
 Ladder::End Ladder::simplifyFinest(Lattice& fine, bool mayRefine) {
-  MeshStats stats;
-  measured_.fromMesh(fine.mesh, fine.field, progress_, stats);
-  const double off = std::max(stats.maxDistance, lackOf(fine.mesh));
+  const double off = offBy(fine);
   const bool followed = off <= kFollowed * options_.tolerance;
   if (!followed && (mayRefine || options_.strict)) return End::Failed;
   FeatureMesh mesh = fine.mesh;
@@ -163,10 +161,15 @@ bool Ladder::blursColors(const Lattice& fine) {
          !keepsColors(coarse->mesh, options_.tolerance, fine.field, progress_);
 }
 
-// How far what the lattice sees of the surface is from a mesh; infinite where that lacks a border.
-double Ladder::lackOf(const FeatureMesh& mesh) const {
-  if (witnesses_->toBorders(mesh, progress_) > options_.tolerance) return kInfinity;
-  return witnesses_->toSurface(mesh, progress_).max;
+// How far a lattice's mesh is from the surface, either way, or where that is beyond what is followed, one of
+// both; infinite where it lacks a border.
+double Ladder::offBy(const Lattice& lattice) {
+  if (witnesses_->toBorders(lattice.mesh, progress_) > options_.tolerance) return kInfinity;
+  const double lacks = witnesses_->toSurface(lattice.mesh, progress_).max;
+  if (lacks > kFollowed * options_.tolerance) return lacks;
+  MeshStats stats;
+  measured_.fromMesh(lattice.mesh, lattice.field, progress_, stats);
+  return std::max(stats.maxDistance, lacks);
 }
 
 // Some places on a mesh or the surface that are farther from the other than the tolerance, if there are any.

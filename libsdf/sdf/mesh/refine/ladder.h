@@ -84,7 +84,7 @@ class Ladder {
   template <class Simplify>
   bool withColors(FeatureMesh& mesh, const BandField& fine, const Simplify& simplify);
   bool blursColors(const Lattice& fine);
-  double lackOf(const FeatureMesh& mesh) const;
+  double offBy(const Lattice& lattice);
   std::vector<glm::vec3> placesBeyondTolerance(const FeatureMesh& mesh, const BandField& field);
   std::vector<glm::vec3> witness(const FeatureMesh& mesh, const BandField& field);
 
