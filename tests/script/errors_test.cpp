@@ -120,6 +120,15 @@ TEST(Errors, WrongTypesSayWhatWasGiven) {
        "scene.lua:1: shapes are combined with | (union), & (intersection), - (difference) and ~ (xor); moved "
        "with "
        "translate, sized with scale"},
+      {"return sphere(1)(1)",
+       "scene.lua:1: a shape that is called gives its distance at a place; write shape(x, y, z), got 1 "
+       "argument"},
+      {"return circle(1)(1, 2, 3)",
+       "scene.lua:1: a shape that is called gives its distance at a place; write shape(x, y), got 3 "
+       "arguments"},
+      {"return sphere(1)(1, 'a', 3)",
+       "scene.lua:1: shape(x, y, z): 'y' must be a number, got a string \"a\""},
+      {"return sphere(1)({1, 2})", "scene.lua:1: shape(x, y, z) must be {x, y, z}, got a table of 2 values"},
       {"return time + {}", "scene.lua:1: '+' needs a number or a formula on both sides, got a table"},
       {"return sin('x')", "scene.lua:1: sin: argument 1 must be a number, got a string \"x\""},
       {"camera{mirrored = 1}", "scene.lua:1: camera: 'mirrored' must be true or false, got the number 1"},

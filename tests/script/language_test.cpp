@@ -162,6 +162,24 @@ TEST(Language, AFieldOfASpheresFormulaIsTheSphere) {
   EXPECT_EQ(shape.claim.lipschitz, 1.0);
 }
 
+TEST(Language, AShapeThatIsCalledGivesItsDistance) {
+  EXPECT_EQ(numberOf("value(sphere(1)(3, 0, 0))"), 2.0);
+  EXPECT_EQ(numberOf("value(sphere(1)({3, 0, 0}))"), 2.0);
+  EXPECT_EQ(numberOf("value(sphere(1){x = 0, y = 0, z = 0.5})"), -0.5);
+  EXPECT_EQ(numberOf("value(circle(1)(0, 3))"), 2.0);
+  EXPECT_EQ(numberOf("value(circle(1){0, 3})"), 2.0);
+  // A formula in every program, whatever the numbers come from.
+  EXPECT_EQ(numberOf("type(sphere(1)(3, 0, 0)) == 'userdata' and 1 or 0"), 1.0);
+  EXPECT_EQ(numberOf("value(sphere(r)(3, 0, 0))", "local r = param('r', 2)"), 1.0);
+  const Shape ball = sphere(1.0);
+  const Vec3E p = position();
+  expectSame("sphere(1):displace(function(x, y, z) return 0.1 * box(2)(2 * x, y, z) end)",
+             displace(ball, 0.1 * distanceAt(box({2.0, 2.0, 2.0}), {2.0 * p.x, p.y, p.z})));
+  const Scene scene =
+      sceneOf("local s = box(1) return sphere(1):paint(function(x, y, z) return s(x, y, z) end)");
+  EXPECT_TRUE(scene.parts.at(0).shape.surface[0] == box({1.0, 1.0, 1.0}).distance);
+}
+
 TEST(Language, DisplaceTakesAFunctionInPlaceOfItsOwnPattern) {
   expectSame("sphere(1):displace(function(x, y, z) return 0.1 * sin(5 * x) end)",
              displace(sphere(1.0), 0.1 * sin(5.0 * position().x)));

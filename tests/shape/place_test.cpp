@@ -1,6 +1,7 @@
 #include "sdf/shape/operators/place.h"
 
 #include <numbers>
+#include <random>
 
 #include "claim_checks.h"
 #include "sdf/shape/operators/booleans.h"
@@ -186,6 +187,26 @@ TEST(Mirror, CarriesTheColourAcross) {
   m.color = Vec3E(kX, 0.0, 0.0);
   const Shape s = mirror(translate(sphere(0.5).paint(m), Vec3E(1.0, 0.0, 0.0)), Vec3E(1.0, 0.0, 0.0));
   EXPECT_EQ(Probe(s.surface[0])(-1.25, 0.0, 0.0), 0.25);
+}
+
+// At a place that moves no faster than the position it is the moved shape's; elsewhere it is as steep as the
+// place is fast.
+TEST(DistanceAt, IsTheShapesDistanceThere) {
+  const Shape s = odd();
+  const Vec3E p(kX, kY, kZ), far(1.0, -2.0, 0.5);
+  EXPECT_TRUE(distanceAt(s, p) == s.distance);
+  EXPECT_TRUE(distanceAt(s, p - far) == translate(s, far).distance);
+  EXPECT_DOUBLE_EQ(distanceAt(s, {kX * 2.0, kY * 2.0, kZ * 2.0}).lipschitz(), 2.0 * s.distance.lipschitz());
+  EXPECT_EQ(distanceAt(sphere(1.0), {3.0, 0.0, 0.0}).constantValue(), 2.0);
+  const Vec3E warped(kX + sin(kY) * 0.5, kY * kZ, kZ - kX * kX);
+  const Probe there(distanceAt(s, warped)), f(s.distance);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-2.0, 2.0);
+  for (int i = 0; i < 100; ++i) {
+    const double x = coordinate(random), y = coordinate(random), z = coordinate(random);
+    EXPECT_EQ(there(x, y, z), f(x + std::sin(y) * 0.5, y * z, z - x * x));
+  }
+  EXPECT_EQ(distanceAt(s, warped).lipschitz(), kInfinity);  // kY * kZ has none
 }
 
 TEST(Place, FlatShapesStayInTheirPlane) {

@@ -11,6 +11,7 @@
 #include "sdf/script/outlines.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
+#include "sdf/shape/operators/place.h"
 #include "sdf/shape/solids/solids.h"
 #include "sdf/shape/solids/triangle_solid.h"
 
@@ -415,6 +416,25 @@ int notArithmetic(lua_State* L) {
         "translate, sized with scale");
 }
 
+// A shape that is called: its distance at a place, a formula even where it is a constant, for its numbers may
+// come from parameters.
+int distanceOfShape(lua_State* L) {
+  const Shape& shape = *testShape(L, 1);
+  const int size = shape.dimension, given = lua_gettop(L) - 1;
+  const std::string usage = size == 2 ? "shape(x, y)" : "shape(x, y, z)";
+  if (isMissing(shape)) raise(L, *shape.error);
+  if (given == 1 && lua_istable(L, 2))
+    return pushFormula(L, distanceAt(shape, readVector(L, 2, usage, size, Depends::OnPosition))), 1;
+  if (given != size)
+    raise(L, "a shape that is called gives its distance at a place; write " + usage + ", got " +
+                 std::to_string(given) + (given == 1 ? " argument" : " arguments"));
+  Vec3E place{0.0, 0.0, 0.0};
+  Expr* const components[] = {&place.x, &place.y, &place.z};
+  for (int i = 0; i < size; ++i)
+    *components[i] = readNumber(L, 2 + i, usage + ": '" + "xyz"[i] + "'", Depends::OnPosition);
+  return pushFormula(L, distanceAt(shape, place)), 1;
+}
+
 }  // namespace
 
 void openCatalog(lua_State* L) {
@@ -438,6 +458,8 @@ void openCatalog(lua_State* L) {
     lua_pushcclosure(L, guarded<applySign>, 1);
     setShapeOperator(L, s.event);
   }
+  lua_pushcfunction(L, guarded<distanceOfShape>);
+  setShapeOperator(L, "__call");
   for (const char* event : {"__add", "__mul", "__div", "__unm", "__pow", "__mod", "__idiv"}) {
     lua_pushcfunction(L, guarded<notArithmetic>);
     setShapeOperator(L, event);

@@ -164,6 +164,10 @@ Shape translate(const Shape& shape, const Vec3E& offset) {
   return result;
 }
 
+Expr distanceAt(const Shape& shape, const Vec3E& place) {
+  return remap(shape.distance, {place.x, place.y, place.z}, stretchOf(place));
+}
+
 namespace {
 
 std::shared_ptr<const Copies> copiesRelativeTo(const Shape& shape, const glm::dvec3& origin) {

@@ -29,6 +29,11 @@ Shape scale(const Shape& shape, const Expr& factor);
 /// ratio.
 Shape scale(const Shape& shape, const Vec3E& factors);
 
+/// What the shape's distance is elsewhere, at a place that may depend on the position: a number for other
+/// formulas, negative inside. A flat shape's z says nothing. Its slope is known where the place's is.
+/// Precondition: shape.ok().
+Expr distanceAt(const Shape& shape, const Vec3E& place);
+
 /// The shape united with its mirror image in the plane through the origin across `normal`. Where the bounds
 /// show that the shape keeps to one side, it is evaluated once, and an exact distance stays exact.
 Shape mirror(const Shape& shape, const Vec3E& normal);
