@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
 #include "shape/cases.h"
@@ -191,7 +192,92 @@ std::vector<Membership> memberships() {
              std::cos(p.x) * std::sin(p.y) * std::cos(p.z) + std::cos(p.x) * std::cos(p.y) * std::sin(p.z);
          return std::abs(g) <= 0.1 * kPi * std::sqrt(3.0);
        }},
+      {"iwp", iwp(2.0, 0.2),
+       [](dvec3 p) {
+         p *= kPi;
+         const double g = 2.0 * (std::cos(p.x) * std::cos(p.y) + std::cos(p.y) * std::cos(p.z) +
+                                 std::cos(p.z) * std::cos(p.x)) -
+                          std::cos(2.0 * p.x) - std::cos(2.0 * p.y) - std::cos(2.0 * p.z);
+         return std::abs(g) <= 0.1 * kPi * std::sqrt(27.0);
+       }},
+      {"neovius", neovius(2.0, 0.2),
+       [](dvec3 p) {
+         p *= kPi;
+         return std::abs(3.0 * (std::cos(p.x) + std::cos(p.y) + std::cos(p.z)) +
+                         4.0 * std::cos(p.x) * std::cos(p.y) * std::cos(p.z)) <= 0.1 * kPi * 7.0;
+       }},
+      {"lidinoid", lidinoid(2.0, 0.2),
+       [](dvec3 p) {
+         p *= kPi;
+         const double g =
+             0.5 * (std::sin(2.0 * p.x) * std::cos(p.y) * std::sin(p.z) +
+                    std::sin(2.0 * p.y) * std::cos(p.z) * std::sin(p.x) +
+                    std::sin(2.0 * p.z) * std::cos(p.x) * std::sin(p.y)) -
+             0.5 * (std::cos(2.0 * p.x) * std::cos(2.0 * p.y) + std::cos(2.0 * p.y) * std::cos(2.0 * p.z) +
+                    std::cos(2.0 * p.z) * std::cos(2.0 * p.x)) +
+             0.15;
+         return std::abs(g) <= 0.1 * kPi * std::sqrt(6.75);
+       }},
+      {"fischer_koch_s", fischerKochS(2.0, 0.2),
+       [](dvec3 p) {
+         p *= kPi;
+         return std::abs(std::cos(2.0 * p.x) * std::sin(p.y) * std::cos(p.z) +
+                         std::cos(p.x) * std::cos(2.0 * p.y) * std::sin(p.z) +
+                         std::sin(p.x) * std::cos(p.y) * std::cos(2.0 * p.z)) <= 0.1 * kPi * 2.443973;
+       }},
   };
+}
+
+// A wave of period 2 pi, as high as its wall is thick, and the length of the highest frequency in it.
+struct Wave {
+  const char* name;
+  Shape shape;
+  double frequency;
+};
+
+std::vector<Wave> waves() {
+  const Expr cell = 2.0 * kPi, thickness = 0.1;
+  return {{"gyroid", gyroid(cell, thickness), std::sqrt(2.0)},
+          {"schwarz_p", schwarzP(cell, thickness), 1.0},
+          {"schwarz_d", schwarzD(cell, thickness), std::sqrt(3.0)},
+          {"iwp", iwp(cell, thickness), 2.0},
+          {"neovius", neovius(cell, thickness), std::sqrt(3.0)},
+          {"lidinoid", lidinoid(cell, thickness), std::sqrt(8.0)},
+          {"fischer_koch_s", fischerKochS(cell, thickness), std::sqrt(6.0)}};
+}
+
+// The squared slope has frequencies up to 2 f. Along any line its second derivative is no more than (2 f)^2
+// times its largest value (Bernstein 1912). At that value its first one is 0; so where a cell of this radius
+// has the largest value, its middle is below it by no more than half of (2 f radius)^2 of it. Cells whose
+// middle is lower are done, and others are halved.
+TEST(Lattices, AreNoSteeperThanOne) {
+  constexpr double kRounding = 1e-6;
+  for (const Wave& w : waves()) {
+    const Tape tape(w.shape.distance);
+    struct Cell {
+      dvec3 middle;
+      double half;
+    };
+    // From a place at which no wave is 0, where a wall's two sides meet.
+    std::vector<Cell> cells{{dvec3(0.1, 0.2, 0.35) + kPi, kPi}};
+    double steepest = 0.0;
+    std::size_t looked = 0;
+    while (!cells.empty() && ++looked < 20'000'000) {
+      const Cell c = cells.back();
+      cells.pop_back();
+      const ValueAndGradient at = evaluateGradient(tape, c.middle);
+      const double squared = glm::dot(at.gradient, at.gradient),
+                   reach = 2.0 * w.frequency * std::sqrt(3.0) * c.half;
+      steepest = std::max(steepest, squared);
+      const double lower = 0.5 * reach * reach;
+      if (lower < 1.0 && squared <= (1.0 - lower) * (1.0 + kRounding)) continue;
+      for (int k = 0; k < 8; ++k)
+        cells.push_back(
+            {c.middle + 0.5 * c.half * dvec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), 0.5 * c.half});
+    }
+    EXPECT_TRUE(cells.empty()) << w.name;
+    EXPECT_GT(steepest, 1.0 - 1e-4) << w.name;  // and there is no smaller slope to claim
+  }
 }
 
 TEST(Solids, AreMadeOfThePointsThatTheirNamesSay) {

@@ -148,6 +148,36 @@ constexpr Wave kSchwarzD{[](const glm::dvec3& p) {
                                   std::sin(p.x) * std::sin(p.y) * std::sin(p.z);
                          },
                          1.224744871391589, std::numbers::sqrt2};
+// Along a line a wave's second derivative is no more than half of what lies between its least and its largest
+// value, times the square of its highest frequency (Bernstein 1912). Slopes: the tests of the shapes prove
+// them.
+constexpr Wave kIwp{[](const glm::dvec3& p) {
+                      return 2.0 * (std::cos(p.x) * std::cos(p.y) + std::cos(p.y) * std::cos(p.z) +
+                                    std::cos(p.z) * std::cos(p.x)) -
+                             std::cos(2.0 * p.x) - std::cos(2.0 * p.y) - std::cos(2.0 * p.z);
+                    },
+                    3.0 * std::numbers::sqrt3, 4.0 * 4.0};
+constexpr Wave kNeovius{[](const glm::dvec3& p) {
+                          return 3.0 * (std::cos(p.x) + std::cos(p.y) + std::cos(p.z)) +
+                                 4.0 * std::cos(p.x) * std::cos(p.y) * std::cos(p.z);
+                        },
+                        7.0, 3.0 * 13.0};
+constexpr Wave kLidinoid{[](const glm::dvec3& p) {
+                           return 0.5 * (std::sin(2.0 * p.x) * std::cos(p.y) * std::sin(p.z) +
+                                         std::sin(2.0 * p.y) * std::cos(p.z) * std::sin(p.x) +
+                                         std::sin(2.0 * p.z) * std::cos(p.x) * std::sin(p.y)) -
+                                  0.5 * (std::cos(2.0 * p.x) * std::cos(2.0 * p.y) +
+                                         std::cos(2.0 * p.y) * std::cos(2.0 * p.z) +
+                                         std::cos(2.0 * p.z) * std::cos(2.0 * p.x)) +
+                                  0.15;
+                         },
+                         1.5 * std::numbers::sqrt3, 8.0 * 1.25};
+constexpr Wave kFischerKochS{[](const glm::dvec3& p) {
+                               return std::cos(2.0 * p.x) * std::sin(p.y) * std::cos(p.z) +
+                                      std::cos(p.x) * std::cos(2.0 * p.y) * std::sin(p.z) +
+                                      std::sin(p.x) * std::cos(p.y) * std::cos(2.0 * p.z);
+                             },
+                             2.443973, 6.0 * std::numbers::sqrt2};
 
 struct Geometry {
   std::function<Tessellation(const Numbers&)> mesh;
@@ -230,6 +260,10 @@ void addStraight(Table& table) {
   table["gyroid"] = {wallOf(kGyroid), walls};
   table["schwarz_p"] = {wallOf(kSchwarzP), walls};
   table["schwarz_d"] = {wallOf(kSchwarzD), walls};
+  table["iwp"] = {wallOf(kIwp), walls};
+  table["neovius"] = {wallOf(kNeovius), walls};
+  table["lidinoid"] = {wallOf(kLidinoid), walls};
+  table["fischer_koch_s"] = {wallOf(kFischerKochS), walls};
 }
 
 Tessellation ringMesh(double radius, double thickness) {

@@ -91,6 +91,21 @@ std::vector<CatalogEntry> solidEntries() {
             {cell, size("thickness", "of the walls where thinnest, below 0.5513 cell", "0.1")}, schwarzP),
       entry("schwarz_d", "Walls along Schwarz' D surface, endless diamond plumbing.", "bound, L = 1",
             {cell, size("thickness", "of the walls where thinnest, below 0.2598 cell", "0.1")}, schwarzD),
+      entry("iwp",
+            "Walls along Schoen's I-WP surface, around a grid of pipes from cubes' middles to their corners.",
+            "bound, L = 1",
+            {cell, size("thickness", "of the walls where thinnest, below 0.3063 cell", "0.1")}, iwp),
+      entry("neovius", "Walls along Neovius' surface: chambers with twelve tunnels each.", "bound, L = 1",
+            {cell, size("thickness",
+                        "of the walls where thinnest, a seventh of the thickest; below 0.5911 cell", "0.03")},
+            neovius),
+      entry("lidinoid", "Walls along the lidinoid, a gyroid's kin.", "bound, L = 1",
+            {cell, size("thickness",
+                        "of the walls where thinnest, a fifth of the thickest; below 0.1654 cell", "0.03")},
+            lidinoid),
+      entry(
+          "fischer_koch_s", "Walls along Fischer and Koch's S surface, an endless labyrinth.", "bound, L = 1",
+          {cell, size("thickness", "of the walls where thinnest, below 0.1841 cell", "0.05")}, fischerKochS),
   };
 }
 

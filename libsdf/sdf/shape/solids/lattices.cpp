@@ -1,5 +1,6 @@
-// Triply periodic minimal surfaces by their usual trigonometric approximations (von Schnering, Nesper 1991),
-// as walls. Each wave is divided by the largest length of its gradient, which makes L = 1 and hence a bound.
+// Triply periodic minimal surfaces by their usual trigonometric approximations (von Schnering, Nesper 1991;
+// Lord, Mackay 2003), as walls. Each wave is divided by the largest length of its gradient, which makes L = 1
+// and hence a bound.
 #include <numbers>
 
 #include "sdf/shape/check.h"
@@ -10,7 +11,7 @@ namespace sdf {
 
 namespace {
 
-// `steepest`: largest gradient of the wave per radian; `highest`: its largest value.
+// `steepest`: largest gradient of the wave per radian; `highest`: its largest value, of either sign.
 template <class Wave>
 Shape lattice(const char* name, const Expr& cell, const Expr& thickness, double steepest, double highest,
               Wave wave) {
@@ -45,6 +46,40 @@ Shape schwarzD(const Expr& cell, const Expr& thickness) {
   // inequality of means, so the gradient is at most sqrt(6) / 2.
   return lattice("schwarz_d", cell, thickness, std::numbers::sqrt2 * std::numbers::sqrt3 / 2.0, 1.0,
                  [](const Vec3E& s, const Vec3E& c) { return c.x * c.y * c.z - s.x * s.y * s.z; });
+}
+
+// The largest gradients of these were looked for, and are proven by the tests, from the highest frequency
+// that their squares have.
+
+Shape iwp(const Expr& cell, const Expr& thickness) {
+  const double steepest = 3.0 * std::numbers::sqrt3;  // at (2 pi / 3, 0, 0)
+  return lattice("iwp", cell, thickness, steepest, 5.0, [](const Vec3E&, const Vec3E& c) {
+    const Expr pairs = c.x * c.y + c.y * c.z + c.z * c.x, squares = square(c.x) + square(c.y) + square(c.z);
+    return 2.0 * (pairs - squares) + 3.0;
+  });
+}
+
+Shape neovius(const Expr& cell, const Expr& thickness) {
+  return lattice("neovius", cell, thickness, 7.0, 13.0, [](const Vec3E&, const Vec3E& c) {
+    return 3.0 * (c.x + c.y + c.z) + 4.0 * (c.x * c.y * c.z);
+  });
+}
+
+Shape lidinoid(const Expr& cell, const Expr& thickness) {
+  const double steepest = 1.5 * std::numbers::sqrt3;  // at 3 pi / 8 (1, 1, 1)
+  return lattice("lidinoid", cell, thickness, steepest, 1.35, [](const Vec3E& s, const Vec3E& c) {
+    const Vec3E twice{2.0 * square(c.x) - 1.0, 2.0 * square(c.y) - 1.0, 2.0 * square(c.z) - 1.0};
+    const Expr sines = s.x * s.y * c.y * c.z + s.y * s.z * c.z * c.x + s.z * s.x * c.x * c.y;
+    return sines - 0.5 * (twice.x * twice.y + twice.y * twice.z + twice.z * twice.x) + 0.15;
+  });
+}
+
+Shape fischerKochS(const Expr& cell, const Expr& thickness) {
+  return lattice(
+      "fischer_koch_s", cell, thickness, 2.443973, std::numbers::sqrt2, [](const Vec3E& s, const Vec3E& c) {
+        const Vec3E twice{2.0 * square(c.x) - 1.0, 2.0 * square(c.y) - 1.0, 2.0 * square(c.z) - 1.0};
+        return twice.x * s.y * c.z + c.x * twice.y * s.z + s.x * c.y * twice.z;
+      });
 }
 
 }  // namespace sdf

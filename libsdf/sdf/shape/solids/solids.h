@@ -84,6 +84,22 @@ Shape schwarzP(const Expr& cell, const Expr& thickness);
 /// Schwarz' D surface as a wall, |cos x cos y cos z - sin x sin y sin z| small. Thin walls are between
 /// 1 and 1.23 times `thickness` thick; thickness < 0.2598 cell. Else like gyroid.
 Shape schwarzD(const Expr& cell, const Expr& thickness);
+/// Schoen's I-WP surface as a wall, |2 (cos x cos y + cos y cos z + cos z cos x) - cos 2x - cos 2y - cos 2z|
+/// small. Thin walls are between 1 and 1.54 times `thickness` thick; thickness < 0.3063 cell. Else like
+/// gyroid.
+Shape iwp(const Expr& cell, const Expr& thickness);
+/// Neovius' surface as a wall, |3 (cos x + cos y + cos z) + 4 cos x cos y cos z| small. Thin walls are
+/// between 1 and 7 times `thickness` thick; thickness < 0.5911 cell. Else like gyroid.
+Shape neovius(const Expr& cell, const Expr& thickness);
+/// The lidinoid (Lidin, Larsson 1990) as a wall, |sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin
+/// y
+/// - cos 2x cos 2y - cos 2y cos 2z - cos 2z cos 2x + 0.3| small. Thin walls are between 1 and 5.29 times
+/// `thickness` thick; thickness < 0.1654 cell. Else like gyroid.
+Shape lidinoid(const Expr& cell, const Expr& thickness);
+/// Fischer and Koch's S surface as a wall, |cos 2x sin y cos z + cos x cos 2y sin z + sin x cos y cos 2z|
+/// small. Thin walls are between 1 and 2.03 times `thickness` thick; thickness < 0.1841 cell. Else like
+/// gyroid.
+Shape fischerKochS(const Expr& cell, const Expr& thickness);
 
 /// Any formula of position() and parameters as a shape: solid where distance <= 0. Claimed a field: only the
 /// zero set and the sign count. `bounds`, where given, must contain the solid; `lipschitz`, where given, is
