@@ -290,6 +290,13 @@ TEST_F(Export, ReportsEveryFigureOfEachPartAndInTotal) {
   }
   EXPECT_EQ(output["parts"][0]["components"], 1);
   EXPECT_EQ(output["parts"][0]["euler_characteristic"], 2);
+  const auto volumeOf = [](const Json& line) { return line["volume"].get<double>(); };
+  const Json &ball = output["parts"][0], &block = output["parts"][1];
+  EXPECT_EQ(volumeOf(output["total"]), volumeOf(ball) + volumeOf(block));
+  EXPECT_NEAR(volumeOf(ball), 4.0 / 3.0 * std::numbers::pi, 0.03);
+  EXPECT_NEAR(volumeOf(block), 1.0, 1e-5);
+  EXPECT_NEAR(block["area"].get<double>(), 6.0, 1e-5);
+  EXPECT_NEAR(block["centre_of_mass"][0].get<double>(), 2.0, 1e-5);
   EXPECT_EQ(output["total"]["components"], 2);
   EXPECT_EQ(output["total"]["euler_characteristic"], 4);
   for (const char* stage : {"script", "writing"})

@@ -47,7 +47,7 @@ std::string roundedDown(double positive) {
   return formatted("%.2g", std::floor(positive / digit) * digit);
 }
 
-Json placeJson(const glm::vec3& p) { return {p.x, p.y, p.z}; }
+Json placeJson(const auto& p) { return {p.x, p.y, p.z}; }
 Json placeJson(std::uint64_t count, const glm::vec3& first) {
   return count == 0 ? Json(nullptr) : placeJson(first);
 }
@@ -77,6 +77,9 @@ Json json(const ReportLine& line) {
           {"first_self_intersection", placeJson(stats.crossings, stats.firstCrossing)},
           {"components", stats.components},
           {"euler_characteristic", stats.eulerCharacteristic},
+          {"area", stats.area},
+          {"volume", stats.watertight ? Json(stats.volume) : Json(nullptr)},
+          {"centre_of_mass", stats.watertight ? placeJson(stats.centreOfMass) : Json(nullptr)},
           {"unresolved", stats.unresolved},
           {"first_unresolved", placeJson(stats.unresolved, stats.firstUnresolved)},
           {"resolving_voxel_size", stats.resolvingVoxel > 0.0 ? Json(stats.resolvingVoxel) : Json(nullptr)},

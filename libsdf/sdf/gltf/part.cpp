@@ -24,6 +24,9 @@ MeshStats combined(const std::vector<MeshStats>& meshes) {
     all.crossings += one.crossings;
     all.components += one.components;
     all.eulerCharacteristic += one.eulerCharacteristic;
+    all.area += one.area;
+    all.volume += one.volume;
+    all.centreOfMass += one.volume * one.centreOfMass;
     if (all.unresolved == 0) all.firstUnresolved = one.firstUnresolved;
     all.unresolved += one.unresolved;
     if (one.resolvingVoxel > 0.0 && !(all.resolvingVoxel > 0.0 && all.resolvingVoxel < one.resolvingVoxel))
@@ -32,6 +35,7 @@ MeshStats combined(const std::vector<MeshStats>& meshes) {
     all.notNumbers += one.notNumbers;
     squares += one.rmsDistance * one.rmsDistance * static_cast<double>(one.triangles);
   }
+  if (all.volume > 0.0) all.centreOfMass /= all.volume;
   if (all.triangles > 0) all.rmsDistance = std::sqrt(squares / static_cast<double>(all.triangles));
   return all;
 }

@@ -63,6 +63,9 @@ struct MeshStats {
   glm::vec3 firstCrossing{0.0f};
   int components = 0;
   int eulerCharacteristic = 0;
+  double area = 0.0;             ///< square scene units
+  double volume = 0.0;           ///< of what a watertight mesh encloses, cubic scene units; else 0
+  glm::dvec3 centreOfMass{0.0};  ///< of the same
   std::uint64_t unresolved = 0;  ///< places where solids or gaps thinner than a voxel were passed unseen
   glm::vec3 firstUnresolved{0.0f};
   double resolvingVoxel = 0.0;   ///< size of voxels that would see the thinnest of them; 0 where not known

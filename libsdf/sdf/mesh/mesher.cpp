@@ -22,6 +22,7 @@
 #include "sdf/mesh/measure/against_stated.h"
 #include "sdf/mesh/measure/distance.h"
 #include "sdf/mesh/measure/last_measured.h"
+#include "sdf/mesh/measure/solid.h"
 #include "sdf/mesh/measure/to_mesh.h"
 #include "sdf/mesh/measure/topology.h"
 #include "sdf/mesh/mesh.h"
@@ -530,12 +531,9 @@ Result<MeshedShape> meshOne(const Shape& shape, const std::string& name, const M
   return Mesher(name, kept, progress, isPiece).run(shape);
 }
 
-}  // namespace
-
-Shape clipped(const Shape& shape, const Box& box) { return cut(shape, findBounds(shape), box); }
-
-Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
-                              Progress& progress) {
+// Pieces that lie apart each by itself, where they have triangles by their own size.
+Result<MeshedShape> meshInPieces(const Shape& shape, const std::string& name, const MeshOptions& options,
+                                 Progress& progress) {
   if (!isBySize(shape, options)) return meshOne(shape, name, options, progress);
   const double voxel = voxelSizeOf(options, shape.bounds);
   // A mesh leaves its bounds by no more than the larger (faultOf), so that two cannot meet.
@@ -549,6 +547,17 @@ Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const
   }
   if (!(options.voxelSize > 0.0)) return meshOne(shape, name, options, progress);
   return meshOne(shape, name, bySize(shape.bounds, voxel, options), progress);
+}
+
+}  // namespace
+
+Shape clipped(const Shape& shape, const Box& box) { return cut(shape, findBounds(shape), box); }
+
+Result<MeshedShape> meshShape(const Shape& shape, const std::string& name, const MeshOptions& options,
+                              Progress& progress) {
+  Result<MeshedShape> made = meshInPieces(shape, name, options, progress);
+  if (made) measureSolid(made->mesh, made->stats);
+  return made;
 }
 
 }  // namespace sdf
