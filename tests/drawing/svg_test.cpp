@@ -112,6 +112,19 @@ TEST_F(Drawings, HaveStrokes) {
   EXPECT_EQ(handedOn.join, Stroke::Join::Bevel);
   EXPECT_EQ(handedOn.miterLimit, 2.0);
   EXPECT_DOUBLE_EQ(stroke("stroke='red'", "transform='scale(2 8)'").width, 4.0);
+  const auto dashes = [&](const std::string& attributes, const std::string& around = "") {
+    return stroke("stroke='red' " + attributes, around).dashes;
+  };
+  using Lengths = std::vector<double>;
+  EXPECT_EQ(dashes("stroke-dasharray='3 1,2'"), (Lengths{3, 1, 2}));
+  EXPECT_EQ(dashes("stroke-dasharray='3, 1in'"), (Lengths{3, 96}));
+  EXPECT_EQ(dashes("style='stroke-dasharray:3'", "transform='scale(2 8)'"), Lengths{12});
+  EXPECT_EQ(dashes("stroke-dasharray='none'"), Lengths{});
+  EXPECT_EQ(dashes("stroke-dasharray='3 -1'"), Lengths{});
+  EXPECT_EQ(dashes("stroke-dasharray='3 x'"), Lengths{});
+  EXPECT_EQ(dashes("stroke-dasharray='none'", "stroke-dasharray='3'"), Lengths{});
+  EXPECT_EQ(dashes("", "stroke-dasharray='3'"), Lengths{3});
+  EXPECT_EQ(stroke("stroke='red' stroke-dashoffset='2'", "transform='scale(3)'").dashOffset, 6.0);
   // A line fills nothing; what is filled and stroked is both.
   EXPECT_EQ(errorOf("<svg>" + line + "/></svg>").substr(0, 28), "it fills and strokes nothing");
   const std::vector<Outline> both = outlinesOf("<circle r='1' stroke='red'/>");

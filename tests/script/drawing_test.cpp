@@ -53,6 +53,12 @@ TEST_F(Paths, DrawStrokes) {
   EXPECT_NEAR(stroke(", cap = 'butt'", 2.0, 0.0), 1.0, 1e-9);
   EXPECT_NEAR(stroke(", cap = 'square'", 2.0, 0.0), 0.75, 1e-9);
   EXPECT_NEAR(stroke(", cap = 'square'", 1.0, 0.0), -0.25, 1e-9);
+  // Dashes from -1 to -0.5 and from 0.25 to 0.75; dots at -1 and 0.
+  EXPECT_NEAR(stroke(", cap = 'butt', dash = 0.5, gap = 0.75", -0.25, 0.0), 0.25, 1e-9);
+  EXPECT_NEAR(stroke(", cap = 'butt', dash = 0.5, gap = 0.75", 0.5, 0.0), -0.25, 1e-9);
+  EXPECT_NEAR(stroke(", cap = 'butt', dash = 0.5", 0.25, 0.0), -0.25, 1e-9);
+  EXPECT_NEAR(stroke(", dash = 0, gap = 1", 0.0, 1.0), 0.75, 1e-9);
+  EXPECT_NEAR(stroke(", dash = 0, gap = 1", -0.5, 0.0), 0.25, 1e-9);
   const Shape square = shapeOf("path('M -1 -1 h 2 v 2 h -2 z', {stroke = 0.5, join = 'miter'}):extrude(10)");
   EXPECT_NEAR(at(square.distance, 0.0, 0.0, 0.0), 0.75, 1e-9);
   EXPECT_NEAR(at(square.distance, 2.25, 2.25, 0.0), std::sqrt(2.0), 1e-9);
@@ -93,6 +99,10 @@ TEST_F(Paths, SayWhatIsWrong) {
                 .find("make a stroke a little wider"),
             std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, join = "sharp"}))").find("join"), std::string::npos);
+  EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, dash = 0}))").find("dots need a gap"),
+            std::string::npos);
+  EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, dash = 1e-6}))").find("more than 10,000 dashes"),
+            std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1", {stroke = 1, cap = "flat"}))").find("cap"), std::string::npos);
   EXPECT_NE(whyNot(R"(path("M 0 0 H 1 V 1"))").find("is flat; extrude or revolve it"), std::string::npos);
 }

@@ -200,7 +200,9 @@ class SvgReader {
     if (curves_ > kMostCurves) return tooMany(kMostCurves, " curves; simplify its paths");
     if (contours.empty()) return okStatus();
     Stroke stroke = style.stroke;
-    stroke.width *= std::sqrt(std::abs(glm::determinant(place.turn)));
+    const double stretch = std::sqrt(std::abs(glm::determinant(place.turn)));
+    stroke.width *= stretch, stroke.dashOffset *= stretch;
+    for (double& length : stroke.dashes) length *= stretch;
     if (style.isStroked && stroke.width > 0.0) outlines_.push_back({contours, FillRule::NonZero, stroke});
     if (style.isFilled && mayFill) outlines_.push_back({std::move(contours), style.rule, {}});
     return okStatus();

@@ -25,6 +25,22 @@ void forEachPart(std::string_view text, char separator, const std::function<void
   }
 }
 
+// None where one is no length, or negative: the line is whole then.
+std::vector<double> dashesIn(std::string_view value) {
+  std::string spaced(value);
+  std::ranges::replace_if(
+      spaced, [](char c) { return c == ',' || c == '\t' || c == '\r' || c == '\n'; }, ' ');
+  std::vector<double> dashes;
+  bool areLengths = true;
+  forEachPart(spaced, ' ', [&](std::string_view part) {
+    if (part.empty()) return;
+    const auto length = svgLength(std::string(part));
+    areLengths = areLengths && length && *length >= 0.0;
+    if (areLengths) dashes.push_back(*length);
+  });
+  return areLengths ? dashes : std::vector<double>();
+}
+
 void declare(std::string_view name, std::string_view value, SvgStyle& style, bool& isDrawn) {
   if (value == "inherit") return;
   if (name == "fill") style.isFilled = value != "none" && value != "transparent";
@@ -41,6 +57,9 @@ void declare(std::string_view name, std::string_view value, SvgStyle& style, boo
   if (name == "stroke-width") style.stroke.width = svgLength(std::string(value)).value_or(style.stroke.width);
   if (name == "stroke-miterlimit")
     style.stroke.miterLimit = svgLength(std::string(value)).value_or(style.stroke.miterLimit);
+  if (name == "stroke-dasharray") style.stroke.dashes = dashesIn(value);
+  if (name == "stroke-dashoffset")
+    style.stroke.dashOffset = svgLength(std::string(value)).value_or(style.stroke.dashOffset);
   if (name == "visibility") style.isVisible = value == "visible";
   if (name == "display") isDrawn = value != "none";
 }

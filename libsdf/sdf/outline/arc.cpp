@@ -26,6 +26,15 @@ Arc Arc::through(const ArcCorner& from, const glm::dvec2& to) {
           curvature};
 }
 
+glm::dvec2 Arc::at(double length) const {
+  const double half = 0.5 * curvature * length, chord = half == 0.0 ? length : length * std::sin(half) / half;
+  return from + chord * turned(along, std::cos(half), std::sin(half));
+}
+
+glm::dvec2 Arc::directionAt(double length) const {
+  return turned(along, std::cos(curvature * length), std::sin(curvature * length));
+}
+
 glm::dvec2 Arc::middle() const {
   const glm::dvec2 chord = to - from;
   const double height = sagitta(), length = std::hypot(chord.x, chord.y);

@@ -61,6 +61,9 @@ struct Arc {
     return (x * glm::dvec2(along.y, -along.x) + y * along) / length;
   }
 
+  /// Places and directions by their distance from `from` along the arc.
+  glm::dvec2 at(double length) const;
+  glm::dvec2 directionAt(double length) const;
   glm::dvec2 middle() const;
   /// How far the arc is from its chord, at most.
   double sagitta() const;

@@ -1,5 +1,6 @@
 // Flat outlines of lines and Bézier curves, as fonts and drawings give them.
 #pragma once
+#include <algorithm>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
@@ -35,6 +36,14 @@ struct Stroke {
   Cap cap = Cap::Round;
   /// Miters that would be longer, in widths, are bevels.
   double miterLimit = 4.0;
+  /// Lengths of dashes, and of the gaps after them, in turn, from where a contour begins; an odd number of
+  /// them is gone through twice. None is negative; where all are 0, or there are none, the line is whole.
+  std::vector<double> dashes{};
+  double dashOffset = 0.0;  ///< how far into these a contour begins
+
+  bool isDashed() const {
+    return std::any_of(dashes.begin(), dashes.end(), [](double length) { return length > 0.0; });
+  }
 };
 
 /// Contours, which may lie in one another and cross: what is inside of them, or a line along them.

@@ -1,7 +1,11 @@
 #include "sdf/outline/stroke.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+
+#include "sdf/outline/dashes.h"
 
 namespace sdf {
 namespace {
@@ -43,6 +47,13 @@ class Stroker {
       cap(first.from, -first.along);
       cap(last.to, last.alongTo);
     }
+    return std::move(contours_);
+  }
+
+  /// What a dash of no length covers: its caps.
+  std::vector<ArcContour> dot(const glm::dvec2& at, const glm::dvec2& along) {
+    cap(at, -along);
+    cap(at, along);
     return std::move(contours_);
   }
 
@@ -136,7 +147,18 @@ class Stroker {
 }  // namespace
 
 std::vector<ArcContour> strokeContours(const ArcContour& chain, bool isClosed, const Stroke& stroke) {
-  return Stroker(chain, isClosed, stroke).run();
+  if (!stroke.isDashed()) return Stroker(chain, isClosed, stroke).run();
+  const std::vector<Dash> dashes = dashesOf(chain, isClosed, stroke);
+  const auto isAllAround = [](const ArcContour& c) { return c.size() > 1 && c.front().at == c.back().at; };
+  if (isClosed && dashes.size() == 1 && isAllAround(dashes[0].chain))
+    return Stroker(chain, true, stroke).run();
+  std::vector<ArcContour> contours;
+  for (const Dash& dash : dashes) {
+    Stroker stroker(dash.chain, false, stroke);
+    std::ranges::move(dash.chain.size() > 1 ? stroker.run() : stroker.dot(dash.chain[0].at, dash.along),
+                      std::back_inserter(contours));
+  }
+  return contours;
 }
 
 }  // namespace sdf

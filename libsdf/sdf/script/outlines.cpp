@@ -84,6 +84,11 @@ int pathShape(lua_State* L) {
     outline.stroke = {.width = width,
                       .join = static_cast<Stroke::Join>(valueOr(given, "join", 0)),
                       .cap = static_cast<Stroke::Cap>(valueOr(given, "cap", 0))};
+  if (const double dash = valueOr(given, "dash", -1.0), gap = valueOr(given, "gap", dash);
+      outline.stroke && dash >= 0.0) {
+    if (gap == 0.0) raise(L, f.name + ": dots need a gap, as in {dash = 0, gap = 0.2}");
+    outline.stroke->dashes = {dash, gap};
+  }
   const Shape shape = shapeOf({&outline, 1}, f.name);
   return pushGood(L, shape);
 }

@@ -6,6 +6,7 @@
 
 #include "sdf/outline/biarcs.h"
 #include "sdf/outline/boundary.h"
+#include "sdf/outline/dashes.h"
 #include "sdf/shape/check.h"
 #include "sdf/shape/formula.h"
 #include "sdf/shape/solids/flats.h"
@@ -178,6 +179,9 @@ Shape polygon(std::span<const glm::dvec2> given) {
 
 namespace {
 
+// Of one outline: some seconds' worth.
+constexpr double kMostDashes = 10'000;
+
 bool isFinite(const Outline& outline) {
   const auto good = [](const glm::dvec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   return std::ranges::all_of(outline.contours, [&](const Contour& contour) {
@@ -204,6 +208,8 @@ Shape outline(std::span<const Outline> outlines, const CurveTolerance& tolerance
   Check c(name);
   c.that(std::ranges::all_of(outlines, [](const Outline& o) { return isFinite(o); }),
          "its points must be finite");
+  c.that(std::ranges::all_of(outlines, [](const Outline& o) { return mostDashes(o) <= kMostDashes; }),
+         "it has more than 10,000 dashes; make them longer");
   for (const double t : {tolerance.exact, tolerance.drawn})
     c.that(std::isfinite(t) && t > 0.0, "its tolerances must be positive, got " + shown(t));
   if (!c.ok()) return c.failure();
