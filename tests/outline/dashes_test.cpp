@@ -74,12 +74,9 @@ TEST(Dashes, LieOnTheirCurves) {
       Outline outline{{contour}, FillRule::NonZero, {}};
       ArcContour chain = arcContours(outline, 1e-6).at(0);
       if (!isClosed) chain.push_back({chain.front().at, 0.0});
-      std::vector<Arc> arcs;
+      const std::vector<Arc> arcs = arcsOf(chain, isClosed);
       double length = 0.0;
-      for (std::size_t i = 0; i + (isClosed ? 0 : 1) < chain.size(); ++i) {
-        arcs.push_back(Arc::through(chain[i], chain[(i + 1) % chain.size()].at));
-        length += arcs.back().size;
-      }
+      for (const Arc& arc : arcs) length += arc.size;
       std::uniform_real_distribution<double> any(0.02, 0.5);
       const double dash = any(random), gap = any(random), offset = any(random);
       outline.stroke = dashed({dash, gap}, offset);

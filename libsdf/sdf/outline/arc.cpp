@@ -82,10 +82,19 @@ int Arc::windingAt(const glm::dvec2& p) const {
   return isLeft ? 0 : -1;
 }
 
+std::vector<Arc> arcsOf(const ArcContour& chain, bool isClosed) {
+  std::vector<Arc> arcs;
+  for (std::size_t i = 0; i + (isClosed ? 0 : 1) < chain.size(); ++i)
+    arcs.push_back(Arc::through(chain[i], chain[(i + 1) % chain.size()].at));
+  return arcs;
+}
+
 std::vector<Arc> arcsOf(const std::vector<ArcContour>& contours) {
   std::vector<Arc> arcs;
-  for (const ArcContour& c : contours)
-    for (std::size_t i = 0; i < c.size(); ++i) arcs.push_back(Arc::through(c[i], c[(i + 1) % c.size()].at));
+  for (const ArcContour& c : contours) {
+    const std::vector<Arc> own = arcsOf(c, true);
+    arcs.insert(arcs.end(), own.begin(), own.end());
+  }
   return arcs;
 }
 

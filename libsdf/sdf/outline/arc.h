@@ -83,6 +83,8 @@ struct Arc {
   double radii(double t, double out) const { return std::hypot(1.0 + curvature * out, curvature * t); }
 };
 
+/// The arcs of a chain; the last corner of one that is not closed is its end. Neighbouring corners differ.
+std::vector<Arc> arcsOf(const ArcContour& chain, bool isClosed);
 /// The arcs of contours, one contour after the other. Neighbouring corners differ.
 std::vector<Arc> arcsOf(const std::vector<ArcContour>& contours);
 /// Of all arcs of these, each of which only rises or only falls, around p, which is on none of them.

@@ -1,7 +1,7 @@
 #include "sdf/outline/dashes.h"
 
+#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -83,10 +83,7 @@ double lengthBetween(const glm::dvec2& a, const glm::dvec2& b) { return std::hyp
 }  // namespace
 
 std::vector<Dash> dashesOf(const ArcContour& chain, bool isClosed, const Stroke& stroke) {
-  const std::size_t count = isClosed ? chain.size() : chain.size() - 1;
-  std::vector<Arc> arcs;
-  for (std::size_t i = 0; i < count; ++i)
-    arcs.push_back(Arc::through(chain[i], chain[(i + 1) % chain.size()].at));
+  const std::vector<Arc> arcs = arcsOf(chain, isClosed);
   Dasher dasher(stroke);
   for (const Arc& arc : arcs) dasher.follow(arc);
   return dasher.finish(isClosed);

@@ -20,12 +20,8 @@ glm::dvec2 rightOf(const glm::dvec2& d) { return {d.y, -d.x}; }
 class Stroker {
  public:
   Stroker(const ArcContour& chain, bool isClosed, const Stroke& stroke)
-      : stroke_(stroke), half_(0.5 * stroke.width), isClosed_(isClosed) {
-    const std::size_t count = isClosed ? chain.size() : chain.size() - 1;
-    for (std::size_t i = 0; i < count; ++i) {
-      bulges_.push_back(chain[i].bulge);
-      arcs_.push_back(Arc::through(chain[i], chain[(i + 1) % chain.size()].at));
-    }
+      : stroke_(stroke), half_(0.5 * stroke.width), isClosed_(isClosed), arcs_(arcsOf(chain, isClosed)) {
+    for (const ArcCorner& corner : chain) bulges_.push_back(corner.bulge);
   }
 
   std::vector<ArcContour> run() {

@@ -21,6 +21,7 @@ TEST(MeasureSolid, OfABoxIsItsOwn) {
   const MeshStats stats =
       statsOf(translate(box({1.0, 0.5, 0.25}), {3.0, -2.0, 100.0}), {.voxelSize = 0.1, .tolerance = 1e-3});
   // Corners are floats, those at z = 100 within 4e-6.
+  // A face of 2 by 1 that is off by that has 8e-6 of the volume; each side adds it twice to the area's 7.
   EXPECT_NEAR(stats.volume, 1.0, 2e-5);
   EXPECT_NEAR(stats.area, 7.0, 1e-4);
   EXPECT_NEAR(glm::distance(stats.centreOfMass, glm::dvec3(3.0, -2.0, 100.0)), 0.0, 1e-5);
@@ -30,6 +31,8 @@ TEST(MeasureSolid, OfABoxIsItsOwn) {
 TEST(MeasureSolid, OfAHalfBallIsWithinItsDistance) {
   const double pi = std::numbers::pi;
   const Shape half = intersect(sphere(1.0), translate(box({2.0, 1.0, 2.0}), {0.0, 1.0, 0.0}));
+  // The surface has the area 3 pi, each part of which is off by the tolerance at most; a ball's mesh of that
+  // sagitta lacks about as much of its area.
   const MeshStats stats = statsOf(half, {.voxelSize = 0.05, .tolerance = 1e-3});
   EXPECT_NEAR(stats.volume, 2.0 / 3.0 * pi, 3.0 * pi * 1e-3);
   EXPECT_NEAR(stats.area, 3.0 * pi, 1e-2 * pi);
@@ -40,6 +43,7 @@ TEST(MeasureSolid, OfAHalfBallIsWithinItsDistance) {
 TEST(MeasureSolid, OfPiecesIsTheirSum) {
   const Shape two = unite(box({0.5, 0.5, 0.5}), translate(box({0.5, 0.5, 1.0}), {4.0, 0.0, 0.0}));
   const MeshStats stats = statsOf(two, {.voxelSize = 0.1, .tolerance = 1e-3});
+  // Corners are floats, those at x = 4 within 5e-7.
   EXPECT_NEAR(stats.volume, 3.0, 1e-5);
   EXPECT_NEAR(stats.centreOfMass.x, 8.0 / 3.0, 1e-5);
   const MeshStats both = combined(std::vector<MeshStats>{stats, stats});

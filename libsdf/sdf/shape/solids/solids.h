@@ -91,10 +91,9 @@ Shape iwp(const Expr& cell, const Expr& thickness);
 /// Neovius' surface as a wall, |3 (cos x + cos y + cos z) + 4 cos x cos y cos z| small. Thin walls are
 /// between 1 and 7 times `thickness` thick; thickness < 0.5911 cell. Else like gyroid.
 Shape neovius(const Expr& cell, const Expr& thickness);
-/// The lidinoid (Lidin, Larsson 1990) as a wall, |sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin
-/// y
-/// - cos 2x cos 2y - cos 2y cos 2z - cos 2z cos 2x + 0.3| small. Thin walls are between 1 and 5.29 times
-/// `thickness` thick; thickness < 0.1654 cell. Else like gyroid.
+/// The lidinoid (Lidin, Larsson 1990) as a wall, where sin 2x cos y sin z + sin 2y cos z sin x +
+/// sin 2z cos x sin y is near cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 0.3. Thin walls are between 1
+/// and 5.29 times `thickness` thick; thickness < 0.1654 cell. Else like gyroid.
 Shape lidinoid(const Expr& cell, const Expr& thickness);
 /// Fischer and Koch's S surface as a wall, |cos 2x sin y cos z + cos x cos 2y sin z + sin x cos y cos 2z|
 /// small. Thin walls are between 1 and 2.03 times `thickness` thick; thickness < 0.1841 cell. Else like
