@@ -80,8 +80,11 @@ Membership extruded(const Tree& t) {
 }
 Membership revolved(const Tree& t) {
   const double offset = given(t, 1) ? number(t, 1) : 0.0;
-  return lookedUp(
+  const double half = given(t, 2) ? 0.5 * number(t, 2) * kDegree : std::numbers::pi;
+  const Membership whole = lookedUp(
       t, [offset](const glm::dvec3& p) { return glm::dvec3(std::hypot(p.x, p.z) - offset, p.y, 0.0); });
+  return
+      [whole, half](const glm::dvec3& p) { return both(whole(p), std::abs(std::atan2(p.z, p.x)) <= half); };
 }
 Membership twisted(const Tree& t) {
   return lookedUp(t,

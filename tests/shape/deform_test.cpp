@@ -185,6 +185,39 @@ TEST(Revolve, SweepsAroundY) {
   expectClaim(s, cube(2.0), 20);
 }
 
+TEST(Revolve, SweepsPartOfATurn) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  for (const double degrees : {1.0, 50.0, 180.0, 271.0, 359.0}) {
+    const Shape s = revolve(rectangle(0.2, 0.25), 1.0, degrees * kDegree);
+    EXPECT_EQ(s.claim.kind, ClaimKind::ExactOutside);
+    const Probe f(s.distance);
+    Points points(19);
+    for (int i = 0; i < 4000; ++i) {
+      const glm::dvec3 p = points.in(cube(1.5));
+      const double rho = std::hypot(p.x, p.z), angle = std::abs(std::atan2(p.z, p.x));
+      const bool inside =
+          std::abs(rho - 1.0) < 0.2 && std::abs(p.y) < 0.25 && angle < 0.5 * degrees * kDegree;
+      ASSERT_EQ(f(p) < 0.0, inside) << degrees << " degrees at " << test::text(p);
+      ASSERT_TRUE(!inside || s.bounds.contains({p, p})) << degrees;
+    }
+    expectClaim(s, cube(2.0), 20);
+    expectClaim(revolve(polygon(std::vector<glm::dvec2>{{-0.3, -0.2}, {0.4, 0.0}, {0.1, 0.5}}), 0.0,
+                        degrees * kDegree),
+                cube(1.0), 21);
+  }
+}
+
+TEST(Revolve, HasNoSeamWhereAParameterCompletesTheTurn) {
+  const Expr turn = Expr::parameter({"turn", 2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi});
+  const Probe f(revolve(circle(0.25), 1.0, turn).distance), same(torus(1.0, 0.25).distance);
+  Points points(22);
+  for (int i = 0; i < 1000; ++i) {
+    glm::dvec3 p = points.in(cube(1.5));
+    if (i % 2 == 0) p.x = -1.0 + 0.1 * p.x, p.z *= 1e-3, p.y *= 0.1;
+    ASSERT_NEAR(f(p), same(p), kRounding);
+  }
+}
+
 TEST(Revolve, IsExactAcrossTheAxisOnlyForAMirrorImage) {
   EXPECT_EQ(revolve(rectangle(0.5, 0.3)).claim.kind, ClaimKind::Exact);
   expectClaim(revolve(rectangle(0.5, 0.3)), cube(2.0), 21);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "sdf/eval/scalar_reading.h"
 #include "sdf/shape/operators/booleans.h"
@@ -165,6 +166,25 @@ std::vector<Membership> memberships() {
          const double side = 0.45 * (1.0 - p.y / 0.6);
          return std::abs(p.y) <= 0.6 && std::max(std::abs(p.x), std::abs(p.z)) <= side;
        }},
+      {"spring", spring(1.0, 0.6, 2.25, 0.2),
+       [](dvec3 p) {
+         for (int i = -4000; i <= 4000; ++i) {
+           const double t = 2.25 * kPi * i / 4000.0;
+           if (glm::distance(p, {std::cos(t), 0.3 * t / kPi, -std::sin(t)}) <= 0.2) return true;
+         }
+         return false;
+       }},
+      {"left-handed thread", thread(2.0, 0.5, 1.6, 2, 0.03, Hand::Left),
+       [](dvec3 p) {
+         const double root = 1.0 - 0.5 * 0.541266, up = p.y - 2 * 0.5 * std::atan2(p.z, p.x) / (2 * kPi);
+         const double off = std::abs(std::remainder(up, 0.5));
+         // Out of the flank that passes (1, 0.5 / 16), 30 degrees from level.
+         const double flank =
+             (rho(p) - 1.0) * std::sin(30 * kDegree) + (off - 0.03125) * std::cos(30 * kDegree);
+         const bool inTurn = rho(p) <= 1.03 && flank <= 0.03;
+         return std::abs(p.y) <= 0.8 && rho(p) - root - 0.03 <= 0.8 - std::abs(p.y) &&
+                (rho(p) <= root + 0.03 || inTurn);
+       }},
       {"solid_angle", solidAngle(40 * kDegree, 1.0),
        [](dvec3 p) { return glm::length(p) <= 1.0 && std::atan2(rho(p), p.y) <= 40 * kDegree; }},
       {"wide solid_angle", solidAngle(150 * kDegree, 1.0),
@@ -300,6 +320,41 @@ TEST(Solids, AreMadeOfThePointsThatTheirNamesSay) {
 }
 
 // Closest point on a dense sampling of the surface: at most `spacing` farther than the true one.
+// Springs flat and steep, of many turns and of a part of one, near the wire, near the axis and beyond the
+// ends.
+TEST(Spring, IsExactBesideAnyHelix) {
+  std::mt19937_64 random(kSeed);
+  const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int i = 0; i < 60; ++i) {
+    const double radius = std::exp(uniform(-1.5, 1.5)), rise = std::exp(uniform(-5.0, 2.0)),
+                 turns = std::exp(uniform(-1.5, 2.0)), last = kPi * turns, wire = 0.01 * radius;
+    const bool left = i % 2 == 1;
+    const Evaluator f(
+        spring(radius, 2.0 * kPi * rise, turns, wire, left ? Hand::Left : Hand::Right).distance);
+    const auto on = [&](double t) {
+      return dvec3(radius * std::cos(t), rise * t, (left ? 1.0 : -1.0) * radius * std::sin(t));
+    };
+    for (int k = 0; k < 60; ++k) {
+      const double far = k % 3 == 0 ? 0.05 : 1.5, t = uniform(-1.2, 1.2) * last;
+      dvec3 p = on(t) + radius * far * dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      if (k % 5 == 0) p.x *= 1e-3, p.z *= 1e-3;
+      constexpr int kSteps = 4000;
+      const double step = 2.0 * last / kSteps;
+      double least = kInfinity, at = 0.0;
+      for (int j = 0; j <= kSteps; ++j)
+        if (const double d = glm::distance(p, on(-last + j * step)); d < least)
+          least = d, at = -last + j * step;
+      for (double by = step; by > 1e-12 * last; by *= 0.5)
+        for (const double next : {at - by, at + by})
+          if (const double d = glm::distance(p, on(std::clamp(next, -last, last))); d < least)
+            least = d, at = std::clamp(next, -last, last);
+      const double size = std::hypot(radius, rise);
+      ASSERT_NEAR(f(p), least - wire, 2e-6 * size)
+          << "radius " << radius << ", rise " << rise << ", turns " << turns << " at " << test::text(p);
+    }
+  }
+}
+
 double nearest(const std::vector<dvec3>& surface, const dvec3& p) {
   double best = kInfinity;
   for (const dvec3& q : surface) best = std::min(best, glm::distance(p, q));

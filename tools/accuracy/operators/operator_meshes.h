@@ -54,6 +54,10 @@ Tessellation sphereSurface(double radius, int times);
 /// The flat outline (x >= 0, counter-clockwise) swept around the y axis in this many steps; points at x = 0
 /// become one.
 Tessellation revolved(const std::vector<glm::dvec2>& outline, int steps);
+/// `angle` radians of that turn, half of it to either side of +x, of an outline at x > 0 that is seen whole
+/// from `middle`.
+Tessellation partlyRevolved(const std::vector<glm::dvec2>& outline, const glm::dvec2& middle, double angle,
+                            int steps);
 
 /// A mesh of flat faces, refined and mapped. `bending` bounds the map's second derivative along any unit
 /// direction over the mesh.

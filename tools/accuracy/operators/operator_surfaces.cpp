@@ -96,6 +96,33 @@ Tessellation revolved(const std::vector<glm::dvec2>& outline, int steps) {
   return result;
 }
 
+Tessellation partlyRevolved(const std::vector<glm::dvec2>& outline, const glm::dvec2& middle, double angle,
+                            int steps) {
+  Tessellation result;
+  TriangleMesh& mesh = result.mesh;
+  const int count = static_cast<int>(outline.size());
+  const auto add = [&](const glm::dvec2& p, int i) {
+    const double at = angle * (static_cast<double>(i) / steps - 0.5);
+    mesh.points.emplace_back(p.x * std::cos(at), p.y, p.x * std::sin(at));
+    result.chord = std::max(result.chord, p.x * (1.0 - std::cos(0.5 * angle / steps)));
+  };
+  for (int i = 0; i <= steps; ++i)
+    for (const glm::dvec2& p : outline) add(p, i);
+  add(middle, 0), add(middle, steps);
+  for (int k = 0; k < count; ++k) {
+    const int next = (k + 1) % count;
+    for (int i = 0; i < steps; ++i) {
+      const int low = count * i, high = count * (i + 1);
+      mesh.triangles.emplace_back(low + k, low + next, high + k);
+      mesh.triangles.emplace_back(high + k, low + next, high + next);
+    }
+    const int last = count * steps, centre = count * (steps + 1);
+    mesh.triangles.emplace_back(centre, next, k);
+    mesh.triangles.emplace_back(centre + 1, last + k, last + next);
+  }
+  return result;
+}
+
 Tessellation warped(const TriangleMesh& flatFaces, int times, const PointMap& map, double bending) {
   const TriangleMesh flat = refined(flatFaces, times);
   // A triangle lies in a disc of radius edge / sqrt 3; a linear interpolation is off by at most half the

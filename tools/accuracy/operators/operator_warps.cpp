@@ -51,6 +51,13 @@ ReferenceCase swept(const std::string& name, const Shape& shape, const Corners& 
   return c;
 }
 
+ReferenceCase partly(const std::string& name, double degrees) {
+  Corners far = kL;
+  for (glm::dvec2& p : far) p.x += 0.8;
+  const double angle = degrees * kPi / 180.0;
+  return caseOf(name, revolve(polygon(kL), 0.8, angle), partlyRevolved(far, {0.9, 0.0}, angle, kSteps));
+}
+
 std::vector<ReferenceCase> revolutions() {
   Corners far = kL;
   for (glm::dvec2& p : far) p.x += 0.8;
@@ -68,7 +75,10 @@ std::vector<ReferenceCase> revolutions() {
       swept("of what lies across the axis", revolve(polygon(across)), kept),
       swept("of what lies beyond the axis", revolve(polygon(beyond)), tip),
       swept("of a rectangle pushed across the axis", revolve(rectangle(0.8, 0.5), 0.3),
-            {{0, -0.5}, {1.1, -0.5}, {1.1, 0.5}, {0, 0.5}})};
+            {{0, -0.5}, {1.1, -0.5}, {1.1, 0.5}, {0, 0.5}}),
+      partly("of a part of a turn", 50.0),
+      partly("of half a turn", 180.0),
+      partly("of most of a turn", 300.0)};
 }
 
 double largest(const TriangleMesh& mesh, const std::function<double(const glm::dvec3&)>& of) {

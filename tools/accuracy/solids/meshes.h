@@ -60,6 +60,14 @@ Tessellation roundedBox(const glm::dvec3& half, double radius, int steps);
 Tessellation bentTube(double angle, double major, double minor, int steps, int along);
 /// All points within `minor` of two half circles 2 * halfLength apart along y and the lines that join them.
 Tessellation chainLink(double halfLength, double major, double minor, int steps, int along);
+/// All points within `wire` of the helix (major cos t, pitch t / 2 pi, -hand major sin t), |t| <= pi turns,
+/// where it does not run into itself. `steps` to the circle of the tube, `aTurn` to one of the helix.
+Tessellation helicalTube(double major, double pitch, double turns, double wire, double hand, int steps,
+                         int aTurn);
+/// An endless rod about the y axis with a metric thread, its surface moved out by the clearance; region keeps
+/// off the ends.
+Tessellation helicalThread(double diameter, double pitch, int starts, double clearance, double hand,
+                           int steps);
 /// Half-space dot(p, normal) <= offset within a cube of some hundred units.
 Tessellation halfSpace(const glm::dvec3& normal, double offset);
 

@@ -211,6 +211,16 @@ void addRound(Table& table) {
                        {1, 1, 1, 1, 1, 1, 0.5},
                        {-1, 0, 0, 1, 0, 0, 3},
                        {-5, 0, 1, 5, 0.1, 1, 0.02}}};
+  const auto hand = [](double choice) { return choice == 0.0 ? 1.0 : -1.0; };
+  table["spring"] = {
+      [hand](const Numbers& a) { return helicalTube(a[0], a[1], a[2], a[3], hand(a[4]), kTube, kAlongTube); },
+      {{1, 0.5, 2, 0.1, 0}, {0.5, 3, 1.5, 0.2, 1}, {1, 0.05, 2, 0.01, 1}, {1, 6, 0.4, 0.5, 0}}};
+  // Long ones, whose ends are never nearest.
+  table["thread"] = {[hand](const Numbers& a) {
+                       return helicalThread(a[0], a[1], static_cast<int>(a[3]), a[4], hand(a[5]),
+                                            4 * kAround);
+                     },
+                     {{1, 0.2, 10, 1, 0, 0}, {1, 0.4, 10, 3, 0.02, 1}, {3, 0.5, 40, 1, -0.05, 0}}};
   table["solid_angle"] = {[](const Numbers& a) { return solidAngleMesh(radians(a[0]), a[1]); },
                           {{30, 1}, {90, 1}, {140, 0.7}, {10, 2}, {1, 1}, {178, 1}}};
   table["cut_sphere"] = {[](const Numbers& a) { return cutSphereMesh(a[0], a[1]); },
@@ -338,7 +348,7 @@ std::vector<Argument> argumentsOf(const CatalogEntry& entry, const Numbers& numb
   std::vector<Argument> result;
   std::size_t at = 0;
   for (const Parameter& p : entry.parameters) {
-    if (p.kind == ArgumentKind::Integer) {
+    if (p.kind == ArgumentKind::Integer || p.kind == ArgumentKind::Choice) {
       result.emplace_back(static_cast<int>(numbers.at(at++)));
     } else if (p.kind == ArgumentKind::Number) {
       result.emplace_back(Expr(numbers.at(at++)));

@@ -41,9 +41,12 @@ std::vector<CatalogEntry> deformEntries() {
             "A flat shape swept around the y axis. What lies at x < 0, after the offset, is dropped.",
             "as the flat shape if it keeps clear of the axis or is symmetric about it; exact outside if "
             "exact and "
-            "touching the axis; else bound",
-            {flat, number("offset", "moves the flat shape along x first, scene units", Rule::Any, "0")},
-            revolve),
+            "touching the axis; else bound. Part of a turn: exact outside at most",
+            {flat, number("offset", "moves the flat shape along x first, scene units", Rule::Any, "0"),
+             size("angle", "degrees of a turn, its middle on +x; at most 360", "360")},
+            [](const Shape& s, const Expr& offset, const Expr& angle) {
+              return revolve(s, offset, radians(angle));
+            }),
       entry(
           "twist", "Turned about the y axis, the more the higher.",
           "near the true one of flat, round and rounded shapes; of other curved ones off by a shear of up to "

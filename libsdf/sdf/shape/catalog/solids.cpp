@@ -14,6 +14,7 @@ std::vector<CatalogEntry> solidEntries() {
   const Parameter major = size("major", "from the centre to the middle of the tube", "1");
   const Parameter minor = size("minor", "radius of the tube", "0.25");
   const Parameter cell = size("cell", "period along each axis", "1");
+  const Parameter hand = choice("hand", "which way it turns: right is a common screw's", {"right", "left"});
   const std::string tube = "exact; exact outside where the tube runs into itself";
   return {
       entry("sphere", "Ball about the origin.", "exact", {ball}, sphere),
@@ -40,6 +41,14 @@ std::vector<CatalogEntry> solidEntries() {
              vector3("to", "the other end", Rule::Any, "{0, 0.5, 0}"),
              size("radius", "around the segment", "0.5")},
             capsule),
+      entry("spring", "Wire along a helix about the y axis, with round ends; its middle is on +x.",
+            "exact to 1e-6 of its size; exact outside where the wire runs into itself",
+            {size("radius", "from the axis to the middle of the wire", "1"),
+             size("pitch", "rise of a turn", "0.5"), size("turns", "how many, parts of one too", "4"),
+             size("wire", "radius of the wire", "0.1"), hand},
+            [](const Expr& radius, const Expr& pitch, const Expr& turns, const Expr& wire, int turned) {
+              return spring(radius, pitch, turns, wire, static_cast<Hand>(turned));
+            }),
       entry("solid_angle", "Part of a ball around the +y axis, its tip at the origin.", "exact",
             {size("angle", "degrees from the axis to the side, below 180", "30"), ball},
             [](const Expr& angle, const Expr& radius) { return solidAngle(radians(angle), radius); }),
@@ -79,6 +88,19 @@ std::vector<CatalogEntry> solidEntries() {
              size("radius_top", "of the ball at y = half_height", "0.25"),
              size("half_height", "half the distance of the balls' centres", "0.5")},
             roundCone),
+      entry("thread",
+            "Rod along y with a metric thread (ISO 68-1) and chamfered ends. Of a nut take away one with a "
+            "clearance, longer than the nut by a pitch at both ends.",
+            "bound, L = 1",
+            {size("diameter", "outer one", "1"),
+             size("pitch", "from turn to turn, below 0.92 diameters", "0.2"),
+             size("length", "of the rod", "2"), integer("starts", "turns side by side", Rule::Count, "1"),
+             number("clearance", "how far the thread's surface is moved out, or in below 0", Rule::Any, "0"),
+             hand},
+            [](const Expr& diameter, const Expr& pitch, const Expr& length, int starts, const Expr& clearance,
+               int turned) {
+              return thread(diameter, pitch, length, starts, clearance, static_cast<Hand>(turned));
+            }),
       entry("hex_prism", "Hexagonal column along y, a corner on +z.", "exact", {side, halfHeight("0.5")},
             hexPrism),
       entry("tri_prism", "Triangular column along y, a corner on +z.", "exact", {side, halfHeight("0.5")},

@@ -147,14 +147,63 @@ Shape extrude(const Shape& flat, const Expr& halfHeight) {
   return settled(std::move(result));
 }
 
-Shape revolve(const Shape& flat, const Expr& offset) {
+namespace {
+
+// The flat shape's own half-plane through the y axis, as far as `half` radians to both sides of +x; beyond it
+// the plane of the nearer end.
+class PartOfATurn {
+ public:
+  /// `isCut`: does part of the flat shape lie beyond the axis, where it is dropped?
+  PartOfATurn(const Expr& half, bool isCut) : half_(clamp(half, 0.0, std::numbers::pi)), isCut_(isCut) {
+    const Vec3E p = position();
+    const Expr s = sin(half_), c = cos(half_), z = abs(p.z);
+    beyond_ = (z * c - p.x * s).claimLipschitz(1.0);
+    along_ = (p.x * c + z * s).claimLipschitz(1.0);
+    rho_ = length(p.x, p.z).claimLipschitz(1.0);
+  }
+
+  // Distance from the y axis, or along the end's plane, not beyond the axis where that is cut.
+  Expr across() const {
+    return select(less(0.0, beyond_), isCut_ ? max(along_, 0.0) : along_, rho_).claimLipschitz(1.0);
+  }
+
+  // Of the solid, from the flat shape's there, of this slope. A whole turn has no ends.
+  Expr distance(const Expr& flat, double slope) const {
+    const Expr toEnd = select(less(0.0, along_), beyond_, -rho_);
+    const Expr within = select(lessEqual(std::numbers::pi, half_), flat, max(flat, toEnd));
+    const Expr off = isCut_ ? length(beyond_, min(along_, 0.0)).claimLipschitz(1.0) : beyond_;
+    return select(less(0.0, beyond_), length(max(flat, 0.0), off), within).claimLipschitz(slope);
+  }
+
+  // The angles' range of x, of what is up to `most` from the axis.
+  double leastX(double most) const {
+    const double widest = half_.range().hi;
+    return widest < 0.5 * std::numbers::pi ? 0.0 : most * std::cos(widest);
+  }
+  double mostZ(double most) const {
+    const double widest = half_.range().hi;
+    return widest < 0.5 * std::numbers::pi ? most * std::sin(widest) : most;
+  }
+
+ private:
+  Expr half_, beyond_, along_, rho_;
+  bool isCut_;
+};
+
+}  // namespace
+
+Shape revolve(const Shape& flat, const Expr& offset, const Expr& angle) {
   Check check("revolve", flat);
-  if (!wantsFlat(check, flat).any("offset", offset).ok()) return check.failure();
+  wantsFlat(check, flat).any("offset", offset).angle("angle", angle, 360.0, true);
+  if (!check.ok()) return check.failure();
   const double left = flat.bounds.min.x + offset.range().lo, right = flat.bounds.max.x + offset.range().hi;
   check.that(!(right < 0.0), "the flat shape lies at x < 0 altogether; move it or give it an offset");
   if (!check.ok()) return check.failure();
   const Vec3E p = position();
-  Shape result = movedTo(flat, {length(p.x, p.z).claimLipschitz(1.0) - offset, p.y, 0.0}, 1.0);
+  const bool isWhole = angle.isConstant(2.0 * std::numbers::pi);
+  const PartOfATurn part(0.5 * angle, left < 0.0);
+  const Expr rho = isWhole ? length(p.x, p.z).claimLipschitz(1.0) : part.across();
+  Shape result = movedTo(flat, {rho - offset, p.y, 0.0}, 1.0);
   result.dimension = 3;
   result.bounds = {{-right, flat.bounds.min.y, -right}, {right, flat.bounds.max.y, right}};
   // A flat shape across the axis, unless it is its own mirror image, may owe its nearest point to the side
@@ -163,7 +212,18 @@ Shape revolve(const Shape& flat, const Expr& offset) {
   const ClaimKind best = even || left > 0.0 ? ClaimKind::Exact
                          : left == 0.0      ? ClaimKind::ExactOutside
                                             : ClaimKind::Bound;
-  result.claim = weakened(flat.claim, best);
+  if (isWhole) {
+    result.claim = weakened(flat.claim, best);
+    return settled(std::move(result));
+  }
+  // Inside, the plane of an end may be nearer than the end. Seen from beyond it, what is dropped may be
+  // nearer.
+  result.claim = weakened(flat.claim, left < 0.0 ? ClaimKind::Bound : ClaimKind::ExactOutside);
+  result.claim.lipschitz = std::max(1.0, slopeOf(flat));
+  result.claim.growth = std::max(1.0, growthOf(flat.claim));
+  result.distance = part.distance(result.distance, std::max(1.0, result.distance.lipschitz()));
+  result.bounds.min.x = part.leastX(right);
+  result.bounds.max.z = part.mostZ(right), result.bounds.min.z = -result.bounds.max.z;
   return settled(std::move(result));
 }
 

@@ -10,6 +10,8 @@
 // those of the world. Angles in radians. A failed operand is passed on; numbers must be finite and must not
 // depend on the position, unless said otherwise.
 #pragma once
+#include <numbers>
+
 #include "sdf/shape/shape.h"
 
 namespace sdf {
@@ -46,8 +48,9 @@ Shape extrude(const Shape& flat, const Expr& halfHeight);
 /// The flat shape, moved by `offset` along x, swept around the y axis. What lies at x < 0 is dropped. As
 /// exact as the flat shape if that keeps to x > 0 or is its own mirror image; at most exact outside if it
 /// touches the axis, where it may have an edge that the solid has not; else a bound. Fails if all of it lies
-/// at x < 0.
-Shape revolve(const Shape& flat, const Expr& offset = 0.0);
+/// at x < 0. `angle` radians of a turn, 0 < angle <= 2 pi, its middle on +x; a part of a turn ends in the
+/// flat shape, and is exact outside where a whole turn of a shape that keeps to x >= 0 is exact.
+Shape revolve(const Shape& flat, const Expr& offset = 0.0, const Expr& angle = 2.0 * std::numbers::pi);
 
 /// Turned about the y axis by `rate` radians for each unit of y. The shear is (a + sqrt(a^2 + 4)) / 2 for a =
 /// |rate| r at the radius r. Beyond one and a half times the radius of the bounds the shape is looked up on

@@ -74,6 +74,22 @@ Shape solidAngle(const Expr& angle, const Expr& radius);
 /// Part of the ball of this radius with y >= height. -radius < height < radius. Exact.
 Shape cutSphere(const Expr& radius, const Expr& height);
 
+/// Which way a helix about the y axis turns: a right-handed one rises counter-clockwise, seen from above.
+enum class Hand { Right, Left };
+/// Wire of radius `wire` along a helix about the y axis with round ends: `radius` from the axis to the wire's
+/// middle, `turns` turns, each rising by `pitch`, centred, with its middle on +x. All > 0. Exact to 1e-6 of
+/// radius and pitch (the nearest point of a helix by Halley's iteration, unrolled), some 200 operations;
+/// exact outside where the wire runs into itself.
+Shape spring(const Expr& radius, const Expr& pitch, const Expr& turns, const Expr& wire,
+             Hand hand = Hand::Right);
+/// Rod along y of this length with a metric thread (ISO 68-1: flanks at 60 degrees, crests an eighth and
+/// roots a quarter of the pitch wide) and ends chamfered at 45 degrees to the root. `diameter` is the outer
+/// one, `pitch` from turn to turn, of which `starts` run side by side. `clearance` moves the thread's surface
+/// out, for a hole that the same thread turns in, or in where it is negative. diameter, pitch, length > 0;
+/// pitch < 0.92 diameter; starts >= 1. Bound.
+Shape thread(const Expr& diameter, const Expr& pitch, const Expr& length, int starts = 1,
+             const Expr& clearance = 0.0, Hand hand = Hand::Right);
+
 /// Schoen's gyroid as a wall, |sin x cos y + sin y cos z + sin z cos x| small; endless, `cell` is its period
 /// along each axis. Thin walls are between 1 and 1.23 times `thickness` thick. Both > 0, thickness < 0.2756
 /// cell (beyond that all space is solid). Bound.
