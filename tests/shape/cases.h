@@ -84,7 +84,7 @@ inline const std::map<std::string, std::vector<std::vector<Argument>>>& otherArg
         {number(0.8), number(0.125), number(0.3), 1, number(-0.02), 0}}},
       {"gyroid", {{number(0.3), number(0.01)}, {number(5), number(1.2)}}},
       {"schwarz_p", {{number(0.3), number(0.01)}, {number(5), number(1.2)}}},
-      {"schwarz_d", {{number(0.3), number(0.01)}, {number(5), number(1.2)}}},
+      {"schwarz_d", {{number(2), number(0.05)}, {number(5), number(1.2)}}},
       {"iwp", {{number(2), number(0.3)}, {number(5), number(1.2)}}},
       {"neovius", {{number(2), number(0.5)}, {number(5), number(1.2)}}},
       {"lidinoid", {{number(2), number(0.2)}, {number(5), number(0.8)}}},

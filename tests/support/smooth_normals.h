@@ -12,7 +12,7 @@
 namespace sdf::test {
 
 /// A surface is smooth at a vertex where the facets around it are within this of their mean, weighted by
-/// area: the mean is then no farther than this from the normal, the surface being between them.
+/// their angles there: the mean is then no farther than this from the normal, the surface being between them.
 inline constexpr double kSmoothDegrees = 10.0;
 /// A normal farther than this from the mean is no normal of a smooth place.
 inline constexpr double kWrongDegrees = 30.0;
@@ -37,15 +37,19 @@ inline SmoothNormals smoothNormals(const std::vector<glm::vec3>& positions,
     const glm::dvec3 a(positions[t.x]), b(positions[t.y]), c(positions[t.z]);
     const glm::dvec3 area = glm::cross(b - a, c - a);
     const bool counts = glm::length(area) > resolved * resolved;
-    facets.push_back(counts ? area : glm::dvec3(0.0));
-    for (int i = 0; i < 3; ++i) sums[t[i]] += facets.back(), around[t[i]] += counts;
+    facets.push_back(counts ? glm::normalize(area) : glm::dvec3(0.0));
+    const glm::dvec3 corners[] = {a, b, c};
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 u = corners[(i + 1) % 3] - corners[i], v = corners[(i + 2) % 3] - corners[i];
+      sums[t[i]] += std::atan2(glm::length(area), glm::dot(u, v)) * facets.back(), around[t[i]] += counts;
+    }
   }
   std::vector<double> worst(positions.size(), 0.0);
   const auto mean = [&](std::size_t v) { return glm::normalize(sums[v]); };
   for (std::size_t k = 0; k < triangles.size(); ++k)
     for (int i = 0; i < 3; ++i)
       if (const std::uint32_t v = triangles[k][i]; facets[k] != glm::dvec3(0.0))
-        worst[v] = std::max(worst[v], degreesBetween(glm::normalize(facets[k]), mean(v)));
+        worst[v] = std::max(worst[v], degreesBetween(facets[k], mean(v)));
   SmoothNormals result;
   for (std::size_t v = 0; v < positions.size(); ++v) {
     if (around[v] < fan || sums[v] == glm::dvec3(0.0) || !(worst[v] <= kSmoothDegrees)) continue;

@@ -24,7 +24,7 @@ bool hasSmoothNormals(const std::string& name, const Shape& shape) {
   const glm::dvec3 size = solid.bounds.size();
   const double least = std::min({size.x, size.y, size.z}), most = solid.bounds.longestSide();
   Progress progress;
-  const MeshOptions options{.voxelSize = std::max(std::min(least / 10.0, most / 40.0), most / 300.0)};
+  const MeshOptions options{.voxelSize = std::max(std::min(least / 10.0, most / 40.0), most / 150.0)};
   const Result<MeshedShape> meshed = meshShape(solid, name, options, progress);
   if (!meshed || meshed->stats.unresolved > meshed->stats.vertices) return false;  // most of it too thin
   const Mesh& mesh = meshed->mesh;

@@ -12,7 +12,7 @@ namespace sdf::test {
 namespace random_scenes_test {
 
 TEST(RandomScenes, LoseNothingUnseen) {
-  const unsigned count = isThorough() ? 500 : 36;
+  const unsigned count = isThorough() ? 500 : 24;
   unsigned meshed = 0;
   for (unsigned seed = 1; seed <= count; ++seed) {
     Random random(seed);

@@ -104,12 +104,13 @@ inline void holdSurface(const Search& search, const Box& box, const MeshedShape&
 inline void holdSides(const Search& search, const Box& box, const MeshedShape& made, Random& random,
                       unsigned seed) {
   const std::vector<glm::vec3>& at = made.mesh.positions;
-  for (int i = 0; i < 60; ++i) {
-    const glm::dvec3 p = pointIn(box, random);
-    Progress progress;
-    if (distanceToMesh({glm::vec3(p)}, at, made.mesh.triangles, progress).max <=
-        1.05 * made.stats.maxDistance + roundingIn(box))
-      continue;
+  std::vector<glm::vec3> points;
+  for (int i = 0; i < 60; ++i) points.emplace_back(pointIn(box, random));
+  Progress progress;
+  const std::vector<NearestPoint> nearest = nearestTriangles(points, at, made.mesh.triangles, progress);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::sqrt(nearest[i].squared) <= 1.05 * made.stats.maxDistance + roundingIn(box)) continue;
+    const glm::dvec3 p(points[i]);
     // The sum of the solid angles of the triangles (Van Oosterom and Strackee 1983).
     double angle = 0.0;
     for (const glm::uvec3& t : made.mesh.triangles) {

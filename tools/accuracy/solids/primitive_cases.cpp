@@ -263,7 +263,7 @@ void addStraight(Table& table) {
   const std::vector<Numbers> prisms{{1, 0.5}, {0.2, 2}, {3, 0.05}, {1, 0.001}};
   table["hex_prism"] = {[](const Numbers& a) { return column(6, a[0], a[1]); }, prisms};
   table["tri_prism"] = {[](const Numbers& a) { return column(3, a[0], a[1]); }, prisms};
-  const std::vector<Numbers> walls{{1, 0.1}, {0.3, 0.01}, {5, 0.5}};
+  const std::vector<Numbers> walls{{1, 0.1}, {5, 0.15}};
   const auto wallOf = [](const Wave& wave) {
     return [&wave](const Numbers& a) { return wall(wave, a[0], a[1], kCellsAPeriod); };
   };

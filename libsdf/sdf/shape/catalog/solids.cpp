@@ -123,11 +123,11 @@ std::vector<CatalogEntry> solidEntries() {
             neovius),
       entry("lidinoid", "Walls along the lidinoid, a gyroid's kin.", "bound, L = 1",
             {cell, size("thickness",
-                        "of the walls where thinnest, a fifth of the thickest; below 0.1654 cell", "0.08")},
+                        "of the walls where thinnest, a fifth of the thickest; below 0.1654 cell", "0.03")},
             lidinoid),
-      entry("fischer_koch_s", "Walls along Fischer and Koch's S surface, an endless labyrinth.",
-            "bound, L = 1",
-            {cell, size("thickness", "of the walls where thinnest, below 0.1841 cell", "0.1")}, fischerKochS),
+      entry(
+          "fischer_koch_s", "Walls along Fischer and Koch's S surface, an endless labyrinth.", "bound, L = 1",
+          {cell, size("thickness", "of the walls where thinnest, below 0.1841 cell", "0.05")}, fischerKochS),
   };
 }
 
