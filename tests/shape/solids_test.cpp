@@ -320,6 +320,63 @@ TEST(Solids, AreMadeOfThePointsThatTheirNamesSay) {
 }
 
 // Closest point on a dense sampling of the surface: at most `spacing` farther than the true one.
+// The edges of the grids, listed by their ends in the cubes around the origin.
+std::vector<std::pair<dvec3, dvec3>> strutsOf(Struts kind) {
+  std::vector<dvec3> nodes;
+  const auto near = [](const dvec3& a, const dvec3& b, double length) {
+    return std::abs(glm::distance(a, b) - length) < 1e-9;
+  };
+  for (int x = -8; x <= 8; ++x)
+    for (int y = -8; y <= 8; ++y)
+      for (int z = -8; z <= 8; ++z) {
+        const dvec3 p = 0.25 * dvec3(x, y, z);
+        const bool isCorner = x % 4 == 0 && y % 4 == 0 && z % 4 == 0;
+        const bool isMiddle =
+            x % 4 != 0 && y % 4 != 0 && z % 4 != 0 && x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
+        const bool isFace = x % 2 == 0 && y % 2 == 0 && z % 2 == 0 && (x + y + z) % 4 == 0;
+        // Nearest to a corner as much as to three more of the corners and middles.
+        int at[3] = {std::abs(x % 4), std::abs(y % 4), std::abs(z % 4)};
+        for (int& i : at) i = std::min(i, 4 - i);
+        std::ranges::sort(at);
+        const bool isHole = at[0] == 0 && at[1] == 1 && at[2] == 2;
+        if (kind == Struts::Cubic         ? isCorner
+            : kind == Struts::BodyCentred ? isCorner || isMiddle
+            : kind == Struts::Octet       ? isFace
+                                          : isHole)
+          nodes.push_back(p);
+      }
+  const double length = kind == Struts::Cubic         ? 1.0
+                        : kind == Struts::BodyCentred ? std::sqrt(0.75)
+                        : kind == Struts::Octet       ? std::sqrt(0.5)
+                                                      : std::sqrt(0.125);
+  std::vector<std::pair<dvec3, dvec3>> struts;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (near(nodes[i], nodes[k], length)) struts.emplace_back(nodes[i], nodes[k]);
+  return struts;
+}
+
+TEST(StrutLattice, IsTheDistanceToItsStruts) {
+  constexpr double kCell = 0.7, kRadius = 0.06;
+  for (const Struts kind : {Struts::Cubic, Struts::BodyCentred, Struts::Octet, Struts::Kelvin}) {
+    const std::vector<std::pair<dvec3, dvec3>> struts = strutsOf(kind);
+    const Evaluator f(strutLattice(kind, kCell, kRadius).distance);
+    std::mt19937_64 random(kSeed);
+    std::uniform_real_distribution coordinate(-0.75, 0.75);
+    for (int i = 0; i < 500; ++i) {
+      const dvec3 p(coordinate(random), coordinate(random), coordinate(random));
+      double least = kInfinity;
+      for (const auto& [a, b] : struts) {
+        const dvec3 way = b - a;
+        const double t = std::clamp(glm::dot(p - a, way) / glm::dot(way, way), 0.0, 1.0);
+        least = std::min(least, glm::distance(p, a + t * way));
+      }
+      ASSERT_NEAR(f(kCell * p), kCell * least - kRadius, kRounding)
+          << static_cast<int>(kind) << " at " << test::text(p);
+    }
+  }
+}
+
 // Springs flat and steep, of many turns and of a part of one, near the wire, near the axis and beyond the
 // ends.
 TEST(Spring, IsExactBesideAnyHelix) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accuracy/check.h"
+#include "sdf/shape/solids/solids.h"
 
 namespace sdf::accuracy {
 
@@ -96,5 +97,10 @@ struct Wave {
 };
 /// The wall |wave| <= level with level = thickness / 2 * frequency * steepest, around the origin.
 Tessellation wall(const Wave& wave, double cell, double thickness, int cellsAPeriod);
+/// The solid wave <= level, around the origin. Of one whose curvature is infinite the chord is what a cell is
+/// wide.
+Tessellation filled(const Wave& wave, double cell, double level, int cellsAPeriod);
+/// All points within `radius` of the struts of such a grid, by their list.
+Tessellation strutsMesh(Struts kind, double cell, double radius, int cellsAPeriod);
 
 }  // namespace sdf::accuracy

@@ -112,8 +112,9 @@ class Level {
     double r = 0.0;
     for (const glm::dvec3& p : t) r = std::max(r, glm::length(p - middle));
     const auto [x, y, z] = derivatives(wave_.value, middle, 1e-5);
-    const double slope = glm::length(glm::dvec3(x, y, z)) - r * c, root = slope * slope - c * c * r * r;
     const double diameter = std::numbers::sqrt3 * step_;
+    if (std::isinf(c)) return diameter;
+    const double slope = glm::length(glm::dvec3(x, y, z)) - r * c, root = slope * slope - c * c * r * r;
     return slope > 0.0 && root >= 0.0 ? std::min(diameter, (slope - std::sqrt(root)) / c) : diameter;
   }
 
@@ -142,6 +143,17 @@ Tessellation wall(const Wave& wave, double cell, double thickness, int cellsAPer
   t.region = Box::centred(glm::dvec3(0.5 * cell));
   for (int k = 0; k < 64; ++k)
     t.special.push_back(cell * (glm::dvec3(k % 4, k / 4 % 4, k / 16) * 0.25 - 0.5));
+  return t;
+}
+
+Tessellation filled(const Wave& wave, double cell, double level, int cellsAPeriod) {
+  const double radians = 2.0 * kPi / cell;
+  Level solid(wave, level, 2, cellsAPeriod, 0.5);
+  std::vector<Triangle> triangles = solid.triangles();
+  for (Triangle& t : triangles)
+    for (glm::dvec3& p : t) p /= radians;
+  Tessellation t{welded(triangles), solid.chord() / radians};
+  t.region = Box::centred(glm::dvec3(0.5 * cell));
   return t;
 }
 

@@ -106,6 +106,19 @@ std::vector<CatalogEntry> solidEntries() {
       entry("tri_prism", "Triangular column along y, a corner on +z.", "exact", {side, halfHeight("0.5")},
             triPrism),
 
+      entry("strut_lattice",
+            "Round struts, endless: along cubes' edges, from cubes' corners to their middles, between the "
+            "nearest of "
+            "corners and faces' middles, or along the edges of Kelvin's truncated octahedra; a cube's corner "
+            "is at "
+            "the origin. Intersect it with a solid.",
+            "exact outside",
+            {choice("kind", "where the struts run", {"octet", "cubic", "body_centred", "kelvin"}), cell,
+             size("radius", "of the struts", "0.05")},
+            [](int kind, const Expr& size, const Expr& radius) {
+              constexpr Struts kinds[] = {Struts::Octet, Struts::Cubic, Struts::BodyCentred, Struts::Kelvin};
+              return strutLattice(kinds[kind], size, radius);
+            }),
       entry("gyroid", "Walls along the gyroid, an endless labyrinth; intersect it with a solid.",
             "bound, L = 1",
             {cell, size("thickness", "of the walls where thinnest, below 0.2756 cell", "0.1")}, gyroid),
