@@ -18,7 +18,8 @@ claim does not hold.
 - The meshes come from the solids' definitions — corners, profiles, parametric surfaces — never from the distance
   functions. A flat shape stands for its outline; a solid of revolution is compared in the plane of its profile,
   which is a finer mesh than one of the whole solid. A wall (gyroid and the like) is meshed from its trigonometric
-  formula by root finding on a lattice. Operators are compared with the same operation on meshes.
+  formula by root finding on a lattice; so are struts, from a list of them, with a chord as wide as that lattice's cells:
+  a test of its own holds them to the list. Operators are compared with the same operation on meshes.
 - A mesh of a curved solid is off by at most its *chord*: the sources in `tools/accuracy` derive it for each. It is
   0 where the solid has flat faces only.
 - Each shape is tried at several arguments, extreme ones among them: needles, discs, tubes that overlap themselves.
