@@ -21,7 +21,8 @@ Expr toLine(const Vec3E& p, const glm::dvec3& unit) {
   return norm(off(p.x, unit.x), off(p.y, unit.y), off(p.z, unit.z));
 }
 
-// Distance to what lies from the middle of a strut, half of `length` long, to its end in that direction.
+// Distance to the half of a strut that leads from its middle, the origin, in a unit direction, and to what
+// would lead on from there the other way, beyond the chamber.
 Expr toHalf(const Vec3E& p, const glm::dvec3& unit, const Expr& half) {
   const Expr along = weighted(p, Vec3E(unit)), held = min(along, half);
   const auto off = [&](const Expr& coordinate, double part) { return coordinate - scaled(held, part); };
