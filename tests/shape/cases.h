@@ -52,7 +52,7 @@ inline const std::map<std::string, std::vector<std::vector<Argument>>>& otherArg
       {"spring",
        {{number(0.5), number(3), number(1.5), number(0.2), 0},
         {number(1), number(0.05), number(2), number(0.01), 1},
-        {number(0.3), number(1), number(0.4), number(0.5), 0}}},
+        {number(1), number(0.15), number(2), number(0.1), 0}}},
       {"solid_angle",
        {{number(90), number(1)},
         {number(140), number(0.7)},

@@ -39,7 +39,8 @@ Shape strutLattice(Struts kind, const Expr& cell, const Expr& radius) {
   const Vec3E p = position();
   const Expr x = folded(p.x), y = folded(p.y), z = folded(p.z);
   const Expr most = largest(x, y, z), least = min(min(x, y), z);
-  const Expr between = max(min(x, y), min(max(x, y), z)).claimLipschitz(1.0);
+  // Where two are equal, each of the three has its gradient from another of them.
+  const Expr between = (x + y + z - most - least).claimLipschitz(1.0);
   const Vec3E q{most, between, least};
   const Expr half = 0.5 * size, quarter = 0.25 * size;
   constexpr double kR2 = 0.7071067811865476, kR3 = 0.5773502691896258;
