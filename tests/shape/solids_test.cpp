@@ -319,7 +319,6 @@ TEST(Solids, AreMadeOfThePointsThatTheirNamesSay) {
   }
 }
 
-// Closest point on a dense sampling of the surface: at most `spacing` farther than the true one.
 // The edges of the grids, listed by their ends in the cubes around the origin.
 std::vector<std::pair<dvec3, dvec3>> strutsOf(Struts kind) {
   std::vector<dvec3> nodes;
@@ -412,6 +411,7 @@ TEST(Spring, IsExactBesideAnyHelix) {
   }
 }
 
+// Closest point on a dense sampling of the surface: at most `spacing` farther than the true one.
 double nearest(const std::vector<dvec3>& surface, const dvec3& p) {
   double best = kInfinity;
   for (const dvec3& q : surface) best = std::min(best, glm::distance(p, q));

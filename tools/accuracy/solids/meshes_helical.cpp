@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
+#include <set>
 #include <tuple>
 
 #include "meshes.h"
@@ -36,7 +36,7 @@ void closeEnds(std::vector<Triangle>& triangles) {
   const auto edgeLess = [&](const auto& a, const auto& b) {
     return less(a.first, b.first) || (!less(b.first, a.first) && less(a.second, b.second));
   };
-  std::map<std::pair<glm::dvec3, glm::dvec3>, int, decltype(edgeLess)> open(edgeLess);
+  std::set<std::pair<glm::dvec3, glm::dvec3>, decltype(edgeLess)> open(edgeLess);
   double top = 0.0;
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) {
@@ -45,10 +45,9 @@ void closeEnds(std::vector<Triangle>& triangles) {
       if (const auto twin = open.find({b, a}); twin != open.end())
         open.erase(twin);
       else
-        open[{a, b}] = 1;
+        open.insert({a, b});
     }
-  for (const auto& [edge, one] : open)
-    triangles.push_back({edge.second, edge.first, {0.0, edge.first.y > 0.0 ? top : -top, 0.0}});
+  for (const auto& [a, b] : open) triangles.push_back({b, a, {0.0, a.y > 0.0 ? top : -top, 0.0}});
 }
 
 }  // namespace

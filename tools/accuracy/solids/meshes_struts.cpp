@@ -83,8 +83,8 @@ double toStruts(const glm::dvec3& p) {
 }  // namespace
 
 Tessellation strutsMesh(Struts kind, double cell, double radius, int cellsAPeriod) {
-  double (*const values[])(const glm::dvec3&) = {toStruts<Struts::Cubic>, toStruts<Struts::BodyCentred>,
-                                                 toStruts<Struts::Octet>, toStruts<Struts::Kelvin>};
+  double (*const values[])(const glm::dvec3&) = {toStruts<Struts::Octet>, toStruts<Struts::Cubic>,
+                                                 toStruts<Struts::BodyCentred>, toStruts<Struts::Kelvin>};
   // Where struts meet the distance bends sharply.
   const Wave distance{values[static_cast<int>(kind)], 1.0, std::numeric_limits<double>::infinity()};
   return filled(distance, cell, 2.0 * kPi * radius / cell, cellsAPeriod);

@@ -267,12 +267,11 @@ void addStraight(Table& table) {
   const auto wallOf = [](const Wave& wave) {
     return [&wave](const Numbers& a) { return wall(wave, a[0], a[1], kCellsAPeriod); };
   };
-  table["strut_lattice"] = {
-      [](const Numbers& a) {
-        constexpr Struts kinds[] = {Struts::Octet, Struts::Cubic, Struts::BodyCentred, Struts::Kelvin};
-        return strutsMesh(kinds[static_cast<int>(a[0])], a[1], a[2], kCellsAPeriod / 2);
-      },
-      {{0, 1, 0.12}, {1, 1, 0.3}, {2, 3, 0.5}, {3, 1, 0.1}}};
+  table["strut_lattice"] = {[](const Numbers& a) {
+                              return strutsMesh(static_cast<Struts>(static_cast<int>(a[0])), a[1], a[2],
+                                                kCellsAPeriod / 2);
+                            },
+                            {{0, 1, 0.12}, {1, 1, 0.3}, {2, 3, 0.5}, {3, 1, 0.1}}};
   table["gyroid"] = {wallOf(kGyroid), walls};
   table["schwarz_p"] = {wallOf(kSchwarzP), walls};
   table["schwarz_d"] = {wallOf(kSchwarzD), walls};

@@ -107,17 +107,16 @@ std::vector<CatalogEntry> solidEntries() {
             triPrism),
 
       entry("strut_lattice",
-            "Round struts, endless: along cubes' edges, from cubes' corners to their middles, between the "
-            "nearest of "
-            "corners and faces' middles, or along the edges of Kelvin's truncated octahedra; a cube's corner "
-            "is at "
-            "the origin. Intersect it with a solid.",
+            "Round struts along an endless grid: between the nearest of cubes' corners and faces' middles, "
+            "along "
+            "cubes' edges, from corners to middles, or along the edges of Kelvin's truncated octahedra. A "
+            "cube's "
+            "corner is at the origin. Intersect it with a solid.",
             "exact outside",
             {choice("kind", "where the struts run", {"octet", "cubic", "body_centred", "kelvin"}), cell,
              size("radius", "of the struts", "0.05")},
             [](int kind, const Expr& size, const Expr& radius) {
-              constexpr Struts kinds[] = {Struts::Octet, Struts::Cubic, Struts::BodyCentred, Struts::Kelvin};
-              return strutLattice(kinds[kind], size, radius);
+              return strutLattice(static_cast<Struts>(kind), size, radius);
             }),
       entry("gyroid", "Walls along the gyroid, an endless labyrinth; intersect it with a solid.",
             "bound, L = 1",

@@ -51,8 +51,8 @@ class HelixDistance {
   // is concave. It begins with the parabola 4 v (pi - v) / pi^2 >= sin v, so below the root, and takes
   // Halley's steps.
   Expr root(const Expr& rho, const Expr& from) const {
-    constexpr int kSteps = 3;  // they leave 1e-6 of the size; two leave 2e-5, one 3e-4
-    constexpr double kLeast = 1e-9;
+    constexpr int kSteps = 3;        // they leave 1e-6 of the size; two leave 2e-5, one 3e-4
+    constexpr double kLeast = 1e-9;  // of a divisor that may be 0 where there is no root
     const Expr square = rise_ * rise_, sum = radius_ * rho + square;
     const Expr wave = radius_ * rho / sum, line = square / sum;
     const Expr most = min(from, std::numbers::pi);

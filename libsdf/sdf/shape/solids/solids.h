@@ -90,10 +90,10 @@ Shape spring(const Expr& radius, const Expr& pitch, const Expr& turns, const Exp
 Shape thread(const Expr& diameter, const Expr& pitch, const Expr& length, int starts = 1,
              const Expr& clearance = 0.0, Hand hand = Hand::Right);
 
-/// Endless grids: the edges of cubes; lines from cubes' corners to their middles; lines between the nearest
-/// of cubes' corners and their faces' middles; the edges of truncated octahedra about cubes' corners and
+/// Endless grids: lines between the nearest of cubes' corners and their faces' middles; the edges of cubes;
+/// lines from cubes' corners to their middles; the edges of truncated octahedra about cubes' corners and
 /// middles (Thomson 1887).
-enum class Struts { Cubic, BodyCentred, Octet, Kelvin };
+enum class Struts { Octet, Cubic, BodyCentred, Kelvin };
 /// Round struts along such a grid; `cell` is the cubes' side, a corner at the origin. Both > 0. Exact
 /// outside.
 Shape strutLattice(Struts kind, const Expr& cell, const Expr& radius);

@@ -3,6 +3,7 @@
 // where a few straight lines are left. What is nearest to a point of a chamber lies in the same one, for the
 // image of any other place in it is no farther.
 #include <algorithm>
+#include <numbers>
 
 #include "sdf/shape/check.h"
 #include "sdf/shape/formula.h"
@@ -43,7 +44,7 @@ Shape strutLattice(Struts kind, const Expr& cell, const Expr& radius) {
   const Expr between = (x + y + z - most - least).claimLipschitz(1.0);
   const Vec3E q{most, between, least};
   const Expr half = 0.5 * size, quarter = 0.25 * size;
-  constexpr double kR2 = 0.7071067811865476, kR3 = 0.5773502691896258;
+  constexpr double kR2 = 0.5 * std::numbers::sqrt2, kR3 = std::numbers::inv_sqrt3;
   const auto distance = [&]() -> Expr {
     switch (kind) {
       case Struts::Cubic:
