@@ -9,6 +9,7 @@
 #include "sdf/script/library.h"
 #include "sdf/script/meshes.h"
 #include "sdf/script/outlines.h"
+#include "sdf/script/tubes.h"
 #include "sdf/shape/operators/booleans.h"
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/operators/place.h"
@@ -236,14 +237,8 @@ class Call {
 
   template <class T, class Read>
   std::vector<T> readList(const Parameter& p, int at, const char* wanted, Read read) {
-    if (!lua_istable(L_, at)) raise(L_, what(p) + " must be " + wanted + ", got " + describe(L_, at));
     std::vector<T> list;
-    const lua_Integer count = static_cast<lua_Integer>(lua_rawlen(L_, at));
-    for (lua_Integer i = 1; i <= count; ++i) {
-      lua_rawgeti(L_, at, i);
-      list.push_back(read(lua_gettop(L_)));
-      lua_pop(L_, 1);
-    }
+    forEachIn(L_, at, what(p), wanted, [&](int i) { list.push_back(read(i)); });
     return list;
   }
 
@@ -435,6 +430,21 @@ int distanceOfShape(lua_State* L) {
   return pushFormula(L, distanceAt(shape, place)), 1;
 }
 
+// Two corners of a box that holds the shape for all values of parameters; of a flat shape those of a
+// rectangle.
+int boundsOfShape(lua_State* L) {
+  const Shape& shape = readShape(L, 1, "bounds: the shape");
+  if (lua_gettop(L) != 1) raise(L, "bounds: too many arguments; write local low, high = shape:bounds()");
+  if (isMissing(shape)) raise(L, *shape.error);
+  for (const glm::dvec3& corner : {shape.bounds.min, shape.bounds.max}) {
+    pushResult(L, Vec3E(corner));
+    if (shape.dimension == 3) continue;
+    lua_pushnil(L);
+    lua_rawseti(L, -2, 3);
+  }
+  return 2;
+}
+
 }  // namespace
 
 void openCatalog(lua_State* L) {
@@ -452,6 +462,8 @@ void openCatalog(lua_State* L) {
   }
   lua_getglobal(L, "paint");
   lua_setfield(L, -2, "paint");
+  lua_pushcfunction(L, guarded<boundsOfShape>);
+  lua_setfield(L, -2, "bounds");
   lua_pop(L, 1);
   for (const ShapeSign& s : kShapeSigns) {
     lua_pushlightuserdata(L, const_cast<ShapeSign*>(&s));
@@ -505,6 +517,17 @@ const std::vector<FunctionInfo>& shapeLibrary() {
        "what an SVG drawing fills and strokes, as one flat shape about the origin: paths, basic shapes, groups, transforms, `use`, fill rules, joins, ends and dashes of strokes, and styles by class. Text, pictures, clips and masks are not read: make text to paths. Files lie as those of `mesh` do. Exact within 1e-6 of the longest side of all its points, and drawn by `sdfview` within 1e-4",
        {{"size", SettingKind::Number, "of its longest side", Rule::Positive, {}, "1"}},
        svgShape},
+      {"tube",
+       "tube({{0, 0, 0}, {1, 1, 0}, {2, 0, 0}}, 0.2, {curve = true})",
+       "all points within a radius of a line through these points, with round ends. For a straight line points may depend on parameters. In the place of the radius a list gives each point its own: `tube({{0, 0, 0}, {0, 2, 0}}, {0.3, 0.1})`. Exact outside",
+       {{"curve", Flag, "is the line smooth? It is made of arcs, two from point to point: points of a circle give the circle", Rule::Any, {}, "false"},
+        {"closed", Flag, "does it lead back to the first point?", Rule::Any, {}, "false"}},
+       tubeShape},
+      {"struts",
+       "struts({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{1, 2}, {2, 3}}, 0.1)",
+       "round struts of a radius between pairs of points, which are given by their numbers in the list of points. Exact outside",
+       {},
+       strutsShape},
   };
   return library;
 }

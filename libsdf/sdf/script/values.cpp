@@ -343,6 +343,18 @@ int readInteger(lua_State* L, int index, const std::string& what) {
   return static_cast<int>(v);
 }
 
+void forEachIn(lua_State* L, int index, const std::string& what, const char* wanted,
+               const std::function<void(int)>& read) {
+  if (!lua_istable(L, index)) wrongType(L, index, what, wanted);
+  luaL_checkstack(L, 8, nullptr);
+  const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_rawgeti(L, index, i);
+    read(lua_gettop(L));
+    lua_pop(L, 1);
+  }
+}
+
 bool hasNamedField(lua_State* L, int index) {
   bool named = false;
   for (lua_pushnil(L); !named && lua_next(L, index); lua_pop(L, 1)) named = lua_type(L, -2) == LUA_TSTRING;

@@ -4,6 +4,7 @@
 // `what` names the value in messages: "sphere: 'radius'". Each reader raises a script error that says what
 // the value must be and what was given.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,9 @@ const Shape& readShape(lua_State* L, int index, const std::string& what);
 bool isNamedVector(lua_State* L, int index);
 /// 2 for the form {x, y}, with or without names, else 3.
 int vectorSize(lua_State* L, int index);
+/// Calls read(place on the stack) for each value of the list at `index`, in order; `wanted` says what list.
+void forEachIn(lua_State* L, int index, const std::string& what, const char* wanted,
+               const std::function<void(int)>& read);
 /// {x, y, z} or {x = x, y = y, z = z}. `size` is 2 or 3; the components beyond it are 0.
 Vec3E readVector(lua_State* L, int index, const std::string& what, int size, Depends depends);
 /// The same, or one number for all components, as sizes and factors are often written.

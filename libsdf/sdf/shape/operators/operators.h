@@ -4,3 +4,4 @@
 #include "sdf/shape/operators/deform.h"
 #include "sdf/shape/operators/pattern.h"
 #include "sdf/shape/operators/place.h"
+#include "sdf/shape/operators/tubes.h"

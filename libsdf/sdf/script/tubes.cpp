@@ -1,0 +1,71 @@
+#include "sdf/script/tubes.h"
+
+#include <lua.hpp>
+
+#include "sdf/script/library.h"
+#include "sdf/shape/operators/tubes.h"
+
+namespace sdf {
+
+namespace {
+
+constexpr const char* kPoints = "a list of points {{x, y, z}, …}";
+
+std::vector<glm::dvec3> fixedPoints(lua_State* L, const FunctionInfo& f) {
+  std::vector<glm::dvec3> points;
+  const auto read = [&](int at) { points.push_back(readPoint(L, at, f.name + ": a point", 3)); };
+  forEachIn(L, 1, f.name + ": the points", kPoints, read);
+  return points;
+}
+
+std::vector<Vec3E> movingPoints(lua_State* L, const FunctionInfo& f) {
+  std::vector<Vec3E> points;
+  const auto read = [&](int at) {
+    points.push_back(readVector(L, at, f.name + ": a point", 3, Depends::OnParameters));
+  };
+  forEachIn(L, 1, f.name + ": the points", kPoints, read);
+  return points;
+}
+
+Expr radiusAt(lua_State* L, int index, const FunctionInfo& f) {
+  return readNumber(L, index, f.name + ": the radius", Depends::OnParameters);
+}
+
+}  // namespace
+
+int tubeShape(lua_State* L) {
+  expectArguments(L, 2, 3);
+  const FunctionInfo& f = runningFunction(L);
+  const FieldValues given = readFields(L, 3, f);
+  const bool isCurve = valueOr(given, "curve", false), isClosed = valueOr(given, "closed", false);
+  if (!lua_istable(L, 2)) {
+    const Expr radius = radiusAt(L, 2, f);
+    return pushGood(L, isCurve ? curvedTube(fixedPoints(L, f), radius, isClosed)
+                               : tube(movingPoints(L, f), radius, isClosed));
+  }
+  if (isCurve) raise(L, f.name + ": along a curve the radius is one number");
+  std::vector<Expr> radii;
+  forEachIn(L, 2, f.name + ": the radii", "a list of numbers",
+            [&](int at) { radii.push_back(radiusAt(L, at, f)); });
+  return pushGood(L, taperedTube(fixedPoints(L, f), radii, isClosed));
+}
+
+int strutsShape(lua_State* L) {
+  expectArguments(L, 3, 3);
+  const FunctionInfo& f = runningFunction(L);
+  std::vector<std::pair<std::size_t, std::size_t>> edges;
+  const std::string edge = f.name + ": an edge", wanted = "a pair of points' numbers {1, 2}";
+  forEachIn(L, 2, f.name + ": the edges", "a list of pairs {{1, 2}, …}", [&](int at) {
+    std::vector<std::size_t> ends;
+    forEachIn(L, at, edge, wanted.c_str(), [&](int end) {
+      const int number = readInteger(L, end, edge);
+      if (number < 1) raise(L, edge + " counts points from 1, got " + std::to_string(number));
+      ends.push_back(static_cast<std::size_t>(number) - 1);
+    });
+    if (ends.size() != 2) raise(L, edge + " must be " + wanted + ", got " + describe(L, at));
+    edges.emplace_back(ends[0], ends[1]);
+  });
+  return pushGood(L, struts(movingPoints(L, f), edges, radiusAt(L, 3, f)));
+}
+
+}  // namespace sdf
