@@ -89,7 +89,7 @@ TEST_P(PayloadNode, HasItsRangeAndSlope) {
     }
     steepest = std::max(steepest, std::abs(payload->value(p) - payload->value(q)) / glm::length(p - q));
   }
-  EXPECT_GT(steepest, 0.7 * payload->lipschitz()) << "the bound says too little";
+  EXPECT_GT(steepest, GetParam().steepest * payload->lipschitz()) << "the bound says too little";
 }
 
 TEST_P(PayloadNode, IntervalsContainTheValues) {

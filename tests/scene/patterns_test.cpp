@@ -65,5 +65,29 @@ TEST(Noise, ComesNearTheSlopeThatItClaims) {
   EXPECT_GT(most, 0.9 * claimed);
 }
 
+// Octaves are weighed 4, 2 and 1, ridges point up where the noise is 0, and seeds differ.
+TEST(LatticeNoisePattern, SumsOctaves) {
+  using enum LatticeNoise::Kind;
+  const auto at = [](LatticeNoise::Kind kind, const Octaves& octaves, const glm::dvec3& p) {
+    return test::Evaluator(latticeNoise(kind, position(), octaves))(p);
+  };
+  const glm::dvec3 p(0.37, -1.21, 2.6);
+  EXPECT_EQ(at(Value, {}, p), LatticeNoise::of(Value)->value(p));
+  EXPECT_EQ(at(Value, {.seed = 4}, p), LatticeNoise::of(Value, 4)->value(p));
+  EXPECT_EQ(at(Border, {.seed = 4}, p), LatticeNoise::of(Border, 4)->value(p));
+  EXPECT_EQ(at(Gradient, {.ridged = true}, {1.0, 2.0, 3.0}), 1.0);
+  const double second = at(Gradient, {.count = 2, .seed = 1}, p), first = at(Gradient, {.seed = 1}, p);
+  EXPECT_NEAR(3.0 * second - 2.0 * first, LatticeNoise::of(Gradient, 2)->value(2.03 * p + 5.1), 1e-12);
+}
+
+// As steep as that of the lattice, times how often it is repeated in a unit.
+TEST(LatticeNoisePattern, HasTheSlopeOfItsPlace) {
+  using enum LatticeNoise::Kind;
+  EXPECT_NEAR(latticeNoise(Value, position() * Expr(2.0)).lipschitz(), 7.5, 1e-9);
+  EXPECT_NEAR(latticeNoise(Nearest, position() * Expr(3.0)).lipschitz(), 3.0, 1e-9);
+  EXPECT_NEAR(latticeNoise(Gradient, position(), {.count = 2}).lipschitz(), 3.84 * (1.0 + 0.5 * 2.03) / 1.5,
+              1e-6);
+}
+
 }  // namespace patterns_test
 }  // namespace sdf

@@ -273,6 +273,13 @@ TEST(Errors, ValuesThatMakeNoSenseAreRefused) {
       {"return sphere(1):paint{shininess = 0}", "scene.lua:1: material: 'shininess' must be positive, got 0"},
       {"return sphere(1):paint(noise(0, 0, 0, {octaves = 9}))",
        "scene.lua:1: noise: 'octaves' must be 8 or less, got 9"},
+      {"return sphere(1):paint(gradient_noise(0, 0, 0, {octaves = 9}))",
+       "scene.lua:1: gradient_noise: 'octaves' must be 8 or less, got 9"},
+      {"return sphere(1):paint(value_noise(0, 0, 0, {seed = -1}))",
+       "scene.lua:1: value_noise: 'seed' must be 0 or more, got -1"},
+      {"return sphere(1):paint(cell_noise(0, 0, 0, {kind = 'third'}))",
+       "scene.lua:1: cell_noise: 'kind' must be one of \"nearest\", \"second\" or \"border\", got a string "
+       "\"third\""},
       {"return field(function() return 0 / 0 end)",
        "scene.lua:1: the result of field: the formula must be a finite "
        "number, got NaN, which is not a number"},

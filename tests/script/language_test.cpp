@@ -235,7 +235,9 @@ TEST(Language, FunctionsAgreeOnNumbersAndOnFormulas) {
                          "math.sin(a)",
                          "math.max(a, b)",
                          "math.floor(a)",
-                         "noise(a, b, 1)"};
+                         "noise(a, b, 1)",
+                         "gradient_noise(a, b, 1, {octaves = 2, ridged = true})",
+                         "cell_noise(a, b, 1)"};
   constexpr unsigned kSeed = 11;
   constexpr double kUlps = 8.0;
   std::mt19937 random(kSeed);
@@ -315,6 +317,7 @@ TEST(Language, AParameterIsAFormulaWhetherItsValueIsFixedOrNot) {
                                 "length({k, 1, 2})",
                                 "dot({1, 2}, {3, k})",
                                 "noise(k, 0, 0)",
+                                "value_noise(k, 0, 0)",
                                 "color(k, 0, 0)[2]",
                                 "color(function() return k, 0, 0 end)[2]",
                                 "time",
@@ -324,7 +327,7 @@ TEST(Language, AParameterIsAFormulaWhetherItsValueIsFixedOrNot) {
               {.fixed = fixed});
     for (const char* number :
          {"value(k)", "value(2 * k + time)", "sin(value(k))", "mix('#f00', {0, 0, 1}, 1)[3]",
-          "color('#abc')[1]", "noise(0.5, 0, 0, {octaves = 2})", "length({3, 4})"})
+          "color('#abc')[1]", "noise(0.5, 0, 0, {octaves = 2})", "cell_noise(0.5, 0, 0)", "length({3, 4})"})
       sceneOf(k + "local e = " + number + " assert(type(e) == 'number', type(e)) return sphere(1)",
               {.fixed = fixed});
     EXPECT_EQ(

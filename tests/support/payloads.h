@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sdf/expr/expr.h"
+#include "sdf/expr/lattice_noise.h"
 #include "sdf/expr/payload.h"
 #include "sdf/shape/solids/polygon_field.h"
 
@@ -257,13 +258,19 @@ inline std::shared_ptr<const Payload> ringOfArcs() {
 struct PayloadCase {
   std::string name;
   std::shared_ptr<const Payload> payload;
+  double steepest = 0.7;  ///< of its slope, is found somewhere
 };
 inline void PrintTo(const PayloadCase& c, std::ostream* out) { *out << c.name; }
 inline std::vector<PayloadCase> payloadCases() {
   return {{"Grid", sampledBall(9)},
           {"Points", fourPoints()},
           {"Polygon", starOfManySides()},
-          {"Arcs", ringOfArcs()}};
+          {"Arcs", ringOfArcs()},
+          {"ValueNoise", LatticeNoise::of(LatticeNoise::Kind::Value)},
+          {"GradientNoise", LatticeNoise::of(LatticeNoise::Kind::Gradient, 3), 0.55},
+          {"NearestPoint", LatticeNoise::of(LatticeNoise::Kind::Nearest)},
+          {"SecondPoint", LatticeNoise::of(LatticeNoise::Kind::Second)},
+          {"BorderNoise", LatticeNoise::of(LatticeNoise::Kind::Border)}};
 }
 
 inline const std::array<Expr, 3>& coordinates() {

@@ -27,20 +27,35 @@ Expr sines(const Vec3E& p) {
   return (sum * (1.0 / 3.0)).claimLipschitz(kSlope * stretchOf(p));
 }
 
-}  // namespace
-
-Expr noise(const Vec3E& p, int octaves) {
+// The mean of octaves, each of which is octave(place, its number).
+template <class Octave>
+Expr meanOf(const Vec3E& p, int octaves, const Octave& octave) {
   // Not quite doubled, and moved along, so that octaves do not line up.
   constexpr double kFrequencyStep = 2.03, kWeightStep = 0.5, kShift = 5.1;
   Expr sum = 0.0;
   double weight = 1.0, total = 0.0, frequency = 1.0;
   for (int i = 0; i < octaves; ++i) {
-    sum = sum + weight * sines(p * Expr(frequency) + Vec3E(Expr(kShift * i)));
+    sum = sum + weight * octave(p * Expr(frequency) + Vec3E(Expr(kShift * i)), i);
     total += weight;
     weight *= kWeightStep;
     frequency *= kFrequencyStep;
   }
   return sum * (1.0 / total);
+}
+
+}  // namespace
+
+Expr noise(const Vec3E& p, int octaves) {
+  return meanOf(p, octaves, [](const Vec3E& at, int) { return sines(at); });
+}
+
+Expr latticeNoise(LatticeNoise::Kind kind, const Vec3E& p, const Octaves& octaves) {
+  return meanOf(p, octaves.count, [&](const Vec3E& at, int i) {
+    const auto noise = LatticeNoise::of(kind, octaves.seed + static_cast<std::uint32_t>(i));
+    const Expr n =
+        Expr::payload({noise}, {at.x, at.y, at.z}).claimLipschitz(noise->lipschitz() * stretchOf(at));
+    return octaves.ridged ? 1.0 - 2.0 * abs(n) : n;
+  });
 }
 
 Vec3E verticalGradient(const Vec3E& bottom, const Vec3E& top) {

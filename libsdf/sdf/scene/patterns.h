@@ -3,6 +3,7 @@
 #pragma once
 #include <optional>
 
+#include "sdf/expr/lattice_noise.h"
 #include "sdf/expr/vec.h"
 
 namespace sdf {
@@ -18,6 +19,15 @@ Vec3E gradient(const Expr& along, const Vec3E& a, const Vec3E& b, const Expr& fr
 /// half as large and half as strong. Made of sines of slope of order one, so that float and double agree: the
 /// usual hash, the fraction of a large multiple of a sine, differs between them at every point. octaves >= 1.
 Expr noise(const Vec3E& p, int octaves = 1);
+
+struct Octaves {
+  int count = 1;        ///< 1 or more, as of `noise`
+  bool ridged = false;  ///< is each 1 - 2 |n|, with sharp ridges where n is 0?
+  std::uint32_t seed = 0;
+};
+/// Noise on a lattice of cells of side 1, which sums octaves by their mean. Several octaves and ridges are
+/// for values and gradients.
+Expr latticeNoise(LatticeNoise::Kind kind, const Vec3E& p, const Octaves& octaves = {});
 
 /// A background: `bottom` straight down, `top` straight up.
 Vec3E verticalGradient(const Vec3E& bottom, const Vec3E& top);

@@ -56,13 +56,46 @@ int makeVerticalGradient(lua_State* L) {
   return pushResult(L, verticalGradient(bottom, top)), 1;
 }
 
+int octavesOf(lua_State* L, const FunctionInfo& f, const FieldValues& given) {
+  constexpr int kMostOctaves = 8;  // the ninth would be weaker than a step of an 8-bit colour
+  const int octaves = valueOr(given, "octaves", 1);
+  if (octaves > kMostOctaves)
+    raise(L, f.name + ": 'octaves' must be 8 or less, got " + std::to_string(octaves));
+  return octaves;
+}
+
+std::uint32_t seedOf(const FieldValues& given) {
+  return static_cast<std::uint32_t>(valueOr(given, "seed", 0));
+}
+
 int makeNoise(lua_State* L) {
   expectArguments(L, 3, 4);
   const Vec3E p = numberArguments(L, "noise: coordinate ");
-  constexpr int kMostOctaves = 8;  // the ninth would be weaker than a step of an 8-bit colour
-  const int octaves = valueOr(readFields(L, 4, runningFunction(L)), "octaves", 1);
-  if (octaves > kMostOctaves) raise(L, "noise: 'octaves' must be 8 or less, got " + std::to_string(octaves));
-  return pushResult(L, noise(p, octaves)), 1;
+  const FunctionInfo& f = runningFunction(L);
+  return pushResult(L, noise(p, octavesOf(L, f, readFields(L, 4, f)))), 1;
+}
+
+template <LatticeNoise::Kind kind>
+int makeSmoothNoise(lua_State* L) {
+  expectArguments(L, 3, 4);
+  const FunctionInfo& f = runningFunction(L);
+  const Vec3E p = numberArguments(L, f.name + ": coordinate ");
+  const FieldValues given = readFields(L, 4, f);
+  return pushResult(L, latticeNoise(kind, p,
+                                    {.count = octavesOf(L, f, given),
+                                     .ridged = valueOr(given, "ridged", false),
+                                     .seed = seedOf(given)})),
+         1;
+}
+
+int makeCellNoise(lua_State* L) {
+  expectArguments(L, 3, 4);
+  const FunctionInfo& f = runningFunction(L);
+  const Vec3E p = numberArguments(L, f.name + ": coordinate ");
+  const FieldValues given = readFields(L, 4, f);
+  using enum LatticeNoise::Kind;
+  const LatticeNoise::Kind kind = std::array{Nearest, Second, Border}[valueOr(given, "kind", 0)];
+  return pushResult(L, latticeNoise(kind, p, {.seed = seedOf(given)})), 1;
 }
 
 int makeSky(lua_State* L) {
@@ -92,6 +125,23 @@ const std::vector<FunctionInfo>& patternLibrary() {
        "a smooth irregular number in -1 … 1 that varies over about one unit; a sum of sines, the same in float and in double",
        {{"octaves", Integer, "up to 8; each adds detail half as large and half as strong", Rule::Positive, {}, "1"}},
        makeNoise},
+      {"gradient_noise", "gradient_noise(x, y, z, {octaves = 1, ridged = false, seed = 0})",
+       "Perlin's: a smooth random number in -1 … 1, 0 where x, y and z are whole; its slope is 3.84 at most",
+       {{"octaves", Integer, "as of `noise`", Rule::Positive, {}, "1"},
+        {"ridged", Flag, "is each octave 1 - 2 abs(n), with sharp ridges?", Rule::Any, {}, "false"},
+        {"seed", Integer, "another number gives another noise", Rule::NotNegative, {}, "0"}},
+       makeSmoothNoise<LatticeNoise::Kind::Gradient>},
+      {"value_noise", "value_noise(x, y, z, {octaves = 1, ridged = false, seed = 0})",
+       "a smooth random number in -1 … 1 between random numbers where x, y and z are whole; its slope is 3.75 at most",
+       {{"octaves", Integer, "as of `noise`", Rule::Positive, {}, "1"},
+        {"ridged", Flag, "is each octave 1 - 2 abs(n), with sharp ridges?", Rule::Any, {}, "false"},
+        {"seed", Integer, "another number gives another noise", Rule::NotNegative, {}, "0"}},
+       makeSmoothNoise<LatticeNoise::Kind::Value>},
+      {"cell_noise", "cell_noise(x, y, z, {kind = \"nearest\", seed = 0})",
+       "Worley's: the distance to random points, one in each cube of side 1; up to 1.73",
+       {{"kind", Choice, "the distance to the nearest point, to the second nearest, or how much farther that is, which is 0 on the borders between the points' cells; the slope of the last is 2 at most", Rule::Any, {"nearest", "second", "border"}, "\"nearest\""},
+        {"seed", Integer, "another number gives another noise", Rule::NotNegative, {}, "0"}},
+       makeCellNoise},
   };
   return library;
 }

@@ -89,6 +89,11 @@ TEST_F(GlslLanguage, HasPayloads) {
   Scene scene;
   scene.add("grid", field(test::payloadHere(test::sampledBall(5)), Box::centred(glm::dvec3(1.0)), 2.0));
   scene.add("points", field(test::payloadHere(test::fourPoints()), Box::centred(glm::dvec3(1.5)), 1.0));
+  for (const auto kind :
+       {LatticeNoise::Kind::Value, LatticeNoise::Kind::Gradient, LatticeNoise::Kind::Nearest,
+        LatticeNoise::Kind::Second, LatticeNoise::Kind::Border})
+    scene.add("noise" + std::to_string(static_cast<int>(kind)),
+              field(test::payloadHere(LatticeNoise::of(kind)) - 0.1, Box::centred(glm::dvec3(1.5)), 4.0));
   expectSound(shadersOf(scene));
 }
 

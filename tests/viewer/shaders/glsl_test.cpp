@@ -215,9 +215,22 @@ TEST_F(GlslPayload, IsReadAsItPromises) {
         [&](const glm::dvec3& p, const glm::dvec3&) { return evaluateAll(tape, p); });
 }
 
+TEST_F(GlslPayload, OfEveryKindIsReadAsItPromises) {
+  const auto [x, y, z] = position();
+  for (const PayloadCase& c : payloadCases()) {
+    if (!c.payload->volumes().empty()) continue;
+    SCOPED_TRACE(c.name);
+    const std::array outputs{payloadHere(c.payload), Expr::payload({c.payload}, {z * 8.0 + 0.3, x, y})};
+    const Tape tape(outputs);
+    check(outputs, placesOffBorders(2000), kMost,
+          [&](const glm::dvec3& p, const glm::dvec3&) { return evaluateAll(tape, p); });
+  }
+}
+
 TEST_F(GlslPayload, HasTheDoubleReadingsGradient) {
   const auto [x, y, z] = position();
-  for (const PayloadCase& c : {PayloadCase{"Grid", sampledBall(5)}, PayloadCase{"Points", fourPoints()}}) {
+  for (const PayloadCase& c : payloadCases()) {
+    if (!c.payload->volumes().empty()) continue;
     SCOPED_TRACE(c.name);
     const Expr e = Expr::payload({c.payload}, {x, z, y}) + y * 0.5;
     const Tape tape(e);
