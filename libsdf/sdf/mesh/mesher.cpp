@@ -141,7 +141,7 @@ class Mesher : LatticeSource {
     if (auto own = ownTriangles(shape, options_))
       if (options_.keepsFiles || own->offBy > 0.0) return takeTriangles(std::move(*own), shape, h);
     Ladder ladder({options_.tolerance, bounds_.longestSide(), options_.strict, painted_}, *this, surface_,
-                  measured_, progress_);
+                  measured_, simplifying_);
     for (int halvings = 0;; ++halvings, h /= 2.0) {
       Result<std::unique_ptr<Lattice>> sampled = sample(h);
       if (!sampled) return sampled.error();
@@ -490,6 +490,7 @@ class Mesher : LatticeSource {
   std::optional<ModelTapes> model_;
   Box bounds_;  // the finite box to mesh in
   Progress& progress_;
+  Progress simplifying_{&progress_};  // nobody knows how often it is tried, and so what share is done
   bool isPiece_;
   std::optional<Box> clip_;  // as the options have it
   glm::dvec3 origin_{0.0};   // of the coordinates in use

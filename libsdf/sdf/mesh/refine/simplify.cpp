@@ -98,12 +98,10 @@ class Simplifier {
     if (painted_) paint();
     const float most = painted_ ? 1.0f : kShares[std::size(kShares) - 1];
     for (const float share : kShares) collapseTo(std::min(share, most) * tolerance_);
-    progress_.update(0.4);
     for (int i = 0; i < kImprovements && !progress_.stopped(); ++i) {
       if (i == kImprovements / 2) setLimit(tolerance_);
       improve();
       collapse();
-      progress_.update(0.4 + 0.4 * (i + 1) / kImprovements);
     }
     improve();
     keep();
@@ -112,7 +110,6 @@ class Simplifier {
       improve();
       keep();
     }
-    progress_.update(1.0);
   }
   // No farther than the tolerance, as moves do not bring colours back; what was too far stays so.
   void runUnresolved() {
@@ -122,12 +119,10 @@ class Simplifier {
     for (const float share : kShares) collapseTo(std::min(share, 1.0f) * tolerance_);
     if (mesh_.liveTriangles() > kMostToImprove) return;
     for (int i = 0; i < kImprovements && !progress_.stopped(); ++i) {
-      progress_.update(0.4 + 0.5 * i / kImprovements);
       improve();
       collapse();
     }
     keep();
-    progress_.update(1.0);
   }
   // Returns whether anything was changed for these places that are too far off.
   bool keep(const std::vector<glm::vec3>& exceeding) {
