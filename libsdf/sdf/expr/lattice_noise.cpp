@@ -76,34 +76,54 @@ ValueAndGradient betweenNodes(std::uint32_t seed, const Place& at) {
 
 // The two nearest points, as ways from them. None is farther than the root of 3: of the points of the cell
 // and of the cell beside it that is nearest both are that near. So they lie at most two cells away.
-struct TwoNearest {
+class TwoNearest {
+ public:
   glm::dvec3 first{HUGE_VAL}, second{HUGE_VAL};
-  double least = HUGE_VAL, next = HUGE_VAL;  // squared
 
-  void look(const Place& at, const Cell& offset, std::uint32_t seed) {
-    const glm::dvec3 o(offset), away = glm::max(glm::max(o - at.t, at.t - o - 1.0), glm::dvec3(0.0));
-    if (glm::dot(away, away) >= next) return;
-    const std::uint32_t hash = hashOf(at.cell + offset, seed);
-    const Cell place(hash & 1023u, hash >> 10 & 1023u, hash >> 20 & 1023u);
-    const glm::dvec3 way = at.t - o - (glm::dvec3(place) + 0.5) / 1024.0;
-    const double square = glm::dot(way, way);
-    if (square < least)
-      second = std::exchange(first, way), next = std::exchange(least, square);
-    else if (square < next)
-      second = way, next = square;
+  TwoNearest(const Place& at, std::uint32_t seed) : at_(at), seed_(seed) {
+    double beyond = HUGE_VAL;  // how far the cells that are two away are at least, squared
+    for (int k = 0; k < 3; ++k) {
+      for (int o = -kMost; o <= kMost; ++o) {
+        const double gap = std::max({o - at.t[k], at.t[k] - o - 1.0, 0.0});
+        gaps_[k][o + kMost] = gap * gap;
+      }
+      beyond = std::min({beyond, gaps_[k][0], gaps_[k][2 * kMost]});
+    }
+    look({0, 0, 0});
+    lookAround(1);
+    if (next_ > beyond) lookAround(2);
   }
-};
 
-TwoNearest twoNearest(const Place& at, std::uint32_t seed) {
-  TwoNearest nearest;
-  for (const int reach : {1, 2})
+ private:
+  static constexpr int kMost = 2;
+
+  // At the cells that are so many away along some axis.
+  void lookAround(int reach) {
     for (int z = -reach; z <= reach; ++z)
-      for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x)
-          if (reach == 1 || std::max({std::abs(x), std::abs(y), std::abs(z)}) == 2)
-            nearest.look(at, {x, y, z}, seed);
-  return nearest;
-}
+      for (int y = -reach; y <= reach; ++y) {
+        if (gaps_[2][z + kMost] + gaps_[1][y + kMost] >= next_) continue;
+        const int step = std::max(std::abs(y), std::abs(z)) == reach ? 1 : 2 * reach;
+        for (int x = -reach; x <= reach; x += step) look({x, y, z});
+      }
+  }
+
+  void look(const Cell& offset) {
+    if (gaps_[0][offset.x + kMost] + gaps_[1][offset.y + kMost] + gaps_[2][offset.z + kMost] >= next_) return;
+    const std::uint32_t hash = hashOf(at_.cell + offset, seed_);
+    const Cell place(hash & 1023u, hash >> 10 & 1023u, hash >> 20 & 1023u);
+    const glm::dvec3 way = at_.t - glm::dvec3(offset) - (glm::dvec3(place) + 0.5) / 1024.0;
+    const double square = glm::dot(way, way);
+    if (square < least_)
+      second = std::exchange(first, way), next_ = std::exchange(least_, square);
+    else if (square < next_)
+      second = way, next_ = square;
+  }
+
+  const Place& at_;
+  const std::uint32_t seed_;
+  double gaps_[3][2 * kMost + 1];  // to the cells by their offset along each axis, squared
+  double least_ = HUGE_VAL, next_ = HUGE_VAL;
+};
 
 ValueAndGradient lengthOf(const glm::dvec3& way) {
   const double length = glm::length(way);
@@ -142,10 +162,12 @@ constexpr const char* kGradient = R"(float a = (h & 1u) != 0u ? -1.0 : 1.0, b = 
     sum.yzw += w.x * w.y * w.z * g;)";
 constexpr const char* kCells = R"(void NAMENearest(vec3 p, out vec3 first, out vec3 second) {
   vec3 q = clamp(p, -1073741824.0, 1073741824.0), cell = floor(q), t = q - cell;
-  float least = 1e9, next = 1e9;
+  vec3 edge = min(1.0 + t, 2.0 - t);
+  float least = 1e9, next = 1e9, beyond = min(edge.x, min(edge.y, edge.z));
   first = second = vec3(0.0);
   for (int i = 0; i < 152; ++i) {
     // The 27 cells around before the 125.
+    if (i == 27 && next <= beyond * beyond) break;
     ivec3 c = i < 27 ? ivec3(i % 3, (i / 3) % 3, i / 9) - 1
                      : ivec3((i - 27) % 5, ((i - 27) / 5) % 5, (i - 27) / 25) - 2;
     if (i >= 27 && max(abs(c.x), max(abs(c.y), abs(c.z))) < 2) continue;
@@ -203,7 +225,7 @@ ValueAndGradient LatticeNoise::read(const glm::dvec3& p) const {
   } else if (kind_ == Kind::Gradient) {
     f = betweenNodes<true, kWithGradient>(seed_, at);
   } else {
-    const TwoNearest nearest = twoNearest(at, seed_);
+    const TwoNearest nearest(at, seed_);
     f = lengthOf(kind_ == Kind::Nearest ? nearest.first : nearest.second);
     if (kind_ == Kind::Border) {
       const ValueAndGradient first = lengthOf(nearest.first);
