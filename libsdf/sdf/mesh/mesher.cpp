@@ -113,9 +113,14 @@ std::optional<PlacedTriangles> ownTriangles(const Shape& shape, const MeshOption
 // Runs the stages of one mesh and keeps their times.
 class Mesher : LatticeSource {
  public:
-  /// `isPiece`: others may have a surface where it has none.
-  Mesher(const std::string& name, const MeshOptions& options, Progress& progress, bool isPiece = false)
-      : name_(name), options_(options), progress_(progress), isPiece_(isPiece), clip_(options.bounds) {}
+  /// One of so many pieces of a shape: others may have a surface where it has none.
+  Mesher(const std::string& name, const MeshOptions& options, Progress& progress, std::size_t pieces)
+      : name_(name),
+        options_(options),
+        progress_(progress),
+        pieces_(pieces),
+        isPiece_(pieces > 1),
+        clip_(options.bounds) {}
 
   Result<MeshedShape> run(Shape shape) {
     if (!shape.ok()) return sceneError(name_, *shape.error);
@@ -160,7 +165,7 @@ class Mesher : LatticeSource {
       if (thins) {
         result_.stats.tolerance = options_.tolerance;
         begin("simplifying");
-        if (surface_.empty()) surface_ = surfacePoints(*model_, bounds_, progress_);
+        findSurfacePoints();
         const bool finer = !last && (options_.strict || cheap);
         lattice.isResolved = result_.stats.unresolved == 0;
         const Ladder::End end = ladder.climb(*sampled, halvings == 0, finer);
@@ -349,9 +354,16 @@ class Mesher : LatticeSource {
     return std::move(result_);
   }
 
+  // Once. Pieces share the cells in which it is looked for, as a union's operands do.
+  void findSurfacePoints() {
+    if (surface_.empty())
+      surface_ =
+          surfacePoints(*model_, bounds_, progress_, std::max(kSurfaceCells / pieces_, kFewestSurfaceCells));
+  }
+
   // What the mesh lacks is seen from the surface only.
   void measureToMesh(const FeatureMesh& mesh, const BandField& field) {
-    if (surface_.empty()) surface_ = surfacePoints(*model_, bounds_, progress_);
+    findSurfacePoints();
     MeshStats& stats = result_.stats;
     // A cell's diagonal, beyond which there is no vertex in a cell; few triangles may be as far as the
     // tolerance.
@@ -491,6 +503,7 @@ class Mesher : LatticeSource {
   Box bounds_;  // the finite box to mesh in
   Progress& progress_;
   Progress simplifying_{&progress_};  // nobody knows how often it is tried, and so what share is done
+  std::size_t pieces_;
   bool isPiece_;
   std::optional<Box> clip_;  // as the options have it
   glm::dvec3 origin_{0.0};   // of the coordinates in use
@@ -522,14 +535,14 @@ MeshOptions bySize(const Box& bounds, double voxel, MeshOptions options) {
 // What is a mesh from a file leaves by its own triangles where they are asked for, or where others that keep
 // the tolerance are no fewer.
 Result<MeshedShape> meshOne(const Shape& shape, const std::string& name, const MeshOptions& options,
-                            Progress& progress, bool isPiece = false) {
-  Result<MeshedShape> made = Mesher(name, options, progress, isPiece).run(shape);
+                            Progress& progress, std::size_t pieces = 1) {
+  Result<MeshedShape> made = Mesher(name, options, progress, pieces).run(shape);
   if (options.keepsFiles || progress.stopped()) return made;
   const auto own = ownTriangles(shape, options);
   if (!own || own->offBy > 0.0 || (made && made->stats.triangles < own->mesh.triangles.size())) return made;
   MeshOptions kept = options;
   kept.keepsFiles = true;
-  return Mesher(name, kept, progress, isPiece).run(shape);
+  return Mesher(name, kept, progress, pieces).run(shape);
 }
 
 // Pieces that lie apart each by itself, where they have triangles by their own size.
@@ -541,7 +554,7 @@ Result<MeshedShape> meshInPieces(const Shape& shape, const std::string& name, co
   const std::vector<Piece> pieces = isolatedPieces(shape, 2.0 * std::max(voxel, options.tolerance));
   if (pieces.size() > 1) {
     const auto mesh = [&](const Shape& piece, Progress& own) {
-      return meshOne(piece, name, bySize(piece.bounds, voxel, options), own, true);
+      return meshOne(piece, name, bySize(piece.bounds, voxel, options), own, pieces.size());
     };
     Result<MeshedShape> meshed = meshPieces(shape, pieces, options.values, mesh, progress);
     if (!meshed || !meshed->mesh.triangles.empty()) return meshed;

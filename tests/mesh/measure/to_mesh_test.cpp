@@ -33,6 +33,21 @@ TEST(DistanceToMesh, IsNoneOfABoxFromItself) {
   EXPECT_GE(d.points, 1000u);
 }
 
+// Of a piece among many, still all over it.
+TEST(SurfacePoints, AreFewerInFewerCells) {
+  Progress progress;
+  const Shape shape = sphere(1.0);
+  const ModelTapes model = Model(shape).at();
+  const std::vector<glm::vec3> all = surfacePoints(model, shape.bounds, progress),
+                               few = surfacePoints(model, shape.bounds, progress, kFewestSurfaceCells);
+  EXPECT_LT(few.size(), all.size() / 3);
+  EXPECT_GT(few.size(), kFewestSurfaceCells);
+  for (const glm::vec3& p : all)
+    EXPECT_LT(glm::distance(p, *std::ranges::min_element(
+                                   few, {}, [&](const glm::vec3& q) { return glm::distance(p, q); })),
+              0.35f);
+}
+
 // Those that are nearer than the farthest before them are not looked at closely; the result is the same.
 TEST(DistanceToMesh, IsThatOfEveryPointByItself) {
   Progress progress;

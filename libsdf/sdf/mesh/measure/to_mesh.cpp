@@ -21,8 +21,8 @@
 namespace sdf {
 namespace {
 
-// Cells of the whole; and of one operand of many, between these.
-constexpr std::size_t kCells = 2048, kFewestCells = 64;
+// Cells of one operand of many at least.
+constexpr std::size_t kFewestCells = 64;
 // Times the cells that there are at first: so many are looked into at most. A gear, a chain, the creature and
 // the twisted tower of the samples are decided by then, the planet's noise in two thirds of what was open at
 // worst; where solids touch it never is.
@@ -106,15 +106,16 @@ class Divider {
   tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
-std::vector<Cell> cellsOf(Divider& divider, const ModelTapes& model, const Box& bounds, Progress& progress) {
-  std::vector<Cell> cells = divider.divide(bounds.grown(kMargin * bounds.longestSide()), kCells, progress);
+std::vector<Cell> cellsOf(Divider& divider, const ModelTapes& model, const Box& bounds, std::size_t count,
+                          Progress& progress) {
+  std::vector<Cell> cells = divider.divide(bounds.grown(kMargin * bounds.longestSide()), count, progress);
   const std::size_t operands = model.all().size();
   if (operands < 2) return cells;
   for (const std::uint32_t operand : model.all()) {
     const Box box = intersect(model.boundsOf(operand), bounds);
     if (box.empty() || !box.finite() || box.contains(bounds)) continue;
     std::vector<Cell> more = divider.divide(box.grown(kMargin * box.longestSide()),
-                                            std::max(kCells / operands, kFewestCells), progress);
+                                            std::max(count / operands, kFewestCells), progress);
     cells.insert(cells.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
   }
   return cells;
@@ -122,11 +123,12 @@ std::vector<Cell> cellsOf(Divider& divider, const ModelTapes& model, const Box& 
 
 }  // namespace
 
-std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress) {
+std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress,
+                                     std::size_t count) {
   Divider divider(model);
   tbb::enumerable_thread_specific<CellRoots> roots(model.slope(), bounds.longestSide());
   std::vector<glm::vec3> all;
-  std::vector<Cell> cells = cellsOf(divider, model, bounds, progress);
+  std::vector<Cell> cells = cellsOf(divider, model, bounds, count, progress);
   const std::size_t most = kSearched * cells.size();
   for (std::size_t searched = 0; !cells.empty() && searched < most;) {
     std::vector<std::vector<glm::vec3>> found(cells.size());

@@ -1,5 +1,6 @@
 // How far the surface is from a mesh: what a mesh lacks cannot be seen from the mesh.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -21,13 +22,17 @@ struct SurfaceDistance {
   std::uint64_t beyond = 0;  ///< how many of them are farther than was asked about
 };
 
+/// Cells in which the surface of a shape is looked for, and for one of many pieces of a shape at least.
+inline constexpr std::size_t kSurfaceCells = 2048, kFewestSurfaceCells = 256;
+
 /// Points of the model's surface, found from the function alone: the bounds, and those of each operand of a
-/// union, are halved into some thousand cells in which intervals do not tell that there is no surface, and
+/// union, are halved into about so many cells in which intervals do not tell that there is no surface, and
 /// lines through each cell are followed to where the sign changes (cell_roots.h). So points are as dense as
 /// the operand is small. Cells in which no point is found are halved on until the slope or intervals tell
 /// that there is none, or a multiple of the cells was looked into: a small piece of the surface far from the
 /// rest is not passed over. Does not depend on the number of threads.
-std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress);
+std::vector<glm::vec3> surfacePoints(const ModelTapes& model, const Box& bounds, Progress& progress,
+                                     std::size_t cells = kSurfaceCells);
 
 /// The nearest of the triangles, at least one, to each point; or any of them that is no farther than
 /// `within`. Cost: log n of the triangles for each point; less where most are near.
