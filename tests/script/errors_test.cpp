@@ -277,6 +277,9 @@ TEST(Errors, ValuesThatMakeNoSenseAreRefused) {
        "scene.lua:1: gradient_noise: 'octaves' must be 8 or less, got 9"},
       {"return sphere(1):paint(value_noise(0, 0, 0, {seed = -1}))",
        "scene.lua:1: value_noise: 'seed' must be 0 or more, got -1"},
+      {"return sphere(1):paint(value_noise(0, 0, 0, {seed = 2e9}))",
+       "scene.lua:1: value_noise: 'seed' must be a whole number from -1e9 to 1e9, got the number "
+       "2000000000.0"},
       {"return sphere(1):paint(cell_noise(0, 0, 0, {kind = 'third'}))",
        "scene.lua:1: cell_noise: 'kind' must be one of \"nearest\", \"second\" or \"border\", got a string "
        "\"third\""},

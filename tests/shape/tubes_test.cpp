@@ -78,6 +78,28 @@ TEST(Tube, TapersAsItsBallsDo) {
   expectClaim(shape, cube(1.5), 5);
 }
 
+// Whichever way, and within the range of a slider.
+TEST(Tube, IsTheLargerBallWhereItHoldsTheOther) {
+  const std::vector<dvec3> two{{0, 0, 0}, {1, 0, 0}};
+  expectSame(taperedTube(two, {0.1, 1.5}), translate(sphere(1.5), Vec3E(two[1])), 3.0, 1e-5);
+  expectSame(taperedTube(two, {1.5, 0.1}), sphere(1.5), 3.0, 1e-5);
+  const Expr k = Expr::parameter({"k", 0.1, 0.1, 2.0});
+  for (const bool first : {false, true}) {
+    const Shape shape = taperedTube(two, {first ? k : 0.1, first ? 0.1 : k});
+    for (const double radius : {0.5, 1.05, 1.9}) {
+      const Probe f(shape.distance, {{"k", radius}});
+      const Probe expected(taperedTube(two, {first ? radius : 0.1, first ? 0.1 : radius}).distance);
+      Points points(4);
+      for (int i = 0; i < 500; ++i) {
+        const dvec3 p = points.in(cube(3.0));
+        ASSERT_NEAR(f(p), expected(p), 1e-5) << text(p) << " " << radius;
+      }
+    }
+  }
+  EXPECT_EQ(taperedTube(two, {0.5, 0.1}).bounds.min, dvec3(-0.5));
+  EXPECT_EQ(taperedTube(two, {0.5, 0.1}).bounds.max, dvec3(1.1, 0.5, 0.5));
+}
+
 // However the points lie on it.
 TEST(CurvedTube, ThroughPointsOfACircleIsARing) {
   const dvec3 turn{0.4, 1.1, -0.7};
@@ -174,10 +196,7 @@ TEST(Tube, RefusesWhatHasNoLine) {
             "tube: points 3 and 1 are the same");
   EXPECT_EQ(*taperedTube(two, {0.1}).error, "tube: it needs a radius for each point, 2, got 1");
   EXPECT_EQ(*taperedTube(two, {0.1, -1.0}).error, "tube: radius 2 must be positive, got -1");
-  EXPECT_EQ(*taperedTube(two, {0.1, 1.5}).error,
-            "tube: of the balls at points 1 and 2 one holds the other; move the points apart, or leave out "
-            "the smaller "
-            "one");
+  EXPECT_EQ(*taperedTube(same, {0.1, 0.2, 0.3}).error, "tube: points 2 and 3 are the same");
   EXPECT_EQ(*struts({}, {}, 0.1).error, "struts: it needs at least one edge");
   EXPECT_EQ(*struts(moving(two), {{0, 2}}, 0.1).error, "struts: edge 1 names point 3 of 2");
 }

@@ -160,29 +160,35 @@ constexpr const char* kGradient = R"(float a = (h & 1u) != 0u ? -1.0 : 1.0, b = 
     sum += dot(g, t - vec3(side)) *
            vec4(w.x * w.y * w.z, d.x * w.y * w.z, w.x * d.y * w.z, w.x * w.y * d.z);
     sum.yzw += w.x * w.y * w.z * g;)";
-constexpr const char* kCells = R"(void NAMENearest(vec3 p, out vec3 first, out vec3 second) {
-  vec3 q = clamp(p, -1073741824.0, 1073741824.0), cell = floor(q), t = q - cell;
-  vec3 edge = min(1.0 + t, 2.0 - t);
-  float least = 1e9, next = 1e9, beyond = min(edge.x, min(edge.y, edge.z));
-  first = second = vec3(0.0);
-  for (int i = 0; i < 152; ++i) {
-    // The 27 cells around before the 125.
-    if (i == 27 && next <= beyond * beyond) break;
-    ivec3 c = i < 27 ? ivec3(i % 3, (i / 3) % 3, i / 9) - 1
-                     : ivec3((i - 27) % 5, ((i - 27) / 5) % 5, (i - 27) / 25) - 2;
-    if (i >= 27 && max(abs(c.x), max(abs(c.y), abs(c.z))) < 2) continue;
-    vec3 away = max(max(vec3(c) - t, t - vec3(c) - 1.0), vec3(0.0));
-    if (dot(away, away) >= next) continue;
-    uint h = NAMEHash(ivec3(cell) + c);
-    vec3 way = t - vec3(c) - (vec3(uvec3(h, h >> 10, h >> 20) & 1023u) + 0.5) / 1024.0;
-    float square = dot(way, way);
-    if (square < least) {
-      second = first; next = least;
-      first = way; least = square;
-    } else if (square < next) {
-      second = way; next = square;
-    }
+// Few turns of loops: llvmpipe ends all loops of a shader after 65,535 turns together.
+constexpr const char* kCells = R"(struct NAMEPoints { vec3 first, second; float least, next; };
+void NAMELook(ivec3 cell, vec3 t, ivec3 c, inout NAMEPoints f) {
+  vec3 away = max(max(vec3(c) - t, t - vec3(c) - 1.0), vec3(0.0));
+  if (dot(away, away) >= f.next) return;
+  uint h = NAMEHash(cell + c);
+  vec3 way = t - vec3(c) - (vec3(uvec3(h, h >> 10, h >> 20) & 1023u) + 0.5) / 1024.0;
+  float square = dot(way, way);
+  if (square < f.least) {
+    f.second = f.first; f.next = f.least;
+    f.first = way; f.least = square;
+  } else if (square < f.next) {
+    f.second = way; f.next = square;
   }
+}
+void NAMENearest(vec3 p, out vec3 first, out vec3 second) {
+  vec3 q = clamp(p, -1073741824.0, 1073741824.0), start = floor(q), t = q - start;
+  ivec3 cell = ivec3(start);
+  NAMEPoints f = NAMEPoints(vec3(0.0), vec3(0.0), 1e9, 1e9);
+  for (int z = -1; z <= 1; ++z) {
+AROUND  }
+  vec3 edge = min(1.0 + t, 2.0 - t);
+  float beyond = min(edge.x, min(edge.y, edge.z));
+  if (f.next > beyond * beyond)
+    for (int z = -2; z <= 2; ++z)
+      for (int y = -2; y <= 2; ++y)
+        for (int x = -2; x <= 2; ++x)
+          if (max(abs(x), max(abs(y), abs(z))) == 2) NAMELook(cell, t, ivec3(x, y, z), f);
+  first = f.first; second = f.second;
 }
 float NAME(vec3 p) {
   vec3 a, b;
@@ -273,7 +279,12 @@ std::string LatticeNoise::glsl(const std::string& name) const {
     const std::string slopes = isFirst                 ? unit("a")
                                : kind_ == Kind::Second ? unit("b")
                                                        : unit("b") + " - " + unit("a");
-    text += replaced(replaced(kCells, "VALUE", value), "SLOPES", slopes);
+    std::string around;
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        around +=
+            "    NAMELook(cell, t, ivec3(" + std::to_string(x) + ", " + std::to_string(y) + ", z), f);\n";
+    text += replaced(replaced(replaced(kCells, "AROUND", around), "VALUE", value), "SLOPES", slopes);
   }
   return replaced(replaced(text, "SEED", std::to_string(seed_)), "NAME", name);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <lua.hpp>
+#include <set>
+#include <span>
 
 #include "sdf/expr/origin.h"
 #include "sdf/script/context.h"
@@ -411,6 +413,14 @@ int notArithmetic(lua_State* L) {
         "translate, sized with scale");
 }
 
+// Names of the parameters, and of the clock, that the distance depends on.
+std::set<std::string> inputsOf(const Shape& shape) {
+  std::set<std::string> names;
+  for (const Expr& node : topologicalOrder(std::span(&shape.distance, 1)))
+    if (node.op() == Op::Parameter) names.insert(node.parameterInfo().name);
+  return names;
+}
+
 // A shape that is called: its distance at a place, a formula even where it is a constant, for its numbers may
 // come from parameters.
 int distanceOfShape(lua_State* L) {
@@ -430,15 +440,22 @@ int distanceOfShape(lua_State* L) {
   return pushFormula(L, distanceAt(shape, place)), 1;
 }
 
-// Two corners of a box that holds the shape for all values of parameters; of a flat shape those of a
-// rectangle.
+// Two corners of a box that holds the shape; of a flat shape those of a rectangle. What parameters and the
+// clock change has a box for their present values: the script runs again where that is not known yet, and for
+// others.
 int boundsOfShape(lua_State* L) {
-  const Shape& shape = readShape(L, 1, "bounds: the shape");
-  if (lua_gettop(L) != 1) raise(L, "bounds: too many arguments; write local low, high = shape:bounds()");
-  if (isMissing(shape)) raise(L, *shape.error);
-  for (const glm::dvec3& corner : {shape.bounds.min, shape.bounds.max}) {
+  const Shape* shape = testShape(L, 1);
+  if (!shape || lua_gettop(L) != 1)
+    raise(L, "bounds: write local low, high = shape:bounds(), got " + describe(L, shape ? 2 : 1));
+  if (isMissing(*shape)) raise(L, *shape->error);
+  ScriptContext& c = contextOf(L);
+  for (const std::string& input : inputsOf(*shape)) {
+    c.scene.valuesRead.insert(input);
+    if (!c.options.narrowed.contains(input)) c.toNarrow.insert(input);
+  }
+  for (const glm::dvec3& corner : {shape->bounds.min, shape->bounds.max}) {
     pushResult(L, Vec3E(corner));
-    if (shape.dimension == 3) continue;
+    if (shape->dimension == 3) continue;
     lua_pushnil(L);
     lua_rawseti(L, -2, 3);
   }

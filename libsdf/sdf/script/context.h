@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -40,6 +41,7 @@ struct ScriptContext {
   std::unordered_set<std::string> partNames;  ///< of those made so far
   int materials = 0;                          ///< made so far
   std::vector<OffsetNote> offsets;            ///< to be looked at when the scene is made
+  std::set<std::string> toNarrow;  ///< inputs for whose present values alone the script is to run again
 
   NodeLimit nodes;
   std::int64_t nodesAtCollection = 0;

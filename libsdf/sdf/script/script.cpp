@@ -100,7 +100,13 @@ Result<Scene> runScene(const std::string& text, const std::string& name, const S
   const std::string source = text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
   if (source.starts_with('\x1B')) return sceneError(name, "this is compiled Lua; give the scene's text");
   ScriptContext context(name, options);
-  if (const Status ran = runInSandbox(context, source); !ran) return ran.error();
+  const Status ran = runInSandbox(context, source);
+  if (!context.toNarrow.empty()) {
+    ScriptOptions narrower = options;
+    narrower.narrowed.merge(context.toNarrow);
+    return runScene(text, name, narrower);
+  }
+  if (!ran) return ran.error();
   lookAtOffsets(context);
   lookForNoNumbers(context);
   if (const Status known = checkOverrides(context.scene, options, name); !known) return known.error();

@@ -11,9 +11,24 @@ namespace {
 
 constexpr const char* kPoints = "a list of points {{x, y, z}, …}";
 
+// The name of a point after so many others, which is no number.
+std::string pointAt(lua_State* L, int index, const FunctionInfo& f, std::size_t others) {
+  const std::string what = f.name + ": point " + std::to_string(others + 1);
+  if (isNumeric(L, index))
+    raise(L, what + " must be {x, y, z}, got " + describe(L, index) + "; write " + f.usage);
+  return what;
+}
+
+// Pushes what stands in the place of parts that the script does not name.
+int pushTube(lua_State* L, const FunctionInfo& f, Shape shape) {
+  if (shape.claim.kind != ClaimKind::Exact)
+    shape.inexactSince = f.name + " in line " + std::to_string(currentLine(L));
+  return pushGood(L, std::move(shape));
+}
+
 std::vector<glm::dvec3> fixedPoints(lua_State* L, const FunctionInfo& f) {
   std::vector<glm::dvec3> points;
-  const auto read = [&](int at) { points.push_back(readPoint(L, at, f.name + ": a point", 3)); };
+  const auto read = [&](int at) { points.push_back(readPoint(L, at, pointAt(L, at, f, points.size()), 3)); };
   forEachIn(L, 1, f.name + ": the points", kPoints, read);
   return points;
 }
@@ -21,14 +36,14 @@ std::vector<glm::dvec3> fixedPoints(lua_State* L, const FunctionInfo& f) {
 std::vector<Vec3E> movingPoints(lua_State* L, const FunctionInfo& f) {
   std::vector<Vec3E> points;
   const auto read = [&](int at) {
-    points.push_back(readVector(L, at, f.name + ": a point", 3, Depends::OnParameters));
+    points.push_back(readVector(L, at, pointAt(L, at, f, points.size()), 3, Depends::OnParameters));
   };
   forEachIn(L, 1, f.name + ": the points", kPoints, read);
   return points;
 }
 
-Expr radiusAt(lua_State* L, int index, const FunctionInfo& f) {
-  return readNumber(L, index, f.name + ": the radius", Depends::OnParameters);
+Expr radiusAt(lua_State* L, int index, const FunctionInfo& f, const std::string& which = "the radius") {
+  return readNumber(L, index, f.name + ": " + which, Depends::OnParameters);
 }
 
 }  // namespace
@@ -40,22 +55,25 @@ int tubeShape(lua_State* L) {
   const bool isCurve = valueOr(given, "curve", false), isClosed = valueOr(given, "closed", false);
   if (!lua_istable(L, 2)) {
     const Expr radius = radiusAt(L, 2, f);
-    return pushGood(L, isCurve ? curvedTube(fixedPoints(L, f), radius, isClosed)
-                               : tube(movingPoints(L, f), radius, isClosed));
+    return pushTube(L, f,
+                    isCurve ? curvedTube(fixedPoints(L, f), radius, isClosed)
+                            : tube(movingPoints(L, f), radius, isClosed));
   }
   if (isCurve) raise(L, f.name + ": along a curve the radius is one number");
   std::vector<Expr> radii;
-  forEachIn(L, 2, f.name + ": the radii", "a list of numbers",
-            [&](int at) { radii.push_back(radiusAt(L, at, f)); });
-  return pushGood(L, taperedTube(fixedPoints(L, f), radii, isClosed));
+  forEachIn(L, 2, f.name + ": the radii", "a list of numbers", [&](int at) {
+    radii.push_back(radiusAt(L, at, f, "radius " + std::to_string(radii.size() + 1)));
+  });
+  return pushTube(L, f, taperedTube(fixedPoints(L, f), radii, isClosed));
 }
 
 int strutsShape(lua_State* L) {
   expectArguments(L, 3, 3);
   const FunctionInfo& f = runningFunction(L);
   std::vector<std::pair<std::size_t, std::size_t>> edges;
-  const std::string edge = f.name + ": an edge", wanted = "a pair of points' numbers {1, 2}";
+  const std::string wanted = "a pair of points' numbers {1, 2}";
   forEachIn(L, 2, f.name + ": the edges", "a list of pairs {{1, 2}, …}", [&](int at) {
+    const std::string edge = f.name + ": edge " + std::to_string(edges.size() + 1);
     std::vector<std::size_t> ends;
     forEachIn(L, at, edge, wanted.c_str(), [&](int end) {
       const int number = readInteger(L, end, edge);
@@ -65,7 +83,7 @@ int strutsShape(lua_State* L) {
     if (ends.size() != 2) raise(L, edge + " must be " + wanted + ", got " + describe(L, at));
     edges.emplace_back(ends[0], ends[1]);
   });
-  return pushGood(L, struts(movingPoints(L, f), edges, radiusAt(L, 3, f)));
+  return pushTube(L, f, struts(movingPoints(L, f), edges, radiusAt(L, 3, f)));
 }
 
 }  // namespace sdf

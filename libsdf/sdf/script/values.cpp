@@ -339,7 +339,8 @@ double readPlainNumber(lua_State* L, int index, const std::string& what) {
 int readInteger(lua_State* L, int index, const std::string& what) {
   const double v = readPlainNumber(L, index, what);
   constexpr double kLargest = 1e9;
-  if (v != std::floor(v) || std::abs(v) > kLargest) wrongType(L, index, what, "a whole number");
+  if (v != std::floor(v)) wrongType(L, index, what, "a whole number");
+  if (std::abs(v) > kLargest) wrongType(L, index, what, "a whole number from -1e9 to 1e9");
   return static_cast<int>(v);
 }
 

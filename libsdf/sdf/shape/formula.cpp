@@ -81,6 +81,21 @@ Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom
   return max(atBottom, pastOrOut(out, past));
 }
 
+Expr roundConeDistance(const Expr& across, const Expr& along, const Expr& bottom, const Expr& top,
+                       const Expr& half) {
+  const Expr height = half + half;
+  const Expr steep = clamp((bottom - top) / height, -kSteepestCone, kSteepestCone);  // the slope's sine
+  // The ball between the two, of radius bottom - steep * s, that comes closest to the point.
+  const Expr s = clamp(along + half - scaled(across, steep / sqrt(1.0 - square(steep))), 0.0, height);
+  // Between the balls this is across / cos(slope).
+  const double steepest = std::max(upper(steep), -lower(steep));
+  const Expr toCentre =
+      length(across, along + half - s).claimLipschitz(1.0 / std::sqrt(1.0 - steepest * steepest));
+  const Expr distance = toCentre + scaled(s, steep) - bottom;
+  // What has become of the ball at the top is smaller than it where it holds the other.
+  return upper(top - bottom - height) < 0.0 ? distance : min(distance, norm(across, along - half) - top);
+}
+
 Expr arcDistance(const Expr& along, const Expr& across, const Expr& radius, const Expr& angle) {
   const Expr side = abs(across), s = sin(angle), c = cos(angle);
   const Expr within = lessEqual(side * c, along * s);

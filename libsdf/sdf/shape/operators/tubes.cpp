@@ -10,7 +10,6 @@
 #include "sdf/shape/check.h"
 #include "sdf/shape/formula.h"
 #include "sdf/shape/operators/booleans.h"
-#include "sdf/shape/operators/place.h"
 #include "sdf/shape/solids/solids.h"
 
 namespace sdf {
@@ -139,19 +138,24 @@ Shape joined(std::size_t points, bool closed, const Make& make) {
   return unite(pieces);
 }
 
-std::string bothPoints(std::size_t i, std::size_t k) {
-  return "points " + std::to_string(i + 1) + " and " + std::to_string(k + 1);
+void checkNeighbours(Check& check, const std::vector<dvec3>& points, bool closed) {
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; check.ok() && i + (closed ? 0 : 1) < n; ++i) {
+    const std::size_t k = (i + 1) % n;
+    check.that(points[i] != points[k],
+               "points " + std::to_string(i + 1) + " and " + std::to_string(k + 1) + " are the same");
+  }
 }
 
-// The hull of two balls, neither of which holds the other.
+// The hull of two balls, or the one that holds the other.
 Shape coneBetween(const dvec3& from, const dvec3& to, const Expr& radiusFrom, const Expr& radiusTo) {
-  const dvec3 way = to - from;
-  const Shape upright = roundCone(radiusFrom, radiusTo, 0.5 * glm::length(way));
-  const dvec3 up(0.0, 1.0, 0.0), axis = glm::cross(up, way);
-  const double angle = std::atan2(glm::length(axis), way.y);
-  const Shape turned =
-      rotateAbout(upright, Vec3E(glm::length(axis) > 0.0 ? axis : dvec3(1.0, 0.0, 0.0)), angle);
-  return translate(turned, Vec3E(0.5 * (from + to)));
+  const double length = glm::distance(from, to);
+  const dvec3 along = (to - from) / length, side = anyAcross(along);
+  const Vec3E p = position() - Vec3E(0.5 * (from + to));
+  const Expr across = norm(weighted(p, Vec3E(side)), weighted(p, Vec3E(glm::cross(along, side))));
+  const double most = upper(max(radiusTo, radiusFrom - kSteepestCone * length));
+  return solid(roundConeDistance(across, weighted(p, Vec3E(along)), radiusFrom, radiusTo, 0.5 * length),
+               unite(Box{from, from}.grown(upper(radiusFrom)), Box{to, to}.grown(most)));
 }
 
 }  // namespace
@@ -175,12 +179,7 @@ Shape taperedTube(const std::vector<dvec3>& points, const std::vector<Expr>& rad
   for (std::size_t i = 0; i < radii.size() && c.ok(); ++i)
     c.positive("radius " + std::to_string(i + 1), radii[i]);
   const std::size_t n = points.size();
-  for (std::size_t i = 0; c.ok() && i + (closed ? 0 : 1) < n; ++i) {
-    const std::size_t k = (i + 1) % n;
-    c.that(uniformValue(abs(radii[i] - radii[k])) < glm::distance(points[i], points[k]),
-           "of the balls at " + bothPoints(i, k) +
-               " one holds the other; move the points apart, or leave out the smaller one");
-  }
+  checkNeighbours(c, points, closed);
   if (!c.ok()) return c.failure();
   return joined(n, closed, [&](std::size_t i, std::size_t k, std::vector<Shape>& pieces) {
     pieces.push_back(coneBetween(points[i], points[k], radii[i], radii[k]));
@@ -192,8 +191,7 @@ Shape curvedTube(const std::vector<dvec3>& points, const Expr& radius, bool clos
   checkCount(c, points.size(), closed);
   c.positive("radius", radius);
   const std::size_t n = points.size();
-  for (std::size_t i = 0; c.ok() && i + (closed ? 0 : 1) < n; ++i)
-    c.that(points[i] != points[(i + 1) % n], bothPoints(i, (i + 1) % n) + " are the same");
+  checkNeighbours(c, points, closed);
   if (!c.ok()) return c.failure();
   const std::vector<dvec3> tangents = tangentsOf(points, closed);
   return joined(n, closed, [&](std::size_t i, std::size_t k, std::vector<Shape>& pieces) {

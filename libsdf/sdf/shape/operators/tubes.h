@@ -15,8 +15,8 @@ namespace sdf {
 /// one where it is closed. Two points or more, three if it is closed.
 Shape tube(const std::vector<Vec3E>& points, const Expr& radius, bool closed = false);
 
-/// The hulls of neighbouring balls about such points, each with a radius > 0 of its own. Of two neighbours
-/// neither may hold the other.
+/// The hulls of neighbouring balls about such points, each with a radius > 0 of its own. Neighbours must be
+/// different.
 Shape taperedTube(const std::vector<glm::dvec3>& points, const std::vector<Expr>& radii, bool closed = false);
 
 /// The tube along a smooth curve through the points. From one to the next lead two arcs of circles, tangent

@@ -152,18 +152,10 @@ Shape roundCone(const Expr& radiusBottom, const Expr& radiusTop, const Expr& hal
                shown(2.0 * uniformValue(halfHeight)) + ", or one ball holds the other");
   if (!c.ok()) return c.failure();
   const Vec3E p = position();
-  const Expr h = positiveSize(halfHeight), height = h + h, rho = radial(p);
-  // Sine of the side's slope, held where one ball nearly holds the other.
-  constexpr double kSteepest = 1.0 - 1e-6;
-  const Expr steep = clamp((radiusBottom - radiusTop) / height, -kSteepest, kSteepest);
-  // The ball between the two, of radius radiusBottom - steep * s, that comes closest to the point.
-  const Expr s = clamp(p.y + h - scaled(rho, steep / sqrt(1.0 - square(steep))), 0.0, height);
-  // Between the balls this is rho / cos(slope).
-  const double steepest = std::max(upper(steep), -lower(steep));
-  const Expr toCentre = length(rho, p.y + h - s).claimLipschitz(1.0 / std::sqrt(1.0 - steepest * steepest));
-  const Expr distance = toCentre + scaled(s, steep) - radiusBottom;
+  const Expr h = positiveSize(halfHeight);
+  const Expr distance = roundConeDistance(radial(p), p.y, radiusBottom, radiusTop, h);
   const double bottom = upper(radiusBottom),
-               top = std::max(upper(radiusTop), upper(radiusBottom - steep * height));
+               top = upper(max(radiusTop, radiusBottom - kSteepestCone * (h + h)));
   return solid(distance, roundBounds(std::max(bottom, top), -upper(h) - bottom, upper(h) + top));
 }
 
