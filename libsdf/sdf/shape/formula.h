@@ -60,10 +60,10 @@ Expr ellipsoidDistance(std::vector<Expr> radii, std::vector<Expr> coordinates);
 Expr trapezoidDistance(const Expr& across, const Expr& along, const Expr& bottom, const Expr& top,
                        const Expr& half);
 
+/// The sine of a round cone's slope is held at this where one of its balls nearly holds the other.
+inline constexpr double kSteepestCone = 1.0 - 1e-6;
 /// Exact distance to the hull of two balls at along = -half and half, from coordinates along and across the
 /// axis; where one holds the other, to the larger one. `across` must not be negative.
-inline constexpr double kSteepestCone =
-    1.0 - 1e-6;  ///< sine of its side's slope, where one ball nearly holds the other
 Expr roundConeDistance(const Expr& across, const Expr& along, const Expr& bottom, const Expr& top,
                        const Expr& half);
 
