@@ -115,12 +115,7 @@ class Mesher : LatticeSource {
  public:
   /// One of so many pieces of a shape: others may have a surface where it has none.
   Mesher(const std::string& name, const MeshOptions& options, Progress& progress, std::size_t pieces)
-      : name_(name),
-        options_(options),
-        progress_(progress),
-        pieces_(pieces),
-        isPiece_(pieces > 1),
-        clip_(options.bounds) {}
+      : name_(name), options_(options), progress_(progress), pieces_(pieces), clip_(options.bounds) {}
 
   Result<MeshedShape> run(Shape shape) {
     if (!shape.ok()) return sceneError(name_, *shape.error);
@@ -129,7 +124,7 @@ class Mesher : LatticeSource {
       bounds_ = *bounds;
     else
       return bounds.error();
-    if (isPiece_ && bounds_.empty()) return std::move(result_);
+    if (isPiece() && bounds_.empty()) return std::move(result_);
     double h = voxelSizeOf(options_, bounds_);
     if (const double least = kLeastTolerance * bounds_.longestSide();
         options_.tolerance > 0.0 && options_.tolerance < least)
@@ -161,7 +156,7 @@ class Mesher : LatticeSource {
           !thins || halvings == kHalvings || progress_.stopped() || mesh.triangles.size() > kMostTriangles;
       const bool cheap = mesh.triangles.size() <= kMostToTry;
       if (!last && cheap && canResolve(h / std::exp2(kHalvings - halvings))) continue;
-      if (mesh.triangles.empty()) return isPiece_ ? Result(std::move(result_)) : noSurface(h);
+      if (mesh.triangles.empty()) return isPiece() ? Result(std::move(result_)) : noSurface(h);
       if (thins) {
         result_.stats.tolerance = options_.tolerance;
         begin("simplifying");
@@ -354,6 +349,8 @@ class Mesher : LatticeSource {
     return std::move(result_);
   }
 
+  bool isPiece() const { return pieces_ > 1; }
+
   // Once. Pieces share the cells in which it is looked for, as a union's operands do.
   void findSurfacePoints() {
     if (surface_.empty())
@@ -395,7 +392,7 @@ class Mesher : LatticeSource {
       shape = cut(shape, bounds, *options_.bounds);
       bounds = intersect(bounds, *options_.bounds);
     }
-    if (bounds.empty() && isPiece_) return bounds;
+    if (bounds.empty() && isPiece()) return bounds;
     if (bounds.empty())
       return sceneError(name_, "nothing inside the bounds; enlarge the bounds or move the shape");
     if (!bounds.finite())
@@ -504,7 +501,6 @@ class Mesher : LatticeSource {
   Progress& progress_;
   Progress simplifying_{&progress_};  // nobody knows how often it is tried, and so what share is done
   std::size_t pieces_;
-  bool isPiece_;
   std::optional<Box> clip_;  // as the options have it
   glm::dvec3 origin_{0.0};   // of the coordinates in use
   MeshedShape result_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <lua.hpp>
-#include <set>
-#include <span>
 
 #include "sdf/expr/origin.h"
 #include "sdf/script/context.h"
@@ -413,14 +411,6 @@ int notArithmetic(lua_State* L) {
         "translate, sized with scale");
 }
 
-// Names of the parameters, and of the clock, that the distance depends on.
-std::set<std::string> inputsOf(const Shape& shape) {
-  std::set<std::string> names;
-  for (const Expr& node : topologicalOrder(std::span(&shape.distance, 1)))
-    if (node.op() == Op::Parameter) names.insert(node.parameterInfo().name);
-  return names;
-}
-
 // A shape that is called: its distance at a place, a formula even where it is a constant, for its numbers may
 // come from parameters.
 int distanceOfShape(lua_State* L) {
@@ -449,10 +439,8 @@ int boundsOfShape(lua_State* L) {
     raise(L, "bounds: write local low, high = shape:bounds(), got " + describe(L, shape ? 2 : 1));
   if (isMissing(*shape)) raise(L, *shape->error);
   ScriptContext& c = contextOf(L);
-  for (const std::string& input : inputsOf(*shape)) {
-    c.scene.valuesRead.insert(input);
+  for (const std::string& input : noteValuesRead(c, shape->distance))
     if (!c.options.narrowed.contains(input)) c.toNarrow.insert(input);
-  }
   for (const glm::dvec3& corner : {shape->bounds.min, shape->bounds.max}) {
     pushResult(L, Vec3E(corner));
     if (shape->dimension == 3) continue;

@@ -59,6 +59,9 @@ struct ScriptContext {
 /// The formula that stands for this parameter, as the options want it.
 Expr inputOf(const ScriptContext& context, ParameterInfo info);
 
+/// Notes that the script reads the present values of the inputs of a formula, and returns their names.
+std::set<std::string> noteValuesRead(ScriptContext& context, const Expr& e);
+
 /// The context of the script that runs in this state.
 ScriptContext& contextOf(lua_State* L);
 

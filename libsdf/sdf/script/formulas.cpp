@@ -191,8 +191,7 @@ int presentValue(lua_State* L) {
   if (lua_type(L, 1) == LUA_TNUMBER) return lua_pushvalue(L, 1), 1;
   const Expr e = argument(L, 1);
   if (dependsOnSpace(e)) raise(L, "value: the formula depends on the position, so it has no single value");
-  for (const Expr& node : topologicalOrder(std::span(&e, 1)))
-    if (node.op() == Op::Parameter) contextOf(L).scene.valuesRead.insert(node.parameterInfo().name);
+  noteValuesRead(contextOf(L), e);
   const double v = uniformValue(e);
   lua_Integer whole;
   if (v == std::floor(v) && lua_numbertointeger(v, &whole))

@@ -110,6 +110,10 @@ int makeSky(lua_State* L) {
 // clang-format off
 const std::vector<FunctionInfo>& patternLibrary() {
   using enum SettingKind;
+  const SettingInfo seed{"seed", Integer, "another number gives another noise", Rule::NotNegative, {}, "0"};
+  const std::vector<SettingInfo> smooth{{"octaves", Integer, "as of `noise`", Rule::Positive, {}, "1"},
+                                        {"ridged", Flag, "is each octave 1 - 2 abs(n), with sharp ridges?", Rule::Any, {}, "false"},
+                                        seed};
   static const std::vector<FunctionInfo> library{
       {"color", "color(r, g, b)", "any form of a colour as {r, g, b}, linear", {}, makeColor},
       {"checkerboard", "checkerboard(a, b, {scale = 1})", "squares of two colours in x and z",
@@ -127,20 +131,16 @@ const std::vector<FunctionInfo>& patternLibrary() {
        makeNoise},
       {"gradient_noise", "gradient_noise(x, y, z, {octaves = 1, ridged = false, seed = 0})",
        "Perlin's: a smooth random number in -1 … 1, 0 where x, y and z are whole; its slope is 3.84 at most",
-       {{"octaves", Integer, "as of `noise`", Rule::Positive, {}, "1"},
-        {"ridged", Flag, "is each octave 1 - 2 abs(n), with sharp ridges?", Rule::Any, {}, "false"},
-        {"seed", Integer, "another number gives another noise", Rule::NotNegative, {}, "0"}},
+       smooth,
        makeSmoothNoise<LatticeNoise::Kind::Gradient>},
       {"value_noise", "value_noise(x, y, z, {octaves = 1, ridged = false, seed = 0})",
        "a smooth random number in -1 … 1 between random numbers where x, y and z are whole; its slope is 3.75 at most",
-       {{"octaves", Integer, "as of `noise`", Rule::Positive, {}, "1"},
-        {"ridged", Flag, "is each octave 1 - 2 abs(n), with sharp ridges?", Rule::Any, {}, "false"},
-        {"seed", Integer, "another number gives another noise", Rule::NotNegative, {}, "0"}},
+       smooth,
        makeSmoothNoise<LatticeNoise::Kind::Value>},
       {"cell_noise", "cell_noise(x, y, z, {kind = \"nearest\", seed = 0})",
        "Worley's: the distance to random points, one in each cube of side 1; up to 1.73",
        {{"kind", Choice, "the distance to the nearest point, to the second nearest, or how much farther that is, which is 0 on the borders between the points' cells; the slope of the last is 2 at most", Rule::Any, {"nearest", "second", "border"}, "\"nearest\""},
-        {"seed", Integer, "another number gives another noise", Rule::NotNegative, {}, "0"}},
+        seed},
        makeCellNoise},
   };
   return library;

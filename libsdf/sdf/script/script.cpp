@@ -90,6 +90,14 @@ Expr inputOf(const ScriptContext& context, ParameterInfo info) {
   return Expr::parameter(info);
 }
 
+std::set<std::string> noteValuesRead(ScriptContext& context, const Expr& e) {
+  std::set<std::string> names;
+  for (const Expr& node : topologicalOrder(std::span(&e, 1)))
+    if (node.op() == Op::Parameter) names.insert(node.parameterInfo().name);
+  context.scene.valuesRead.insert(names.begin(), names.end());
+  return names;
+}
+
 Result<Scene> runScene(const std::string& text, const std::string& name, const ScriptOptions& options) {
   if (!std::isfinite(options.time)) return sceneError(name, "the time must be a finite number of seconds");
   for (const auto& [key, value] : options.values) {

@@ -9,8 +9,6 @@ namespace sdf {
 
 namespace {
 
-constexpr const char* kPoints = "a list of points {{x, y, z}, …}";
-
 // The name of a point after so many others, which is no number.
 std::string pointAt(lua_State* L, int index, const FunctionInfo& f, std::size_t others) {
   const std::string what = f.name + ": point " + std::to_string(others + 1);
@@ -26,20 +24,23 @@ int pushTube(lua_State* L, const FunctionInfo& f, Shape shape) {
   return pushGood(L, std::move(shape));
 }
 
-std::vector<glm::dvec3> fixedPoints(lua_State* L, const FunctionInfo& f) {
-  std::vector<glm::dvec3> points;
-  const auto read = [&](int at) { points.push_back(readPoint(L, at, pointAt(L, at, f, points.size()), 3)); };
-  forEachIn(L, 1, f.name + ": the points", kPoints, read);
+// read(place on the stack, name) gives a point.
+template <class Read>
+auto pointsAt(lua_State* L, const FunctionInfo& f, const Read& read) {
+  std::vector<decltype(read(0, std::string()))> points;
+  forEachIn(L, 1, f.name + ": the points", "a list of points {{x, y, z}, …}",
+            [&](int at) { points.push_back(read(at, pointAt(L, at, f, points.size()))); });
   return points;
 }
 
+std::vector<glm::dvec3> fixedPoints(lua_State* L, const FunctionInfo& f) {
+  return pointsAt(L, f, [&](int at, const std::string& what) { return readPoint(L, at, what, 3); });
+}
+
 std::vector<Vec3E> movingPoints(lua_State* L, const FunctionInfo& f) {
-  std::vector<Vec3E> points;
-  const auto read = [&](int at) {
-    points.push_back(readVector(L, at, pointAt(L, at, f, points.size()), 3, Depends::OnParameters));
-  };
-  forEachIn(L, 1, f.name + ": the points", kPoints, read);
-  return points;
+  return pointsAt(L, f, [&](int at, const std::string& what) {
+    return readVector(L, at, what, 3, Depends::OnParameters);
+  });
 }
 
 Expr radiusAt(lua_State* L, int index, const FunctionInfo& f, const std::string& which = "the radius") {
