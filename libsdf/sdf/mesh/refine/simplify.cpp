@@ -90,6 +90,7 @@ class Simplifier {
         near_(mesh.positions.size(), 0),
         left_(mesh.positions.size(), 0),
         stale_(mesh.positions.size(), 0),
+        exceeding_(mesh_.halfEdges() / 3, 0),
         failed_(mesh_.halfEdges(), 0),
         unflipped_(mesh_.halfEdges(), 0) {}
 
@@ -468,12 +469,19 @@ class Simplifier {
       for (Index h = 0; h < end; ++h)
         if (mesh_.alive(h) && mesh_.isCrease(h) && h < mesh_.twin(h) && splitCreaseIfExceeding(h)) ++made;
       for (Index h = 0; h < end; h += 3)
-        if (mesh_.alive(h) && splitIfExceeding(h)) ++made;
+        if (mesh_.alive(h) && isChangedSince(exceeding_, h) && splitIfExceeding(h)) ++made;
       if (made == 0) break;
       flipAll(), moveAll();
       all += made;
     }
     return all;
+  }
+
+  // Has the triangle been changed, or been given samples, since it was last asked for here?
+  bool isChangedSince(std::vector<Index>& asked, Index h) {
+    const Index changed =
+        std::max({changed_[mesh_.from(h)], changed_[mesh_.from(h + 1)], changed_[mesh_.from(h + 2)]});
+    return std::exchange(asked[h / 3], pass_) < changed;
   }
 
   // Moves a vertex that is too far from the surface itself, at the cost of the triangles around.
@@ -566,6 +574,7 @@ class Simplifier {
     taken_.resize(mesh_.vertices(), 0), changed_.resize(mesh_.vertices(), pass_ + 1);
     settled_.resize(mesh_.vertices(), 0), near_.resize(mesh_.vertices(), 0);
     left_.resize(mesh_.vertices(), 0), stale_.resize(mesh_.vertices(), 1);
+    exceeding_.resize(mesh_.halfEdges() / 3, 0);
     failed_.resize(mesh_.halfEdges(), 0), unflipped_.resize(mesh_.halfEdges(), 0);
     ring_.assign(limit_);
     replaced(whole_);
@@ -595,6 +604,7 @@ class Simplifier {
   std::vector<Index> left_;       // by vertex: the last pass in which it would have left its block
   std::vector<char> stale_;       // by vertex: has it moved since its normal was read?
   std::vector<char> asItWas_;     // by vertex, of the first ones: is it of what is not split?
+  std::vector<Index> exceeding_;  // by triangle: the last pass in which its samples were looked at
   std::vector<Index> failed_;     // by half-edge: the last pass in which its collapse failed
   std::vector<Index> unflipped_;  // by half-edge: the last pass in which it was to be flipped
 };
